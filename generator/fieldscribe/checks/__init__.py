@@ -1,0 +1,38 @@
+"""What must hold of a device beyond its shape. One file per fact, named as the fact; each reports and goes on."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from fieldscribe.checks.subject import Subject
+
+
+def run_checks(subject: Subject) -> None:
+    """All checks, in this order; errata come last because the others use them."""
+    from fieldscribe.checks import (
+        addresses_do_not_overlap,
+        defaults_are_allowed,
+        enums_fit_their_range,
+        errata_are_used,
+        every_point_has_a_source,
+        frames_agree,
+        functions_agree,
+        names_do_not_clash,
+        printed_facts_agree,
+        references_exist,
+    )
+
+    checks: tuple[Callable[[Subject], None], ...] = (
+        every_point_has_a_source.check,
+        addresses_do_not_overlap.check,
+        enums_fit_their_range.check,
+        defaults_are_allowed.check,
+        references_exist.check,
+        printed_facts_agree.check,
+        functions_agree.check,
+        frames_agree.check,
+        names_do_not_clash.check,
+        errata_are_used.check,
+    )
+    for check in checks:
+        check(subject)

@@ -1,0 +1,19 @@
+"""Every erratum with printed values explains a disagreement that is really there."""
+
+from __future__ import annotations
+
+from fieldscribe.checks.subject import Subject
+from fieldscribe.language.load import Map
+
+
+def check(subject: Subject) -> None:
+    """Keys of errata that no printed fact contradicts."""
+    for erratum in subject.errata:
+        printed = erratum.raw["printed"]
+        if not isinstance(printed, Map):
+            continue
+        for key in printed:
+            if key not in erratum.used:
+                message = f"the erratum `{erratum.erratum.id}` explains `{key}`, but no printed `{key}` disagrees"
+                hint = f"give what is printed under `printed: {{{key}: …}}` of the point, or say it as a sentence"
+                subject.report.error("erratum-unused", message, printed.key_span(key), hint)

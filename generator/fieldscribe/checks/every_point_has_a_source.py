@@ -1,0 +1,22 @@
+"""Every point says where in the manual it stands: a section or page, and the line where the manual's text is at hand."""
+
+from __future__ import annotations
+
+from fieldscribe.checks.subject import Subject
+
+
+def check(subject: Subject) -> None:
+    """Points without a source."""
+    documents = subject.scope.documents
+    for resolved in subject.resolved:
+        source, draft = resolved.point.source, resolved.draft
+        document = documents.get(source.document)
+        if document is None:
+            message = f"`{draft.name}` cites the document `{source.document}`, which device.yaml does not name"
+            subject.report.error("unknown-document", message, draft.span("source"), f"known: {', '.join(documents)}")
+        elif source.section is None and source.page is None:
+            hint = "give `source: {document: …, section: …}` for the group, or `section` for the point"
+            subject.report.error("missing-source", f"`{draft.name}` cites no section and no page", draft.span(), hint)
+        elif document.file is not None and source.line is None:
+            hint = f"add `line: …`, its line in {document.file}"
+            subject.report.error("missing-source", f"`{draft.name}` cites no line of the manual's text", draft.span(), hint)

@@ -1,0 +1,98 @@
+"""What the checks look at: the resolved parts of one device, still with their places in the text."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import Any
+
+from fieldscribe.diagnostics import Report, Span
+from fieldscribe.language.load import Map, Seq
+from fieldscribe.language.numbers import NumberError, parse_number
+from fieldscribe.model import Bus, Command, Frame
+from fieldscribe.resolve.allowed import Ranges
+from fieldscribe.resolve.errata import OpenErratum
+from fieldscribe.resolve.frames import OpenFrame
+from fieldscribe.resolve.names import Index
+from fieldscribe.resolve.points import Resolved
+from fieldscribe.resolve.scope import Scope
+
+
+@dataclass(slots=True)
+class Subject:
+    """One device under check. `frames` are replaced as they are checked; `cited` maps whom errata are about to them."""
+
+    scope: Scope
+    index: Index
+    ranges: Ranges
+    resolved: list[Resolved]
+    bus: Bus
+    commands: tuple[Command, ...]
+    open_frames: list[OpenFrame]
+    errata: list[OpenErratum]
+    frames: list[Frame] = field(default_factory=list)
+    cited: dict[str, list[OpenErratum]] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        for erratum in self.errata:
+            for subject in erratum.subjects:
+                self.cited.setdefault(subject, []).append(erratum)
+
+    @property
+    def report(self) -> Report:
+        """Where findings go."""
+        return self.scope.report
+
+    def disagrees(
+        self, about: str, key: str, printed: Any, taken: Any, span: Span, message: str, right: Callable[[Any], bool] | None = None
+    ) -> None:
+        """A printed fact that disagrees with what was taken: an error, unless an erratum about it says both.
+
+        `taken` None means that the right value follows from nothing here and the erratum's word counts; `right` tells
+        whether what an erratum takes is what was taken, where comparing the two as texts would not do.
+        """
+        for erratum in self.cited.get(about, ()):
+            stated = erratum.printed(key)
+            if stated is None or not same(stated, printed):
+                continue
+            erratum.used.add(key)
+            said = erratum.raw["taken"].get(key) if isinstance(erratum.raw["taken"], Map) else None
+            if said is None or (taken is not None and not (right(said) if right else same(said, taken))):
+                wrong = f"the erratum takes {_shown(said)} for `{key}`, the facts say {_shown(taken)}"
+                self.report.error("erratum-differs", wrong, erratum.raw.span("taken"), f"write `taken: {{{key}: {_shown(taken)}}}`")
+            return
+        hint = f"correct the fact, or explain it: an erratum with `printed: {{{key}: {_shown(printed)}}}`"
+        self.report.error("printed-disagrees", message, span, hint)
+
+
+def same(left: Any, right: Any) -> bool:
+    """Whether two printed things are the same: as numbers in any notation, or as text without regard to blanks and case."""
+    if isinstance(left, Seq | list | tuple) or isinstance(right, Seq | list | tuple):
+        lefts, rights = _listed(left), _listed(right)
+        return len(lefts) == len(rights) and all(same(one, other) for one, other in zip(lefts, rights, strict=True))
+    numbers = [_number(left), _number(right)]
+    if None not in numbers:
+        return numbers[0] == numbers[1]
+    return "".join(str(left).split()).lower() == "".join(str(right).split()).lower()
+
+
+def _listed(value: Any) -> list[Any]:
+    if isinstance(value, Iterable) and not isinstance(value, str):
+        return list(value)
+    return [part for part in str(value).split(",") if part.strip()]
+
+
+def _number(value: Any) -> Fraction | None:
+    if isinstance(value, str):
+        try:
+            return parse_number(value)
+        except NumberError:
+            return None
+    return Fraction(value) if value is not None else None
+
+
+def _shown(value: Any) -> str:
+    if isinstance(value, Seq | list | tuple):
+        return "[" + ", ".join(map(str, value)) + "]"
+    return "…" if value is None else str(value)

@@ -1,0 +1,63 @@
+"""Findings about a description: data only; report.py words them for people and machines."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Literal, NamedTuple
+
+Severity = Literal["error", "warning"]
+
+
+class Span(NamedTuple):
+    """A place in a file: its path as the user named it, and line and column counted from 1; `width` characters are meant."""
+
+    file: str
+    line: int
+    column: int
+    width: int = 1
+
+
+@dataclass(frozen=True, slots=True)
+class Diagnostic:
+    """One finding: a stable rule id, what is wrong, where, what to do about it, and other places that matter."""
+
+    rule: str
+    message: str
+    span: Span
+    hint: str | None = None
+    related: tuple[tuple[Span, str], ...] = ()
+    severity: Severity = "error"
+
+
+class Report:
+    """All findings of a run. Stages add to it, drop what is broken and go on."""
+
+    __slots__ = ("_findings",)
+
+    def __init__(self) -> None:
+        self._findings: dict[Diagnostic, None] = {}
+
+    def error(
+        self, rule: str, message: str, span: Span, hint: str | None = None, related: Iterable[tuple[Span, str]] = ()
+    ) -> None:
+        """Add an error; the same finding counts once."""
+        self._findings.setdefault(Diagnostic(rule, message, span, hint, tuple(related)))
+
+    def warning(self, rule: str, message: str, span: Span, hint: str | None = None) -> None:
+        """Add a warning: worth a look, but it compiles."""
+        self._findings.setdefault(Diagnostic(rule, message, span, hint, (), "warning"))
+
+    def extend(self, other: Report) -> None:
+        """Add everything that another report found."""
+        self._findings.update(other._findings)
+
+    @property
+    def findings(self) -> tuple[Diagnostic, ...]:
+        """All findings by file and place, errors before warnings of the same place."""
+        return tuple(sorted(self._findings, key=lambda one: (one.span, one.severity, one.rule, one.message)))
+
+    @property
+    def has_errors(self) -> bool:
+        """Whether anything found forbids to compile."""
+        return any(one.severity == "error" for one in self._findings)

@@ -1,0 +1,96 @@
+"""Exact numbers: as text, and the linear rules of a point turned round."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from functools import lru_cache
+from math import gcd
+
+from fieldscribe.model import Factor, Linear, Point
+
+_SHORT = 6
+"""A factor with at most this many decimals is said as a decimal (`x 0.125`), else as a division (`/ 256`)."""
+
+
+@lru_cache(maxsize=65536)
+def exact(numerator: int, denominator: int = 1) -> str:
+    """The exact number as text: a decimal where it ends (`0.1`), else a fraction (`7/3`)."""
+    if denominator == 1:
+        return str(numerator)
+    common = gcd(numerator, denominator) * (1 if denominator > 0 else -1)
+    numerator, denominator = numerator // common, denominator // common
+    if denominator == 1:
+        return str(numerator)
+    places = _decimal_places(denominator)
+    if places is None:
+        return f"{numerator}/{denominator}"
+    digits = str(abs(numerator) * 10**places // denominator).rjust(places + 1, "0")
+    return f"{'-' if numerator < 0 else ''}{digits[:-places]}.{digits[-places:]}"
+
+
+def number_text(number: Fraction) -> str:
+    """An exact fraction as text, see `exact`."""
+    return exact(number.numerator, number.denominator)
+
+
+@lru_cache(maxsize=65536)
+def hex_text(number: int, digits: int = 4) -> str:
+    """A number as manuals print it: `1028h`."""
+    return f"{number:0{digits}X}h"
+
+
+@lru_cache(maxsize=4096)
+def times_text(start: str, numerator: int, denominator: int) -> str:
+    """`start` times a positive or negative fraction: `raw x 0.1`, `raw / 256`, `raw x 7 / 3`; just `start` for one."""
+    if numerator == denominator:
+        return start
+    if numerator == 1:
+        places = _decimal_places(denominator)
+        return f"{start} / {denominator}" if places is None or places > _SHORT else f"{start} x {exact(1, denominator)}"
+    decimal = exact(numerator, denominator)
+    if "/" in decimal or len(decimal.partition(".")[2]) > _SHORT:
+        return f"{start} x {numerator} / {denominator}"
+    return f"{start} x {decimal}"
+
+
+def plus_text(start: str, numerator: int, denominator: int) -> str:
+    """`start` plus a fraction: `raw + 2.5`, `raw - 7/3`; just `start` for zero."""
+    if numerator == 0:
+        return start
+    return f"{start} {'-' if numerator < 0 else '+'} {exact(abs(numerator), denominator)}"
+
+
+def inverse(rule: Linear) -> tuple[int, int, int]:
+    """Integers (multiply, add, divide > 0) with argument = (result * multiply + add) / divide, without the factors."""
+    top, bottom = rule.ratio.numerator, rule.ratio.denominator
+    offset, part = rule.offset.numerator, rule.offset.denominator
+    multiply, add, divide = part * bottom, -offset * bottom, part * top
+    return (multiply, add, divide) if divide > 0 else (-multiply, -add, -divide)
+
+
+def fixed_rule(point: Point) -> tuple[int, int, int] | None:
+    """Integers (multiply, add, divide) with value = (raw * multiply + add) / divide; None where other points decide."""
+    if point.scale is None:
+        return 1, 0, 1
+    first = point.scale[0]
+    if len(point.scale) > 1 or first.point is not None or first.rule.factors:
+        return None
+    return inverse(first.rule)
+
+
+def value_multiple(factor: Factor, point: Point) -> Fraction | None:
+    """The constant k with `raw * slope + intercept == k * value` of the factor's point; None where there is none."""
+    rule = fixed_rule(point)
+    if rule is None or point.info.floating:
+        return None
+    multiply, add, divide = rule
+    return Fraction(factor.slope * divide, multiply) if factor.intercept * multiply == factor.slope * add else None
+
+
+def _decimal_places(denominator: int) -> int | None:
+    """How many decimals a reduced fraction over `denominator` has; None when they never end."""
+    twos = (denominator & -denominator).bit_length() - 1
+    rest, fives = denominator >> twos, 0
+    while rest % 5 == 0:
+        rest, fives = rest // 5, fives + 1
+    return max(twos, fives) if rest == 1 else None

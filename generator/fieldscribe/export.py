@@ -1,0 +1,105 @@
+"""The exported model: one JSON object per device that tools outside rely on (`export.schema.json` describes it).
+
+It changes only with its `format` number. JSON numbers are integers; every other exact number is text.
+"""
+
+from __future__ import annotations
+
+from fieldscribe.export_points import export_point, source_of
+from fieldscribe.export_rules import PointsByName
+from fieldscribe.model import Bus, Code, Command, Device, Document, Erratum, Frame
+
+FORMAT = 1
+"""The number of this contract."""
+
+
+def export_model(device: Device) -> dict[str, object]:
+    """The device as plain dictionaries, lists, texts and integers, ready for `json.dumps`. Raises ExportError."""
+    by_name: PointsByName = {point.name: point for point in device.points}
+    return {
+        "format": FORMAT,
+        "device": device.id,
+        "version": device.version,
+        "family": device.family,
+        "documents": [_document(one) for one in device.documents],
+        "variants": {axis: list(values) for axis, values in device.variants.items()},
+        "limits": _limits(device.bus),
+        "points": [export_point(point, by_name) for point in device.points],
+        "commands": [_command(one) for one in device.commands],
+        "messages": [],
+        "telegrams": [],
+        "frames": [_frame(one) for one in device.frames],
+        "codes": _codes(device.bus),
+        "errata": [_erratum(one) for one in device.errata],
+    }
+
+
+def _document(document: Document) -> dict[str, object]:
+    return {
+        "id": document.id,
+        "title": document.title,
+        "language": document.language,
+        "file": document.file,
+        "sha256": document.sha256,
+    }
+
+
+def _limits(bus: Bus) -> dict[str, object]:
+    return {
+        "framings": list(bus.framings),
+        "units": list(bus.units),
+        "broadcast": bus.broadcast,
+        "most": {str(one.number): one.most for one in bus.functions if one.most is not None},
+        "gaps": {space: [list(gap) for gap in gaps] for space, gaps in bus.gaps.items()},
+        "pad_coil_bytes": bus.pad_coil_bytes,
+        "timing": dict(bus.timing),
+    }
+
+
+def _command(command: Command) -> dict[str, object]:
+    return {
+        "name": command.name,
+        "title": dict(command.title),
+        "space": command.space,
+        "address": command.address,
+        "function": command.function,
+        "value": command.value,
+        "wears": command.wears,
+        "busy": command.busy,
+        "source": source_of(command.source),
+    }
+
+
+def _frame(frame: Frame) -> dict[str, object]:
+    return {
+        "name": frame.name,
+        "bytes": frame.printed.hex(" ").upper(),
+        "direction": frame.direction,
+        "meaning": dict(frame.meaning),
+        "valid": frame.valid,
+    }
+
+
+def _codes(bus: Bus) -> dict[str, object]:
+    return {
+        "exceptions": {str(one.number): _code(one) for one in bus.exceptions},
+        "functions": {str(one.number): _code(one) for one in bus.functions},
+        "serial": {setting: dict(codes) for setting, codes in bus.serial.items()},
+    }
+
+
+def _code(code: Code) -> dict[str, object]:
+    return {"name": code.name, "title": dict(code.title)}
+
+
+def _erratum(erratum: Erratum) -> dict[str, object]:
+    return {
+        "id": erratum.id,
+        "point": erratum.points[0] if len(erratum.points) == 1 else list(erratum.points) or None,
+        "where": erratum.where,
+        "source": source_of(erratum.source),
+        "printed": erratum.printed,
+        "taken": erratum.taken,
+        "reason": erratum.why,
+        "certainty": erratum.certainty,
+    }

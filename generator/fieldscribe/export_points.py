@@ -1,0 +1,121 @@
+"""One point of the exported model."""
+
+from __future__ import annotations
+
+from fieldscribe.exact import fixed_rule, number_text
+from fieldscribe.export_rules import PointsByName, bound_of, scale_of
+from fieldscribe.model import Allowed, Entry, Enum, Flag, Place, Point, Source, Special
+
+_MOST_VALUES = 4096
+"""A longer list of single numbers is said as ranges alone."""
+
+
+def export_point(point: Point, by_name: PointsByName) -> dict[str, object]:
+    """All facts of a point, in the order of the contract; what the model does not hold yet is null or empty."""
+    return {
+        "name": point.name,
+        "code": point.code,
+        "group": point.group,
+        "space": point.space,
+        "telegram": None,
+        "direction": None,
+        "address": point.address,
+        "index": None,
+        "addresses": list(point.addresses),
+        "references": dict(point.references),
+        "places": [_place(one) for one in point.places],
+        "type": point.type,
+        "words": point.words,
+        "access": point.access,
+        "bits": None if point.bits is None else list(point.bits),
+        "variant": point.variant,
+        "when": point.when,
+        "since": point.since,
+        "until": point.until,
+        "record": point.record,
+        "set": point.set,
+        "repeat": None,
+        "format": None,
+        "unit": point.unit.symbol,
+        "default": _default(point),
+        "step": [{"from": start, "step": step} for start, step in point.steps] or None,
+        "special": dict(map(_special, point.specials)),
+        "fixed": {},
+        "changes": point.changes,
+        "together": None,
+        "scale": scale_of(point, by_name),
+        "raw": _raw(point),
+        "enum": None if point.enum is None else {str(one.raw): _entry(one) for one in point.enum.entries},
+        "open": _is_open(point.enum),
+        "flags": [_flag(one) for one in point.flags],
+        "digits": None,
+        "encoding": None,
+        "persistence": point.keeps,
+        "conditions": list(point.conditions),
+        "title": dict(point.title),
+        "source": source_of(point.source),
+        "errata": list(point.errata),
+        "generated": point.generated,
+    }
+
+
+def source_of(source: Source) -> dict[str, object]:
+    """Where in the manual a fact stands."""
+    return {"document": source.document, "section": source.section, "page": source.page, "line": source.line}
+
+
+def _default(point: Point) -> int | str | None:
+    """The default as raw number; of f32 and f64 the value; null where the raw number depends on other points."""
+    if point.default is None or point.info.floating:
+        return None if point.default is None else number_text(point.default)
+    rule = fixed_rule(point)
+    if rule is None:
+        return None
+    multiply, add, divide = rule
+    raw = (point.default * divide - add) / multiply
+    return int(raw) if raw.denominator == 1 else number_text(raw)
+
+
+def _place(place: Place) -> dict[str, object]:
+    address = min(place.addresses, default=None)
+    return {"for": place.purpose, "space": place.space, "address": address, "function": place.function}
+
+
+def _special(special: Special) -> tuple[str, str]:
+    number = str(special.low) if special.low == special.high else f"{special.low}..{special.high}"
+    if not special.no_value:
+        return number, special.name
+    return number, "no value" if special.name == "no_value" else f"no value: {special.name}"
+
+
+def _raw(point: Point) -> dict[str, object]:
+    allowed = point.allowed
+    if point.info.floating:
+        return {"ranges": [[number_text(low), number_text(high)] for low, high in allowed.units], "values": None}
+    ranges = [[bound_of(one.low, True, point), bound_of(one.high, False, point)] for one in allowed.intervals]
+    return {"ranges": ranges, "values": _values(allowed) if allowed.listed else None}
+
+
+def _values(allowed: Allowed) -> list[int] | None:
+    """The numbers that the author listed one by one."""
+    spans = [(one.low, one.high) for one in allowed.intervals]
+    fixed = [(low, high) for low, high in spans if isinstance(low, int) and isinstance(high, int)]
+    if len(fixed) < len(spans) or sum(high - low + 1 for low, high in fixed) > _MOST_VALUES:
+        return None
+    return [number for low, high in fixed for number in range(low, high + 1)]
+
+
+def _is_open(enum: Enum | None) -> bool:
+    return enum is not None and not enum.closed
+
+
+def _entry(entry: Entry) -> dict[str, object]:
+    return {"name": entry.name, "title": dict(entry.title), "quantity": entry.quantity}
+
+
+def _flag(flag: Flag) -> dict[str, object]:
+    """One flag. A single bit without words for its numbers names the one that makes it true."""
+    values = {str(one.raw): {"name": one.name, "title": dict(one.title)} for one in flag.values}
+    if not values and flag.width == 1:
+        values = {str(flag.active): {"name": flag.name, "title": dict(flag.title)}}
+    return {"bits": [flag.low + flag.width - 1, flag.low], "name": flag.name, "values": values}

@@ -1,0 +1,68 @@
+"""What Modbus functions do, and which of them a device allows."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from fieldscribe.model import Bus
+
+READ_BITS = frozenset({0x01, 0x02})
+READ_WORDS = frozenset({0x03, 0x04})
+READS = READ_BITS | READ_WORDS
+SINGLE = frozenset({0x05, 0x06, 0x08})
+"""Functions that carry exactly one value and are answered with their own echo."""
+FUNCTIONS = (0x01, 0x02, 0x03, 0x04, 0x05, 0x06, 0x08, 0x0F, 0x10)
+BROADCAST = frozenset({0x05, 0x06, 0x0F, 0x10})
+"""Functions that may be sent to all units at once."""
+PROTOCOL_MOST: Mapping[int, int] = {
+    0x01: 2000,
+    0x02: 2000,
+    0x03: 125,
+    0x04: 125,
+    0x05: 1,
+    0x06: 1,
+    0x08: 1,
+    0x0F: 1968,
+    0x10: 123,
+}
+"""The largest count of items in one request that the protocol itself allows."""
+
+
+@dataclass(frozen=True, slots=True)
+class Space:
+    """Functions that reach a space: read, write one item, write several; None where there is none."""
+
+    read: int
+    write_one: int | None
+    write_many: int | None
+
+
+SPACES: Mapping[str, Space] = {
+    "coil": Space(0x01, 0x05, 0x0F),
+    "discrete": Space(0x02, None, None),
+    "holding": Space(0x03, 0x06, 0x10),
+    "input": Space(0x04, None, None),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Profile:
+    """What a device takes: the largest count per allowed function, unit numbers, broadcast, padding of 0Fh."""
+
+    most: Mapping[int, int]
+    units: tuple[int, int]
+    broadcast: int | None
+    pad_coil_bytes_even: bool
+
+
+def profile_of(bus: Bus) -> Profile:
+    """The profile of a device's bus. Functions outside the nine are left out; no count means the protocol's."""
+    most = {
+        code.number: PROTOCOL_MOST[code.number] if code.most is None else min(code.most, PROTOCOL_MOST[code.number])
+        for code in bus.functions
+        if code.number in PROTOCOL_MOST
+    }
+    return Profile(most, bus.units, bus.broadcast, bus.pad_coil_bytes == "even")

@@ -1,0 +1,181 @@
+"""Conditions: comparisons of one name with constants, joined by and, or, not. No arithmetic."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from fractions import Fraction
+from functools import lru_cache
+from typing import TypeAlias
+
+from fieldscribe.language.formula.errors import FormulaError
+from fieldscribe.language.formula.parser import VARIABLES, Parser
+from fieldscribe.language.formula.syntax import Name
+from fieldscribe.language.formula.tokens import number
+
+_COMPARISONS = ("==", "!=", "<", "<=", ">", ">=")
+_NO_ARITHMETIC = "a condition compares a name with constants: P1 == 2, P1 in (1, 2), P1 >= 3 and not P2 == 0"
+_WORDS = ("and", "or", "not", "in")
+
+
+@dataclass(frozen=True, slots=True)
+class Constant:
+    """A number, or a word that names one (an entry of an enum)."""
+
+    value: Fraction | str
+    column: int = field(compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Comparison:
+    """A name against constants; `op` is one of == != < <= > >= (one constant) or `in` (one or more)."""
+
+    name: Name
+    op: str
+    constants: tuple[Constant, ...]
+    column: int = field(compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Not:
+    """True when the operand is not."""
+
+    operand: Condition
+
+
+@dataclass(frozen=True, slots=True)
+class AllOf:
+    """True when all parts are."""
+
+    parts: tuple[Condition, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class AnyOf:
+    """True when one of the parts is."""
+
+    parts: tuple[Condition, ...]
+
+
+Condition: TypeAlias = Comparison | Not | AllOf | AnyOf
+
+
+@lru_cache(maxsize=4096)
+def parse_condition(text: str) -> Condition:
+    """A condition; `not` binds tightest, then `and`, then `or`. Raises FormulaError."""
+    parser = Parser(text)
+    condition = _any(parser)
+    parser.finish(_NO_ARITHMETIC)
+    return condition
+
+
+@lru_cache(maxsize=4096)
+def parse_case(text: str) -> tuple[Name, int]:
+    """The case of a scale, `NAME == constant`, as name and raw number. Raises FormulaError."""
+    how = "a case is written NAME == constant, on the raw number"
+    parser = Parser(text)
+    if parser.token.part == "value":
+        raise FormulaError("a case compares the raw number", parser.token.column, how)
+    case = _comparison(parser)
+    parser.finish(how)
+    given = case.constants[0]
+    if case.op != "==":
+        raise FormulaError(f"a case knows ==, not {case.op}", case.column, how)
+    if isinstance(given.value, str) or given.value.denominator != 1:
+        raise FormulaError("a case compares with a whole number", given.column, how)
+    return Name(case.name.name, "raw", case.name.column), given.value.numerator
+
+
+def condition_names(condition: Condition) -> tuple[Name, ...]:
+    """AllOf names that a condition compares, in the order of the text, each time they occur."""
+    return tuple(_names(condition))
+
+
+def _names(condition: Condition) -> Iterator[Name]:
+    match condition:
+        case Comparison(name):
+            yield name
+        case Not(operand):
+            yield from _names(operand)
+        case AllOf(parts) | AnyOf(parts):
+            for part in parts:
+                yield from _names(part)
+
+
+def _any(parser: Parser) -> Condition:
+    parts = _joined(parser, "or", _all)
+    return parts[0] if len(parts) == 1 else AnyOf(parts)
+
+
+def _all(parser: Parser) -> Condition:
+    parts = _joined(parser, "and", _one)
+    return parts[0] if len(parts) == 1 else AllOf(parts)
+
+
+def _joined(parser: Parser, word: str, read: Callable[[Parser], Condition]) -> tuple[Condition, ...]:
+    parts = [read(parser)]
+    while parser.sees_word(word):
+        parser.take()
+        parts.append(read(parser))
+    return tuple(parts)
+
+
+def _one(parser: Parser) -> Condition:
+    if parser.sees_word("not"):
+        parser.nest()
+        parser.take()
+        return Not(_one(parser))
+    if parser.sees("("):
+        parser.nest()
+        parser.take()
+        inside = _any(parser)
+        if not parser.accept(")"):
+            parser.refuse("`)`", _NO_ARITHMETIC)
+        return inside
+    return _comparison(parser)
+
+
+def _comparison(parser: Parser) -> Comparison:
+    token = parser.token
+    if token.kind != "name" or token.text in _WORDS:
+        parser.refuse("a name", "the name stands on the left" if token.kind == "number" else _NO_ARITHMETIC)
+    name = parser.name()
+    if name.name in VARIABLES:
+        raise FormulaError(f"`{name.name}` is not known in a condition", name.column, "name a point")
+    op = parser.token
+    if parser.sees_word("in"):
+        parser.take()
+        return Comparison(name, "in", _set(parser), op.column)
+    if not parser.sees(*_COMPARISONS):
+        parser.refuse("a comparison", "equality is written ==" if parser.sees("=") else _NO_ARITHMETIC)
+    parser.take()
+    constant = _constant(parser)
+    if isinstance(constant.value, str) and op.text not in ("==", "!="):
+        raise FormulaError("a word has no order", constant.column, "compare it with == or !=")
+    return Comparison(name, op.text, (constant,), op.column)
+
+
+def _set(parser: Parser) -> tuple[Constant, ...]:
+    if not parser.accept("("):
+        parser.refuse("`(`", "write NAME in (1, 2, 3)")
+    constants = [_constant(parser)]
+    while parser.accept(","):
+        constants.append(_constant(parser))
+    if not parser.accept(")"):
+        parser.refuse("`,` or `)`", "write NAME in (1, 2, 3)")
+    return tuple(constants)
+
+
+def _constant(parser: Parser) -> Constant:
+    column = parser.token.column
+    negative = parser.sees("-")
+    if negative or parser.sees("+"):
+        parser.take()
+    elif parser.token.kind == "name" and parser.token.text not in _WORDS:
+        if parser.token.part:
+            parser.refuse("a constant", "a condition compares with constants, not with other points")
+        return Constant(parser.take().text, column)
+    if parser.token.kind != "number":
+        parser.refuse("a constant", _NO_ARITHMETIC)
+    given = number(parser.take())
+    return Constant(-given if negative else given, column)

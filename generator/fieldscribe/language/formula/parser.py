@@ -1,0 +1,176 @@
+"""Recursive descent over the tokens of an expression, with a bound on everything that nests."""
+
+from __future__ import annotations
+
+from typing import NoReturn
+
+from fieldscribe.language.formula.errors import FormulaError
+from fieldscribe.language.formula.syntax import Binary, Expression, Name, Negate, Number, Power10
+from fieldscribe.language.formula.tokens import Token, number, tokens
+from fieldscribe.language.numbers import MOST_EXPONENT
+
+MOST_OPERATIONS = 50
+"""The most signs and parentheses in one expression: bounds its depth too."""
+
+VARIABLES = ("value", "raw")
+"""Names that mean the two sides of a scale, and never a point."""
+
+
+class Parser:
+    """A position in the tokens of a text, and the rules that read expressions from there."""
+
+    def __init__(self, text: str, column0: int = 0) -> None:
+        self._tokens = tokens(text, column0)
+        self._at = 0
+        self._operations = 0
+
+    @property
+    def token(self) -> Token:
+        """The next token."""
+        return self._tokens[self._at]
+
+    def sees(self, *signs: str) -> bool:
+        """Whether the next token is one of these signs."""
+        return self.token.kind == "sign" and self.token.text in signs
+
+    def sees_word(self, word: str) -> bool:
+        """Whether the next token is this word, without a part."""
+        return self.token[:3] == ("name", word, "")
+
+    def take(self) -> Token:
+        """The next token; the position moves behind it, but never behind the end."""
+        token = self.token
+        if token.kind != "end":
+            self._at += 1
+        return token
+
+    def accept(self, sign: str) -> bool:
+        """Whether the next token is this sign; if so, it is taken."""
+        if self.sees(sign):
+            self._at += 1
+            return True
+        return False
+
+    def finish(self, hint: str = "") -> None:
+        """Refuse what is left."""
+        if self.token.kind != "end":
+            self.refuse("", hint or self._hint_for_rest())
+
+    def refuse(self, wanted: str, hint: str = "") -> NoReturn:
+        """Raise for the next token; `wanted` is what should stand there (empty: nothing)."""
+        message = f"{wanted} expected, found {self.token}" if wanted else f"unexpected {self.token}"
+        raise FormulaError(message, self.token.column, hint)
+
+    def nest(self) -> None:
+        """Count an operation or a parenthesis; called before anything recurs. Raises FormulaError beyond the bound."""
+        self._operations += 1
+        if self._operations > MOST_OPERATIONS:
+            column = self.token.column
+            raise FormulaError(f"an expression has at most {MOST_OPERATIONS} operations", column, "simplify it")
+
+    def fresh_expression(self) -> Expression:
+        """An expression with a bound of its own: one of several in a text."""
+        self._operations = 0
+        return self.expression()
+
+    def expression(self) -> Expression:
+        """Terms with + and - between them."""
+        left = self._term()
+        while self.sees("+", "-"):
+            self.nest()
+            sign = self.take()
+            right = self._term()
+            left = Binary("+" if sign.text == "+" else "-", left, right, sign.column)
+        return left
+
+    def _term(self) -> Expression:
+        left = self._signed()
+        while self.sees("*", "/"):
+            self.nest()
+            sign = self.take()
+            right = self._signed()
+            left = Binary("*" if sign.text == "*" else "/", left, right, sign.column)
+        return left
+
+    def _signed(self) -> Expression:
+        if self.sees("+", "-"):
+            self.nest()
+            sign = self.take()
+            operand = self._signed()
+            return Negate(operand, sign.column) if sign.text == "-" else operand
+        return self._power()
+
+    def _power(self) -> Expression:
+        base = self._atom()
+        if not self.sees("**"):
+            return base
+        self.nest()
+        sign = self.take()
+        if not (isinstance(base, Number) and base.value == 10):
+            raise FormulaError("only powers of ten are supported", sign.column, "write 10 ** n, or a product")
+        column = self.token.column
+        return _exponent(self._signed(), column)
+
+    def _atom(self) -> Expression:
+        token = self.token
+        if token.kind == "number":
+            return Number(number(self.take()), token.column)
+        if token.kind == "name":
+            return self.name()
+        if self.sees("("):
+            self.nest()
+            self.take()
+            inside = self.expression()
+            if not self.accept(")"):
+                self.refuse("`)`", self._hint_for_rest())
+            return inside
+        self.refuse("a number or a name", "an interval is written low..high" if self.sees("..") else "")
+
+    def name(self) -> Name:
+        """A name with its part."""
+        token = self.token
+        if token.kind != "name":
+            self.refuse("a name")
+        if token.part not in ("", "raw", "value"):
+            column = token.column + len(token.text)
+            raise FormulaError(
+                f"{token}: a point has `.raw` and `.value` only", column, "names hold letters, digits and _"
+            )
+        if token.part and token.text in VARIABLES:
+            raise FormulaError(f"{token}: `{token.text}` is a number and has no part", token.column, "leave it out")
+        self.take()
+        return Name(token.text, "raw" if token.part == "raw" else "value", token.column)
+
+    def _hint_for_rest(self) -> str:
+        """What may be meant when an expression is over and the text is not."""
+        previous = self._tokens[self._at - 1] if self._at else None
+        if self.sees(","):
+            return "a decimal number has a point, not a comma"
+        if self.sees("=", "=="):
+            return "a scale has one = and starts with raw or value"
+        if self.sees("<", "<=", ">", ">=", "!="):
+            return "comparisons stand in conditions"
+        if self.sees("(") and previous is not None and previous.kind == "name":
+            return "there are no functions; write * to multiply"
+        if self.token.kind in ("number", "name") or self.sees("("):
+            return "an operator is missing, or this is a unit (units have their own key)"
+        return ""
+
+
+def _exponent(operand: Expression, column: int) -> Power10:
+    """The power of ten with this exponent: a whole number or a name, with a sign. Raises FormulaError."""
+    negative = False
+    while isinstance(operand, Negate):
+        negative = not negative
+        operand = operand.operand
+    if isinstance(operand, Number):
+        if operand.value.denominator != 1:
+            raise FormulaError("the exponent is not a whole number", operand.column, "write 10 ** n with a whole n")
+        if abs(operand.value) > MOST_EXPONENT:
+            raise FormulaError(f"the exponent is beyond {MOST_EXPONENT}", operand.column, "check the exponent")
+        return Power10(operand, negative, column)
+    if isinstance(operand, Name):
+        return Power10(operand, negative, column)
+    raise FormulaError(
+        "an exponent is one whole number or one point", column, "write 10 ** a * 10 ** b for 10 ** (a + b)"
+    )

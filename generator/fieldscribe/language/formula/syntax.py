@@ -1,0 +1,98 @@
+"""The tree of a formula. Columns are offsets in its text, from 0, and take no part in equality."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import Literal, TypeAlias
+
+Part = Literal["value", "raw"]
+"""Which number of a point is meant."""
+
+
+@dataclass(frozen=True, slots=True)
+class Number:
+    """A constant."""
+
+    value: Fraction
+    column: int = field(compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Name:
+    """A point by code or name, or a variable of the rule (`raw`, `wire`, `base`); `part` is `value` if not said."""
+
+    name: str
+    part: Part
+    column: int = field(compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Negate:
+    """Minus an expression."""
+
+    operand: Expression
+    column: int = field(compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Binary:
+    """Two expressions and what is done with them; `column` is that of the sign between them."""
+
+    op: Literal["+", "-", "*", "/"]
+    left: Expression
+    right: Expression
+    column: int = field(compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Power10:
+    """Ten to the power of a whole number or of a point, either with a sign."""
+
+    exponent: Number | Name
+    negative: bool
+    column: int = field(compare=False)
+
+
+Expression: TypeAlias = Number | Name | Negate | Binary | Power10
+
+
+@dataclass(frozen=True, slots=True)
+class Scale:
+    """`side` = expression of the other side. `uses` are the points it needs at run time, in the order of the text."""
+
+    side: Part
+    expression: Expression
+    uses: tuple[Name, ...]
+
+    @property
+    def variable(self) -> Part:
+        """The side that the expression is made of."""
+        return "value" if self.side == "raw" else "raw"
+
+
+@dataclass(frozen=True, slots=True)
+class Range:
+    """Alternatives low..high in the order of the text; `listed` if the author wrote single numbers only."""
+
+    alternatives: tuple[tuple[Expression, Expression], ...]
+    listed: bool
+
+
+def names(expression: Expression) -> tuple[Name, ...]:
+    """All names of an expression in the order of the text, each time they occur."""
+    return tuple(_names(expression))
+
+
+def _names(expression: Expression) -> Iterator[Name]:
+    match expression:
+        case Name():
+            yield expression
+        case Negate(operand):
+            yield from _names(operand)
+        case Binary(_, left, right):
+            yield from _names(left)
+            yield from _names(right)
+        case Power10(Name() as exponent):
+            yield exponent

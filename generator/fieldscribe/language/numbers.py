@@ -1,0 +1,143 @@
+"""Numbers as manuals write them: decimal, hexadecimal with a marker, binary with `0b`; exact, as fractions.
+
+`4136`, `0.1`, `-5`, `1e3`, `0x1028`, `1028h`, `H'33F`, `0b0101`. A leading zero does not change the base. What a reader
+could take in two ways (`4E20`, `1,5`, `1FF`) is refused with a hint.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from fractions import Fraction
+from functools import lru_cache
+
+from fieldscribe.text import line
+
+LONGEST = 64
+"""The most characters that a number may have."""
+
+MOST_EXPONENT = 400
+"""The largest power of ten that may be written."""
+
+_QUOTED = 40  # characters of a wrong text that a message repeats
+_HEX = re.compile(r"([+-]?)(?:0[xX]([0-9A-Fa-f]+)|[Hh]'([0-9A-Fa-f]+)|([0-9A-Fa-f]+)[hH])")
+_BINARY = re.compile(r"([+-]?)0b([01]+)")
+_DECIMAL = re.compile(r"([+-]?[0-9]+)(?:\.([0-9]+))?(?:([eE])([+-]?[0-9]+))?")
+
+
+class NumberError(ValueError):
+    """A text that is no number. `message` says what is wrong, `hint` how to write it (may be empty)."""
+
+    def __init__(self, message: str, hint: str = "") -> None:
+        super().__init__(message)
+        self.message = message
+        self.hint = hint
+
+
+@lru_cache(maxsize=65536)
+def parse_number(text: str) -> Fraction:
+    """The exact number that a text means; blanks around it are ignored. Raises NumberError."""
+    text = text.strip(" \t")
+    if len(text) > LONGEST:
+        raise NumberError(f"a number has at most {LONGEST} characters", "write it with an exponent, as in 1e30")
+    if found := _DECIMAL.fullmatch(text):
+        return _decimal(text, found)
+    if found := _HEX.fullmatch(text):
+        magnitude = int(found[2] or found[3] or found[4], 16)
+        return Fraction(-magnitude if found[1] == "-" else magnitude)
+    if found := _BINARY.fullmatch(text):
+        magnitude = int(found[2], 2)
+        return Fraction(-magnitude if found[1] == "-" else magnitude)
+    raise _diagnosis(text)
+
+
+@lru_cache(maxsize=65536)
+def parse_integer(text: str) -> int:
+    """The whole number that a text means. A decimal point is refused, even before zeros. Raises NumberError."""
+    number = parse_number(text)
+    if number.denominator != 1 or "." in text:
+        raise NumberError(f"`{shown(text)}` is not a whole number", "write a whole number, without a decimal point")
+    return number.numerator
+
+
+def shown(text: str) -> str:
+    """A text from a description as messages quote it: clean, on one line, short."""
+    cleaned = line(text[:200])
+    return cleaned if len(cleaned) <= _QUOTED else f"{cleaned[: _QUOTED - 3]}..."
+
+
+def _decimal(text: str, found: re.Match[str]) -> Fraction:
+    """The number of a decimal match, with its fraction and exponent."""
+    whole, fraction, mark, exponent = found.groups()
+    if fraction is None and mark is None:
+        return Fraction(int(whole))
+    if mark == "E" and fraction is None and exponent[0] not in "+-":
+        sign = "-" if whole[0] == "-" else ""
+        raise NumberError(
+            f"`{text}` could be hexadecimal or a power of ten",
+            f"write {text}h or {sign}0x{text.lstrip('+-')} if hex is meant, {text.lower()} for the power of ten",
+        )
+    power = int(exponent or 0)
+    if abs(power) > MOST_EXPONENT:
+        raise NumberError(f"the exponent of `{text}` is beyond {MOST_EXPONENT}", "check the exponent")
+    digits = int(whole + (fraction or ""))
+    power -= len(fraction or "")
+    return Fraction(digits * 10**power) if power >= 0 else Fraction(digits, 10**-power)
+
+
+def _comma_hint(found: re.Match[str]) -> str:
+    return f"write the decimal point: {found[0].replace(',', '.')}; a list has a blank behind each comma"
+
+
+def _joined_hint(found: re.Match[str]) -> str:
+    return f"write the digits together: {re.sub('[^0-9+-]', '', found[0])}"
+
+
+def _hex_hint(found: re.Match[str]) -> str:
+    return f"write {found[0]}h or {found[1]}0x{found[2]} for hexadecimal; a unit is not part of a number"
+
+
+def _said(hint: str) -> Callable[[re.Match[str]], str]:
+    return lambda _: hint
+
+
+_REFUSED: tuple[tuple[re.Pattern[str], str, Callable[[re.Match[str]], str]], ...] = tuple(
+    (re.compile(pattern, re.DOTALL), message, hint)
+    for pattern, message, hint in (
+        (r"", "a number is missing", _said("write a number, for example 4136, 0.1, 1028h or 0b0101")),
+        (r"[\u2010-\u2015\u2212].*", "this minus sign is not the one of the keyboard", _said("write -")),
+        (r"[+-]?[0-9]{1,3}(?:,[0-9]{3}){2,}", "thousands are not separated", _joined_hint),
+        (r"[+-]?[0-9]+,[0-9]+", "a decimal comma, or a separator of thousands", _comma_hint),
+        (r"[+-]?[0-9]{1,3}(?:[_'\u2019\s][0-9]{3})+", "thousands are not separated", _joined_hint),
+        (r"[+-]?[0-9]{1,3}(?:\.[0-9]{3}){2,}", "thousands are not separated", _joined_hint),
+        (r"[+-]?0b[0-9]*", "a binary number has only the digits 0 and 1", _said("as in 0b0101; hexadecimal ends in h")),
+        (r"[+-]?0B[01]*", "binary is marked with a small b", _said("write 0b0101 for binary, 0B01h for hexadecimal")),
+        (
+            r"[+-]?(?:0[xX][0-9A-Za-z]*|[hH]'.*|[0-9][0-9A-Za-z]*[hH])",
+            "a hexadecimal number has only the digits 0 to 9 and A to F, and one marker",
+            _said("write 1028h, 0x1028 or H'1028"),
+        ),
+        (r"([+-]?)([0-9A-Fa-f]+)", "hexadecimal digits without a marker", _hex_hint),
+        (r"[+-]?\.[0-9]+", "a digit is missing before the decimal point", _said("write 0.5")),
+        (r"[+-]?[0-9]+\.", "a digit is missing behind the decimal point", _said("write 5 or 5.0")),
+        (r"[+-]\s+[0-9].*", "a blank stands between sign and number", _said("write the sign directly before it")),
+        (
+            r"[+-]?[0-9]+\s+[0-9A-Fa-f\s]+[hH]?",
+            "a blank stands inside the number",
+            _said("write it without blanks; a unit is not part of a number"),
+        ),
+        (
+            r"[+-]?[0-9]+(?:\.[0-9]+)?\s*(?:[^\W\d_][^\d]*|[%\u00b0\u2030\u00b5\u2126].*)",
+            "a unit is not part of a number",
+            _said("write the number alone; the unit has its own key"),
+        ),
+    )
+)
+
+
+def _diagnosis(text: str) -> NumberError:
+    """Why a text is no number: the first known mistake that fits."""
+    for pattern, message, hint in _REFUSED:
+        if found := pattern.fullmatch(text):
+            return NumberError(f"`{shown(text)}`: {message}" if text else message, line(hint(found)))
+    return NumberError(f"`{shown(text)}` is not a number", "write a number, for example 4136, 0.1, 1028h or 0b0101")

@@ -1,0 +1,136 @@
+"""Finding points by what a person has at hand: a code, a name, or an address in any notation and numbering."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from fieldscribe.exact import hex_text
+from fieldscribe.model import Device, Point
+from fieldscribe.text import line
+
+_HEX = re.compile(r"0x([0-9a-f]+)|([0-9][0-9a-f]*)h|h'([0-9a-f]+)'?", re.IGNORECASE)
+_DECIMAL = re.compile(r"[0-9]+")
+_LONGEST = 64
+_NEAR = 5
+
+
+@dataclass(frozen=True, slots=True)
+class Match:
+    """A point that was found: as what the question was read, and which word of the point it names (empty for all)."""
+
+    reading: str
+    point: Point
+    word: str
+
+
+def find(device: Device, what: str) -> list[Match]:
+    """Every point that `what` can mean, each reading labelled.
+
+    `what` is a code, a name, or a number (`0x1028`, `1028h`, `H'1028`, `4136`) read as wire address and in each
+    numbering of the device. A prefix forces one reading: `code:`, `name:`, `wire:`, or a numbering such as `modicon:`.
+    """
+    forced, asked = _split(device, what.strip())
+    found = [*_by_code(device, asked, forced), *_by_name(device, asked, forced)]
+    number = number_of(asked)
+    if number is not None and forced in (None, "wire"):
+        found += _by_wire(device, number)
+    for key in _numberings(device):
+        if forced in (None, key.lower()):
+            found += _by_reference(device, key, asked, number)
+    return found
+
+
+def near(device: Device, what: str) -> list[str]:
+    """Names and codes that resemble `what`; for a number, the points around that address. For when nothing matches."""
+    from difflib import get_close_matches
+
+    asked = _split(device, what.strip())[1][:_LONGEST].lower()
+    number = number_of(asked)
+    if number is not None:
+        return [point.item for point in _neighbours(device, number)]
+    known = {point.item: point.item for point in device.points}
+    known |= {point.code.lower(): point.code for point in device.points if point.code}
+    return [known[one] for one in get_close_matches(asked, list(known), _NEAR)]
+
+
+def number_of(text: str) -> int | None:
+    """A number in a notation of the manuals: `4136`, `0x1028`, `1028h`, `H'1028`; None for anything else."""
+    if len(text) > _LONGEST or not text.isascii():
+        return None
+    if found := _HEX.fullmatch(text):
+        return int(found[1] or found[2] or found[3], 16)
+    return int(text) if _DECIMAL.fullmatch(text) else None
+
+
+def _split(device: Device, what: str) -> tuple[str | None, str]:
+    """The forced reading, if any, and what is left."""
+    prefix, colon, rest = what.partition(":")
+    prefix = prefix.strip().lower()
+    known = {"wire", "code", "name", *(key.lower() for key in _numberings(device))}
+    return (prefix, rest.strip()) if colon and prefix in known else (None, what)
+
+
+def _numberings(device: Device) -> tuple[str, ...]:
+    return tuple(dict.fromkeys(key for point in device.points for key in point.references))
+
+
+def _by_code(device: Device, asked: str, forced: str | None) -> Iterator[Match]:
+    if forced not in (None, "code"):
+        return
+    points = [point for point in device.points if point.code and point.code.lower() == asked.lower()]
+    exactly = [point for point in points if point.code == asked]
+    for point in exactly or points:
+        yield Match(f"code {line(point.code or '')}", point, "")
+
+
+def _by_name(device: Device, asked: str, forced: str | None) -> Iterator[Match]:
+    if forced not in (None, "name"):
+        return
+    asked = asked.lower()
+    for point in device.points:
+        if asked in (point.name, point.item):
+            yield Match(f"name {asked}", point, "")
+        elif asked in point.was:
+            yield Match(f"old name {asked}", point, "")
+
+
+def _by_wire(device: Device, number: int) -> Iterator[Match]:
+    reading = f"wire address {hex_text(number)} ({number})"
+    for point in device.points:
+        for place in point.places:
+            if number in place.addresses:
+                purpose = "" if place is point.places[0] else f", to {place.purpose}"
+                yield Match(f"{reading}, {place.space}{purpose}", point, word_text(place.addresses, number))
+                break
+
+
+def _by_reference(device: Device, key: str, asked: str, number: int | None) -> Iterator[Match]:
+    """Points whose printed number, or that of one of their words (counted on from the lowest), is the one asked for."""
+    for point in device.points:
+        printed = point.references.get(key)
+        if isinstance(printed, int) and number is not None:
+            if printed <= number < printed + max(1, len(point.addresses)):
+                lowest = point.address or 0
+                yield Match(f"{line(key)} {number}", point, word_text(point.addresses, lowest + number - printed))
+        elif isinstance(printed, str) and printed.lower() == asked.lower():
+            yield Match(f"{line(key)} {line(printed)}", point, "")
+
+
+def word_text(addresses: tuple[int, ...], address: int) -> str:
+    """Which word of a point an address is: `low word (2 of 2)`; empty for a point of one word."""
+    count = len(addresses)
+    if count < 2 or address not in addresses:
+        return ""
+    place = addresses.index(address)
+    name = {0: "high word", count - 1: "low word"}.get(place, "word")
+    return f"{name} ({place + 1} of {count}, the high part first)"
+
+
+def _neighbours(device: Device, number: int) -> list[Point]:
+    """The next point below and the next above an address."""
+    placed = [(point.address, point) for point in device.points if point.address is not None]
+    below = max((one for one in placed if one[0] < number), key=lambda one: one[0], default=None)
+    above = min((one for one in placed if one[0] > number), key=lambda one: one[0], default=None)
+    return [one[1] for one in (below, above) if one is not None]

@@ -1,0 +1,431 @@
+"""The neutral model of a device: frozen, typed, every record and set expanded. It knows no target and no YAML."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+
+Titles = Mapping[str, str]
+"""Text for people by language code; `en` is always there."""
+
+
+@dataclass(frozen=True, slots=True)
+class TypeInfo:
+    """What a wire type is: its width in bits, whether it is signed, whether it is a floating-point pattern."""
+
+    bits: int
+    signed: bool
+    floating: bool
+
+
+TYPES: Mapping[str, TypeInfo] = {
+    "bit": TypeInfo(1, False, False),
+    **{f"u{bits}": TypeInfo(bits, False, False) for bits in (8, 16, 32, 64)},
+    **{f"s{bits}": TypeInfo(bits, True, False) for bits in (8, 16, 32, 64)},
+    "f32": TypeInfo(32, False, True),
+    "f64": TypeInfo(64, False, True),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Source:
+    """Where in the manual a fact stands."""
+
+    document: str
+    section: str | None
+    page: str | None
+    line: int | None
+
+
+@dataclass(frozen=True, slots=True)
+class Unit:
+    """A unit of measure; the empty symbol is the plain number."""
+
+    symbol: str
+    name: str
+    quantity: str
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """Where a point is: for what purpose, in which space, at which words (the high part first), by which function."""
+
+    purpose: str
+    space: str
+    addresses: tuple[int, ...]
+    function: int | None
+
+
+@dataclass(frozen=True, slots=True)
+class Factor:
+    """A run-time factor of a rule: (raw * slope + intercept) of a point to the power of 1 or -1, or ten to that number."""
+
+    point: str
+    slope: int
+    intercept: int
+    power: int
+    ten_to: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Linear:
+    """An exact linear rule: result = argument * ratio * product(factors) + offset."""
+
+    ratio: Fraction
+    offset: Fraction
+    factors: tuple[Factor, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class ScaleCase:
+    """raw = value by `rule`; holds always (`point` is None) or when the raw number of `point` equals `raw`."""
+
+    point: str | None
+    raw: int | None
+    rule: Linear
+
+
+@dataclass(frozen=True, slots=True)
+class Limit:
+    """A raw limit that other points set: the rule applied to 1, rounded half away from zero.
+
+    It does not apply while a point holds one of the raw numbers in `unless`; `least` and `greatest` bound it always.
+    """
+
+    rule: Linear
+    unless: tuple[tuple[str, tuple[int, ...]], ...]
+    least: int
+    greatest: int
+
+
+Bound = int | Limit
+
+
+@dataclass(frozen=True, slots=True)
+class Interval:
+    """A closed interval of raw numbers."""
+
+    low: Bound
+    high: Bound
+
+
+@dataclass(frozen=True, slots=True)
+class Allowed:
+    """Which raw numbers may be written: a union of intervals in ascending order; `listed` if the author wrote single numbers.
+
+    For f32 and f64 the numbers are values in the unit, and `units` holds them instead.
+    """
+
+    intervals: tuple[Interval, ...]
+    listed: bool
+    units: tuple[tuple[Fraction, Fraction], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """One named number of an enum."""
+
+    raw: int
+    name: str
+    title: Titles
+    quantity: str | None
+
+
+@dataclass(frozen=True, slots=True)
+class Enum:
+    """Names of numbers. `name` is unique in the device; a closed enum allows only its own numbers."""
+
+    name: str
+    title: Titles
+    entries: tuple[Entry, ...]
+    closed: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Special:
+    """Raw numbers low..high that are no quantity: a named state, or `no_value`."""
+
+    low: int
+    high: int
+    name: str
+    title: Titles
+    no_value: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Flag:
+    """A bit, or several, inside a word, named in the word's description. `low` is the lowest bit, bit 0 the lowest of all.
+
+    `active` is the value of a single bit that means the name is true (0 for inverted bits). `values` names the numbers.
+    """
+
+    low: int
+    width: int
+    name: str
+    title: Titles
+    active: int
+    values: tuple[Entry, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Point:
+    """One addressable datum.
+
+    `name` is unique but for variants: points of one name differ in `variant` ("axis=value"). `places` is empty when the
+    manual prints no address. `scale` is None where the raw number is the value. `decimals` k fixes the unit of the
+    integer path, 10^-k units. `specials` are never computed with. `steps` gives (from raw, step in raw). `generated` is
+    False for what is only documented; `reason` then says why.
+    """
+
+    name: str
+    variant: str | None
+    code: str | None
+    group: str
+    space: str
+    places: tuple[Place, ...]
+    references: Mapping[str, int | str]
+    type: str
+    bits: tuple[int, int] | None
+    access: str
+    title: Titles
+    note: Titles
+    unit: Unit
+    scale: tuple[ScaleCase, ...] | None
+    decimals: int
+    allowed: Allowed
+    default: Fraction | None
+    steps: tuple[tuple[int, int], ...]
+    enum: Enum | None
+    flags: tuple[Flag, ...]
+    specials: tuple[Special, ...]
+    record: str | None
+    set: int | None
+    changes: str | None
+    keeps: str | None
+    conditions: tuple[str, ...]
+    when: str | None
+    since: str | None
+    until: str | None
+    was: tuple[str, ...]
+    reserved: bool
+    source: Source
+    errata: tuple[str, ...]
+    generated: bool
+    reason: str | None
+
+    @property
+    def info(self) -> TypeInfo:
+        """What the point's wire type is."""
+        return TYPES[self.type]
+
+    @property
+    def words(self) -> int:
+        """How many 16-bit words (or single bits) the point takes; a bit group lies in one word."""
+        return 1 if self.bits else max(1, self.info.bits // 16)
+
+    @property
+    def width(self) -> int:
+        """How many bits the raw number has."""
+        return self.bits[0] - self.bits[1] + 1 if self.bits else self.info.bits
+
+    @property
+    def least(self) -> int:
+        """The smallest raw number that the bits can hold."""
+        return -(1 << (self.width - 1)) if self.info.signed else 0
+
+    @property
+    def greatest(self) -> int:
+        """The largest raw number that the bits can hold."""
+        return (1 << (self.width - self.info.signed)) - 1
+
+    @property
+    def addresses(self) -> tuple[int, ...]:
+        """The words where the point is read (or, if it cannot be read, written), the high part first; may be empty."""
+        return self.places[0].addresses if self.places else ()
+
+    @property
+    def address(self) -> int | None:
+        """The lowest address, which a request names; None when the manual prints none."""
+        return min(self.addresses) if self.addresses else None
+
+    @property
+    def readable(self) -> bool:
+        """Whether the device answers with the point."""
+        return "r" in self.access
+
+    @property
+    def writable(self) -> bool:
+        """Whether the device takes the point."""
+        return "w" in self.access
+
+    @property
+    def form(self) -> str:
+        """What a user sees: `bit`, `enum`, `flags`, `integer` (raw is the value), `scaled`, `float` (a bit pattern)."""
+        if self.info.floating:
+            return "float"
+        if self.enum is not None:
+            return "enum"
+        if self.flags:
+            return "flags"
+        if self.type == "bit":
+            return "bit"
+        return "integer" if self.scale is None else "scaled"
+
+    @property
+    def item(self) -> str:
+        """The name of generated items: the name, with the variant's value behind it."""
+        return self.name if self.variant is None else f"{self.name}_{self.variant.partition('=')[2].lower()}"
+
+    @property
+    def arguments(self) -> tuple[str, ...]:
+        """The points whose raw numbers encoding, decoding or checking needs, in a fixed order."""
+        return tuple(dict.fromkeys((*self.scale_arguments, *self.limit_arguments)))
+
+    @property
+    def scale_arguments(self) -> tuple[str, ...]:
+        """The points that the scale needs at run time."""
+        names: dict[str, None] = {}
+        for case in self.scale or ():
+            if case.point is not None:
+                names[case.point] = None
+            names.update(dict.fromkeys(factor.point for factor in case.rule.factors))
+        return tuple(names)
+
+    @property
+    def limit_arguments(self) -> tuple[str, ...]:
+        """The points that the limits need at run time."""
+        limits = [bound for one in self.allowed.intervals for bound in (one.low, one.high) if isinstance(bound, Limit)]
+        return tuple(dict.fromkeys(factor.point for limit in limits for factor in limit.rule.factors))
+
+
+@dataclass(frozen=True, slots=True)
+class Group:
+    """Points that the manual presents together."""
+
+    name: str
+    title: Titles
+    note: Titles
+    source: Source
+
+
+@dataclass(frozen=True, slots=True)
+class Erratum:
+    """A place where the manual is wrong, unclear or silent: what is printed, what was taken, why, and how sure that is."""
+
+    id: str
+    points: tuple[str, ...]
+    where: str
+    source: Source
+    printed: str
+    taken: str
+    why: str
+    certainty: str
+
+
+@dataclass(frozen=True, slots=True)
+class Frame:
+    """A worked example of the manual. `answers` names the request that a response answers; `valid` is False when it is misprinted.
+
+    `meaning` gives raw numbers by point name; `corrected` is the frame as it should read (the printed bytes when valid).
+    """
+
+    name: str
+    framing: str
+    direction: str
+    answers: str | None
+    printed: bytes
+    corrected: bytes
+    valid: bool
+    meaning: Mapping[str, int]
+    title: Titles
+    source: Source
+    errata: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Command:
+    """A named constant write. `value` is None where any value does; `wears` is how many writes the memory stands."""
+
+    name: str
+    title: Titles
+    note: Titles
+    space: str
+    address: int
+    function: int
+    value: int | None
+    wears: int | None
+    busy: str | None
+    source: Source
+
+
+@dataclass(frozen=True, slots=True)
+class Code:
+    """A number of the protocol with a name: a function or an exception. `most` is the largest count of items in one request."""
+
+    number: int
+    name: str
+    title: Titles
+    most: int | None
+
+
+@dataclass(frozen=True, slots=True)
+class Block:
+    """A read of consecutive addresses that respects limits and holes: `points` are the points that it brings."""
+
+    space: str
+    function: int
+    address: int
+    count: int
+    points: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Bus:
+    """What the family's frames need to know of this device."""
+
+    framings: tuple[str, ...]
+    units: tuple[int, int]
+    broadcast: int | None
+    functions: tuple[Code, ...]
+    exceptions: tuple[Code, ...]
+    gaps: Mapping[str, tuple[tuple[int, int], ...]]
+    pad_coil_bytes: str | None
+    timing: Mapping[str, str]
+    serial: Mapping[str, Mapping[str, str]]
+    note: Titles
+
+
+@dataclass(frozen=True, slots=True)
+class Document:
+    """A manual that facts were taken from."""
+
+    id: str
+    title: str
+    language: str
+    file: str | None
+    sha256: str | None
+
+
+@dataclass(frozen=True, slots=True)
+class Device:
+    """One product with one register map. `digest` covers what matters to code, and nothing else."""
+
+    id: str
+    version: str
+    vendor: str
+    model: str
+    title: Titles
+    note: Titles
+    family: str
+    documents: tuple[Document, ...]
+    variants: Mapping[str, tuple[str, ...]]
+    bus: Bus
+    groups: tuple[Group, ...]
+    points: tuple[Point, ...]
+    enums: tuple[Enum, ...]
+    blocks: Mapping[str, tuple[Block, ...]]
+    commands: tuple[Command, ...]
+    frames: tuple[Frame, ...]
+    errata: tuple[Erratum, ...]
+    digest: str

@@ -1,0 +1,35 @@
+"""The one Jinja environment. Templates place text; everything is decided before."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import lru_cache
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from fieldscribe.resources import templates_dir
+
+if TYPE_CHECKING:
+    from jinja2 import Environment
+
+Render = Callable[[str, Mapping[str, object]], str]
+"""Template name and context to text."""
+
+
+@lru_cache(maxsize=1)
+def _environment(folder: Path) -> Environment:
+    from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+    return Environment(
+        loader=FileSystemLoader(folder),
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+        autoescape=False,  # the targets' views hold finished text: every literal and comment passed text.py
+    )
+
+
+def render(template: str, context: Mapping[str, object]) -> str:
+    """The template of that name (relative to the templates folder), filled from `context`."""
+    return _environment(templates_dir()).get_template(template).render(context)

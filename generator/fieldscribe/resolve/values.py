@@ -1,0 +1,61 @@
+"""Numbers, keys and intervals out of YAML values, with findings instead of exceptions."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from decimal import Decimal
+from fractions import Fraction
+from typing import Any
+
+from fieldscribe.diagnostics import Report, Span
+from fieldscribe.language.formula import FormulaError, evaluate, parse_expression
+from fieldscribe.language.numbers import NumberError, parse_integer, parse_number
+
+
+def number(value: Any, span: Span, report: Report) -> Fraction | None:
+    """The exact number that a YAML scalar means, in any notation of a manual; None and a finding if it is none."""
+    if isinstance(value, int | Decimal):
+        return Fraction(value)
+    try:
+        return parse_number(str(value))
+    except NumberError as error:
+        report.error("bad-number", error.message, span, error.hint)
+        return None
+
+
+def integer(value: Any, span: Span, report: Report) -> int | None:
+    """The whole number that a YAML scalar means; None and a finding if it is none."""
+    if isinstance(value, int):
+        return value
+    try:
+        return parse_integer(str(value))
+    except NumberError as error:
+        report.error("bad-number", error.message, span, error.hint)
+        return None
+
+
+def interval(text: str, span: Span, report: Report) -> tuple[int, int] | None:
+    """`a..b` of whole numbers, or one number as both ends."""
+    low_text, dots, high_text = text.partition("..")
+    low = integer(low_text.strip(), span, report)
+    high = integer(high_text.strip(), span, report) if dots else low
+    if low is None or high is None:
+        return None
+    if low > high:
+        report.error("range-reversed", f"`{text}` runs downwards", span, f"write {high}..{low} if that is meant")
+        return None
+    return low, high
+
+
+def formula_value(text: str, names: Mapping[str, Fraction], span: Span, report: Report) -> Fraction | None:
+    """A formula of known numbers (`base + 6`, `wire + 1`)."""
+    try:
+        return evaluate(parse_expression(text), names)
+    except FormulaError as error:
+        formula_finding(error, span, report)
+        return None
+
+
+def formula_finding(error: FormulaError, span: Span, report: Report) -> None:
+    """A finding at the column of the formula's text that is wrong."""
+    report.error("bad-formula", error.message, span._replace(column=span.column + error.column), error.hint or None)

@@ -1,0 +1,117 @@
+"""Rules and limits in words: what `wording` says of scales and ranges."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from fractions import Fraction
+
+from fieldscribe.exact import exact, inverse, number_text, plus_text, times_text, value_multiple
+from fieldscribe.model import Bound, Factor, Interval, Limit, Linear, Point
+
+Points = Mapping[str, Point]
+"""Points by name, for wording that looks at the points a limit refers to."""
+
+Rule = tuple[int, int, int]
+"""(multiply, add, divide): what is shown is (raw * multiply + add) / divide."""
+
+RAW: Rule = (1, 0, 1)
+"""Shows the raw number itself."""
+
+
+def shown(raw: int, rule: Rule) -> str:
+    """The raw number as the rule shows it."""
+    return exact(raw * rule[0] + rule[1], rule[2])
+
+
+def inverse_text(rule: Linear) -> str:
+    """How the argument of a rule follows from its result, called `raw`: `raw x 0.1 - 0.25`."""
+    multiply, add, divide = inverse(rule)
+    ratio = Fraction(multiply, divide)
+    if not rule.factors:
+        common = Fraction(add, divide)
+        text = times_text("raw", ratio.numerator, ratio.denominator)
+        return plus_text(text, common.numerator, common.denominator)
+    moved = plus_text("raw", -rule.offset.numerator, rule.offset.denominator)
+    start = times_text(f"({moved})" if rule.offset else moved, ratio.numerator, ratio.denominator)
+    return _with_factors(start, [(_factor_text(one), -one.power) for one in rule.factors])
+
+
+def ranges_text(point: Point, rule: Rule, points: Points | None, unit: str) -> str:
+    """All intervals in one wording, the unit behind the last number; what lifts a limit is said at the end."""
+    intervals, listed = point.allowed.intervals, point.allowed.listed
+    falling = rule[0] < 0
+    parts, remarks, last = [], [], -1
+    for place, one in enumerate(intervals):
+        named = _special_name(point, one) if point.specials and rule is not RAW else ""
+        last = last if named else place
+        ends = [_bound_text(one.low, True, point, rule, points), _bound_text(one.high, False, point, rule, points)]
+        parts.append(named or _span_text(one, ends, falling, listed))
+        remarks += [_lifted_text(end, side, rule) for side, end in (("low", one.low), ("high", one.high))]
+    if unit and last >= 0:
+        parts[last] = f"{parts[last]} {unit}"
+    return (", " if listed else " or ").join(parts) + "".join(remarks)
+
+
+def _special_name(point: Point, interval: Interval) -> str:
+    """The name of a special code that is an interval of its own."""
+    fitting = (one.name for one in point.specials if one.low == interval.low and one.high == interval.high)
+    return next(fitting, "")
+
+
+def _span_text(interval: Interval, ends: list[str], falling: bool, listed: bool) -> str:
+    low, high = interval.low, interval.high
+    if low == high:
+        return ends[0]
+    if falling:
+        ends.reverse()
+    adjacent = listed and isinstance(low, int) and isinstance(high, int) and high - low == 1
+    return ", ".join(ends) if adjacent else "..".join(ends)
+
+
+def _bound_text(bound: Bound, is_low: bool, point: Point, rule: Rule, points: Points | None) -> str:
+    if isinstance(bound, int):
+        return shown(bound, rule)
+    words = _limit_text(bound, rule, points)
+    fixed = bound.least if is_low else bound.greatest
+    if fixed == (point.least if is_low else point.greatest):
+        return words
+    return f"{'max' if is_low == (rule[0] > 0) else 'min'}({shown(fixed, rule)}, {words})"
+
+
+def _lifted_text(bound: Bound, side: str, rule: Rule) -> str:
+    """While which numbers of other points a limit does not apply, and which one stands instead."""
+    if isinstance(bound, int) or not bound.unless:
+        return ""
+    cases = [f"{name}.raw is {' or '.join(map(str, numbers))}" for name, numbers in bound.unless]
+    fixed = bound.least if side == "low" else bound.greatest
+    return f"; while {' or '.join(cases)}: {'from' if side == 'low' else 'to'} {shown(fixed, rule)}"
+
+
+def _limit_text(limit: Limit, rule: Rule, points: Points | None) -> str:
+    multiply, add, divide = rule
+    ratio = limit.rule.ratio * multiply / divide
+    offset = (limit.rule.offset * multiply + add) / divide
+    factors = []
+    for factor in limit.rule.factors:
+        other = points.get(factor.point) if points and not factor.ten_to else None
+        constant = value_multiple(factor, other) if other else None
+        if constant is not None:
+            ratio *= constant**factor.power
+        factors.append((factor.point if constant is not None else _factor_text(factor), factor.power))
+    factors.sort(key=lambda one: -one[1])
+    if factors and factors[0][1] == 1:
+        start = times_text(factors.pop(0)[0], ratio.numerator, ratio.denominator)
+    else:
+        start = number_text(ratio)
+    return plus_text(_with_factors(start, factors), offset.numerator, offset.denominator)
+
+
+def _with_factors(start: str, factors: list[tuple[str, int]]) -> str:
+    return start + "".join(f" {'x' if power == 1 else '/'} {name}" for name, power in factors)
+
+
+def _factor_text(factor: Factor) -> str:
+    text = f"{factor.point}.raw"
+    if factor.slope != 1 or factor.intercept:
+        text = f"({plus_text(times_text(text, factor.slope, 1), factor.intercept, 1)})"
+    return f"10^{text}" if factor.ten_to else text

@@ -1,0 +1,28 @@
+"""The languages that a device is compiled to. A target is one module here, one folder of templates and one line below."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from importlib import import_module
+from typing import Protocol, cast
+
+from fieldscribe.model import Device
+from fieldscribe.render import Render
+
+TARGETS = ("c", "python", "rust", "docs", "vectors")
+"""All targets by name, in the order in which they are written."""
+
+
+class Target(Protocol):
+    """What a target's module offers."""
+
+    def outputs(self, device: Device, render: Render) -> Iterable[tuple[str, str]]:
+        """The files of a device: path relative to the output folder, and text."""
+
+    def runtime(self, device: Device) -> Iterable[tuple[str, str]]:
+        """Real source that goes beside them: path relative to the output folder, and path below the templates folder."""
+
+
+def target(name: str) -> Target:
+    """The target of that name; its module is imported when first asked for."""
+    return cast("Target", import_module(f"fieldscribe.targets.{name}"))

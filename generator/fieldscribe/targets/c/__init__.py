@@ -1,0 +1,29 @@
+"""The C target: a header that stands alone for the points, one for the frames, and a conformance program."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from fieldscribe.model import Device
+from fieldscribe.render import Render
+from fieldscribe.targets.c.conformance import conformance_view
+from fieldscribe.targets.c.device import device_view
+from fieldscribe.targets.c.modbus import modbus_view
+
+
+def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
+    """The generated files: path relative to the output folder, and text."""
+    view, scope = device_view(device)
+    yield f"c/{device.id}.h", render("c/device.h.j2", {"device": view})
+    if device.family == "modbus":
+        bus = modbus_view(device, view, scope)
+        yield f"c/{device.id}_modbus.h", render("c/modbus.h.j2", {"device": view, "bus": bus})
+    suite = conformance_view(device, view, scope)
+    yield f"c/conformance/{device.id}_conformance.c", render("c/conformance.c.j2", {"device": view, "suite": suite})
+
+
+def runtime(device: Device) -> Iterator[tuple[str, str]]:
+    """The real source files beside the output: output path, and path under the templates."""
+    if device.family == "modbus":
+        yield "c/fieldscribe_modbus.h", "c/runtime/fieldscribe_modbus.h"
+    yield "c/fieldscribe_conformance.h", "c/runtime/fieldscribe_conformance.h"

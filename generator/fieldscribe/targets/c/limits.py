@@ -1,0 +1,108 @@
+"""Which raw numbers may be written, as C tests."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from fieldscribe.model import Bound, Interval, Limit, Point
+from fieldscribe.targets.c.literals import INT32, raw_bounds, signed, unsigned
+from fieldscribe.targets.c.rules import limit_is_wide, limit_view
+from fieldscribe.targets.c.scope import Scope
+from fieldscribe.targets.c.views import CheckView, LimitView
+
+_WIDTH = 100
+"""How long a line of a test may grow."""
+
+
+def outer_limits(point: Point) -> tuple[int, int]:
+    """The least and the greatest raw number that can ever be allowed."""
+    intervals = point.allowed.intervals
+    if not intervals:
+        return point.least, point.greatest
+    if len(intervals) == 1:
+        low, high = intervals[0].low, intervals[0].high
+        return low if isinstance(low, int) else low.least, high if isinstance(high, int) else high.greatest
+    lows = [one.low if isinstance(one.low, int) else one.low.least for one in intervals]
+    highs = [one.high if isinstance(one.high, int) else one.high.greatest for one in intervals]
+    return min(lows), max(highs)
+
+
+def refused_status(point: Point) -> str:
+    """What a number outside is called: a closed enum without another range has unknown values, all else a range."""
+    enum = point.enum
+    if enum is None or not enum.closed:
+        return "OUT_OF_RANGE"
+    named = sorted({entry.raw for entry in enum.entries})
+    allowed: list[int] = []
+    for one in point.allowed.intervals:
+        if isinstance(one.low, Limit) or isinstance(one.high, Limit) or one.high - one.low >= len(named):
+            return "OUT_OF_RANGE"
+        allowed += range(one.low, one.high + 1)
+    return "UNKNOWN_VALUE" if allowed == named or not allowed else "OUT_OF_RANGE"
+
+
+def check_view(point: Point, scope: Scope) -> CheckView:
+    """The check of a point whose raw number is an integer."""
+    refused = f"{scope.upper}_{refused_status(point)}"
+    bounds = raw_bounds(point)
+    if point.limit_arguments or any(not _is_fixed(one) for one in point.allowed.intervals):
+        return _moving(point, scope, refused)
+    literal = signed if point.info.signed else unsigned
+    tests = [_test("raw", one.low, one.high, bounds, literal) for one in point.allowed.intervals]
+    return CheckView((), "", _union(tests), refused)
+
+
+def _moving(point: Point, scope: Scope, refused: str) -> CheckView:
+    """A check with limits that other points set: each becomes a variable."""
+    intervals = point.allowed.intervals
+    moving = [bound for one in intervals for bound in (one.low, one.high) if isinstance(bound, Limit)]
+    wide = raw_bounds(point)[1] > INT32[1] or any(limit_is_wide(bound, scope) for bound in moving)
+    several = sum(not _is_fixed(one) for one in intervals) > 1
+    limits: list[LimitView] = []
+    tests = []
+    for index, one in enumerate(intervals, 1):
+        ends: list[int | str] = []
+        for bound, side in ((one.low, "low"), (one.high, "high")):
+            if isinstance(bound, Limit):
+                name = f"{side}_{index}" if several else side
+                limits.append(limit_view(bound, name, side == "low", scope))
+                ends.append(name)
+            else:
+                ends.append(bound)
+        tests.append(_test("number", ends[0], ends[1], raw_bounds(point), signed))
+    return CheckView(tuple(limits), "int64_t" if wide else "int32_t", _union(tests), refused)
+
+
+def _is_fixed(interval: Interval) -> bool:
+    return isinstance(interval.low, int) and isinstance(interval.high, int)
+
+
+def _test(
+    name: str, low: Bound | str, high: Bound | str, bounds: tuple[int, int], literal: Callable[[int], str]
+) -> str:
+    """One interval as a test; empty when the type holds nothing else. Comparisons that are always true are left out."""
+    if low == high and isinstance(low, int):
+        return f"{name} == {literal(low)}"
+    parts = []
+    if not isinstance(low, int) or low > bounds[0]:
+        parts.append(f"{name} >= {literal(low) if isinstance(low, int) else low}")
+    if not isinstance(high, int) or high < bounds[1]:
+        parts.append(f"{name} <= {literal(high) if isinstance(high, int) else high}")
+    return " && ".join(parts)
+
+
+def _union(tests: list[str]) -> str:
+    """The tests joined by `or`, in lines of a bearable length; empty when nothing is refused."""
+    if len(tests) < 2:
+        return tests[0] if tests else ""
+    if not all(tests):
+        return ""
+    lines, current = [], ""
+    for test in tests:
+        part = f"({test})" if " && " in test else test
+        if current and len(current) + len(part) > _WIDTH:
+            lines.append(current)
+            current = part
+        else:
+            current = f"{current} || {part}" if current else part
+    return " ||\n           ".join([*lines, current])

@@ -1,0 +1,76 @@
+"""C literals and types: how a number is written so that its type is right on every machine, also with a 16-bit int."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+from functools import lru_cache
+
+from fieldscribe.model import Point
+
+INT32 = (-(1 << 31), (1 << 31) - 1)
+INT64 = (-(1 << 63), (1 << 63) - 1)
+UINT64 = (0, (1 << 64) - 1)
+VALUE_BOUNDS = {"int32_t": INT32, "int64_t": INT64, "uint64_t": UINT64}
+"""What the types that values and counts are passed in can hold."""
+
+EXACT_FLOAT = 1 << 24
+"""Every integer up to here is a binary32 number."""
+
+_RAW_TYPES = {
+    "bit": "bool",
+    **{f"u{bits}": f"uint{bits}_t" for bits in (8, 16, 32, 64)},
+    **{f"s{bits}": f"int{bits}_t" for bits in (8, 16, 32, 64)},
+    "f32": "uint32_t",
+    "f64": "uint64_t",
+}
+
+
+def raw_type(point: Point) -> str:
+    """The C type of a point's raw number; bit patterns of floating-point numbers are unsigned."""
+    return _RAW_TYPES[point.type]
+
+
+def raw_bounds(point: Point) -> tuple[int, int]:
+    """The least and the greatest number of that C type (wider than the point's own for a bit group)."""
+    info = point.info
+    return (-(1 << (info.bits - 1)), (1 << (info.bits - 1)) - 1) if info.signed else (0, (1 << info.bits) - 1)
+
+
+@lru_cache(maxsize=65536)
+def signed(number: int) -> str:
+    """A number as a signed constant where one can hold it, ready for any expression or `#define`."""
+    if number > INT64[1]:
+        return f"UINT64_C({number})"
+    if number >= 0:
+        return str(number)
+    return f"({number})" if number > INT64[0] else f"({number + 1} - 1)"
+
+
+@lru_cache(maxsize=65536)
+def unsigned(number: int) -> str:
+    """A number from 0 on as an unsigned constant."""
+    return f"{number}U" if number < 1 << 32 else f"UINT64_C({number})"
+
+
+@lru_cache(maxsize=65536)
+def hexadecimal(number: int, digits: int = 4) -> str:
+    """An address or mask as an unsigned constant: `0x1028U`."""
+    return f"0x{number:0{digits}X}U" if number < 1 << 32 else f"UINT64_C(0x{number:0{digits}X})"
+
+
+def real_at_least(limit: Fraction) -> float:
+    """The smallest binary64 number that is not below `limit`."""
+    nearest = limit.numerator / limit.denominator
+    return nearest if Fraction(nearest) >= limit else math.nextafter(nearest, math.inf)
+
+
+def real_at_most(limit: Fraction) -> float:
+    """The largest binary64 number that is not above `limit`."""
+    nearest = limit.numerator / limit.denominator
+    return nearest if Fraction(nearest) <= limit else math.nextafter(nearest, -math.inf)
+
+
+def real(number: float) -> str:
+    """A binary64 number as a constant that converts back to the same bits."""
+    return repr(number)

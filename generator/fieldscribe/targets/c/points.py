@@ -1,0 +1,222 @@
+"""The view of one point."""
+
+from __future__ import annotations
+
+import textwrap
+from fractions import Fraction
+
+from fieldscribe.model import Enum, Flag, Point, Special
+from fieldscribe.names import upper
+from fieldscribe.targets.c.limits import check_view, outer_limits
+from fieldscribe.targets.c.literals import (
+    VALUE_BOUNDS,
+    hexadecimal,
+    raw_type,
+    real,
+    real_at_least,
+    real_at_most,
+    signed,
+    unsigned,
+)
+from fieldscribe.targets.c.places import bits_view, words_view
+from fieldscribe.targets.c.rules import ruled_view
+from fieldscribe.targets.c.scales import scaled_view
+from fieldscribe.targets.c.scope import Scope
+from fieldscribe.targets.c.views import CheckView, Codec, Define, EnumView, FlagView, FloatView, PlainView, PointView
+from fieldscribe.text import c_comment, c_string
+from fieldscribe.wording import access_text, exact, range_text, raw_range_text, resolution_text, with_unit
+
+_COMMENT_WIDTH = 114
+
+
+def point_view(point: Point, scope: Scope) -> PointView:
+    """The view of a generated point."""
+    macro = f"{scope.upper}_{upper(point.item)}"
+    low, high = (0, 0) if point.info.floating else outer_limits(point)
+    shape, codec = _codec(point, scope, low, high)
+    check = check_view(point, scope) if point.writable and shape != "float" else None
+    kind = raw_type(point)
+    return PointView(
+        function=f"{scope.prefix}_{point.item}",
+        macro=macro,
+        item=point.item,
+        comment=comment_lines(point, scope),
+        defines=tuple(_defines(point, macro, scope, low, high)),
+        enum=_enum_view(point.enum, point, scope) if point.enum is not None else None,
+        shape=shape,
+        codec=codec,
+        raw_type=kind,
+        from_whole="whole != 0" if kind == "bool" else f"({kind})whole",
+        from_value="value != 0" if kind == "bool" else "value" if kind == value_type(point) else f"({kind})value",
+        readable=point.readable,
+        writable=point.writable,
+        check=check,
+        recheck=check is not None and (len(point.allowed.intervals) > 1 or bool(check.limits)),
+        no_value=_no_value(point),
+        declare_all=scope.declare(point.arguments),
+        declare_scale=scope.declare(point.scale_arguments),
+        declare_limits=scope.declare(point.limit_arguments),
+        pass_limits=scope.place(point.limit_arguments),
+        words=words_view(point, scope),
+        bits=bits_view(point, scope),
+        flags=tuple(_flag_view(flag, point, scope) for flag in point.flags if flag.width > 1) if point.flags else (),
+    )
+
+
+def value_type(point: Point) -> str:
+    """The C type in which the value of an integer point is passed: wide enough to be out of range."""
+    if point.info.bits <= 16:
+        return "int32_t"
+    return "uint64_t" if point.type == "u64" else "int64_t"
+
+
+def comment_lines(point: Point, scope: Scope) -> tuple[str, ...]:
+    """The comment above a point: code, title, range, access, default, and what is wrong in the manual."""
+    head = f"{point.code}: {point.title['en']}" if point.code else point.title["en"]
+    facts = [_range(point), access_text(point.access)]
+    if point.default is not None:
+        default = exact(point.default.numerator, point.default.denominator)
+        facts.append(f"default {with_unit(default, point)}")
+    lines = [*_wrapped(head), *_wrapped("; ".join(fact for fact in facts if fact) + ".")]
+    for flag in point.flags:
+        if flag.width == 1 and flag.active == 0:
+            lines += _wrapped(f"Bit {flag.low} ({flag.name}) is true when it is 0.")
+    for erratum in point.errata:
+        lines += _wrapped(scope.errata.get(erratum, f"Erratum {erratum}."))
+    return tuple(lines)
+
+
+def enum_prefix(point: Point, scope: Scope) -> str:
+    """What the enumerators of the point's enum begin with."""
+    assert point.enum is not None
+    return f"{scope.upper}_{upper(point.enum.name)}"
+
+
+def special_defines(special: Special, macro: str) -> tuple[Define, Define]:
+    """The macros of the first and the last raw number of a special; the same one twice for a single number."""
+    name = f"{macro}_{upper(special.name)}"
+    if special.low == special.high:
+        return (name, signed(special.low)), (name, signed(special.low))
+    return (f"{name}_FIRST", signed(special.low)), (f"{name}_LAST", signed(special.high))
+
+
+def _range(point: Point) -> str:
+    units, raws, step = range_text(point), raw_range_text(point), resolution_text(point)
+    text = f"{units}, raw {raws}" if units and raws and units != raws else units or f"raw {raws}"
+    return f"{text}, in steps of {step}" if step and point.form == "scaled" else text
+
+
+def _wrapped(text: str) -> list[str]:
+    cleaned = c_comment(text)
+    return [cleaned] if len(cleaned) <= _COMMENT_WIDTH else textwrap.wrap(cleaned, _COMMENT_WIDTH, break_long_words=False)
+
+
+def _codec(point: Point, scope: Scope, low: int, high: int) -> tuple[str, Codec]:
+    form = point.form
+    if form == "scaled":
+        if point.scale_arguments:
+            return "ruled", ruled_view(point, scope, low, high)
+        return "scaled", scaled_view(point, scope, low, high)
+    if form == "float":
+        return "float", _float_view(point, scope)
+    kind = value_type(point)
+    least, greatest = VALUE_BOUNDS[kind]
+    tests = [f"value < {signed(low)}"] if low > least else []
+    if high < greatest:
+        tests.append(f"value > {unsigned(high) if kind == 'uint64_t' else signed(high)}")
+    return "plain", PlainView(kind, " || ".join(tests))
+
+
+def _float_view(point: Point, scope: Scope) -> FloatView:
+    bits = point.info.bits
+    scope.used.add(f"f{bits}")
+    units = point.allowed.units
+    exact_narrow = bits == 32 and all(_is_binary32(limit) for pair in units for limit in pair)
+    kind = scope.helper("real") if exact_narrow else "double"
+    tests = []
+    for low, high in units:
+        ends = real(real_at_least(low)), real(real_at_most(high))
+        tests.append(f"value < ({kind}){ends[0]} || value > ({kind}){ends[1]}")
+    outside = tests[0] if len(tests) == 1 else " && ".join(f"({test})" for test in tests)
+    return FloatView(kind, bits, outside)
+
+
+def _is_binary32(limit: Fraction) -> bool:
+    top, bottom = abs(limit.numerator), limit.denominator
+    return top < 1 << 24 and bottom & (bottom - 1) == 0 and bottom < 1 << 100
+
+
+def _defines(point: Point, macro: str, scope: Scope, low: int, high: int) -> list[Define]:
+    defines: list[Define] = [(f"{macro}_SPACE", f"{scope.upper}_SPACE_{upper(point.space)}")]
+    address = point.address
+    if address is not None:
+        defines.append((f"{macro}_ADDRESS", hexadecimal(address)))
+        defines += [
+            (f"{macro}_{upper(place.purpose)}_ADDRESS", hexadecimal(min(place.addresses)))
+            for place in point.places[1:]
+            if place.addresses
+        ]
+    if point.code is not None:
+        defines.append((f"{macro}_CODE", c_string(point.code)))
+    for key, number in point.references.items():
+        literal = c_string(number) if isinstance(number, str) else unsigned(number)
+        defines.append((f"{macro}_{upper(key)}", literal))
+    defines.append((f"{macro}_WORDS", f"{point.words}U"))
+    if not point.info.floating:
+        defines += [(f"{macro}_RAW_MIN", signed(low)), (f"{macro}_RAW_MAX", signed(high))]
+    if point.scale is not None and point.form == "scaled":
+        defines.append((f"{macro}_DECIMALS", f"{point.decimals}"))
+    if point.bits is not None:
+        mask = ((1 << point.width) - 1) << point.bits[1]
+        defines += [(f"{macro}_SHIFT", f"{point.bits[1]}U"), (f"{macro}_MASK", hexadecimal(mask))]
+    for special in point.specials:
+        defines += dict.fromkeys(special_defines(special, macro))
+    for flag in point.flags:
+        defines += _flag_defines(flag, f"{macro}_{upper(flag.name)}", point.info.bits // 4)
+    return defines
+
+
+def _flag_defines(flag: Flag, name: str, digits: int) -> list[Define]:
+    defines = [(f"{name}_MASK", hexadecimal(((1 << flag.width) - 1) << flag.low, digits))]
+    if flag.width > 1:
+        defines.append((f"{name}_SHIFT", f"{flag.low}U"))
+        defines += [(f"{name}_{upper(entry.name)}", f"{entry.raw}U") for entry in flag.values]
+    return defines
+
+
+def _enum_view(enum: Enum, point: Point, scope: Scope) -> EnumView | None:
+    """The enumerators, at the first point that has them."""
+    if enum.name in scope.enums:
+        return None
+    scope.enums.add(enum.name)
+    prefix = enum_prefix(point, scope)
+    entries, cases = [], {}
+    for entry in enum.entries:
+        name = f"{prefix}_{upper(entry.name)}"
+        title = c_comment(entry.title["en"])
+        entries.append((name, signed(entry.raw), f"{title}, {c_comment(entry.quantity)}" if entry.quantity else title))
+        cases.setdefault(entry.raw, (name, c_string(entry.name)))
+    fits = all(-(1 << 15) <= entry.raw < 1 << 15 for entry in enum.entries)
+    function = f"{scope.prefix}_{enum.name}_name"
+    return EnumView(c_comment(enum.title["en"]), tuple(entries), tuple(cases.values()), fits, function, value_type(point))
+
+
+def _flag_view(flag: Flag, point: Point, scope: Scope) -> FlagView:
+    kind = raw_type(point).replace("int", "uint").replace("uuint", "uint")
+    mask = hexadecimal((1 << flag.width) - 1, 1)
+    number = f"(raw >> {flag.low}) & {mask}" if flag.low else f"raw & {mask}"
+    return FlagView(f"{scope.prefix}_{point.item}_{flag.name}", kind, f"({kind})({number})")
+
+
+def _no_value(point: Point) -> str:
+    literal = signed if point.info.signed else unsigned
+    tests = []
+    for special in point.specials:
+        if special.no_value and special.low == special.high:
+            tests.append(f"raw == {literal(special.low)}")
+        elif special.no_value:
+            tests.append(f"(raw >= {literal(special.low)} && raw <= {literal(special.high)})")
+    return " || ".join(tests)
+
+
+__all__ = ["CheckView", "comment_lines", "enum_prefix", "point_view", "special_defines", "value_type"]

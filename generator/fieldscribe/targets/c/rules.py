@@ -1,0 +1,134 @@
+"""Scales and limits whose factors are read at run time."""
+
+from __future__ import annotations
+
+from fieldscribe.model import Factor, Limit, Linear, Point, ScaleCase
+from fieldscribe.targets.c.literals import INT32, INT64, raw_bounds, signed
+from fieldscribe.targets.c.scope import Scope
+from fieldscribe.targets.c.views import LimitView, RuleCase, RuledView, Step
+
+_BIG = 1 << 80
+
+
+def ruled_view(point: Point, scope: Scope, low: int, high: int) -> RuledView:
+    """The rule function of a point, case by case; `low` and `high` are the outer raw limits."""
+    cases = tuple(_case(case, scope) for case in point.scale or ())
+    scope.used.add("rules")
+    return RuledView(
+        cases=cases,
+        total=any(not case.test for case in cases),
+        tens=signed(10**point.decimals),
+        low=signed(low),
+        high=signed(high),
+        pass_scale=scope.place(point.scale_arguments),
+    )
+
+
+def limit_view(limit: Limit, name: str, is_low: bool, scope: Scope) -> LimitView:
+    """The statements' parts that compute one limit into the variable `name`."""
+    start = limit.least if is_low else limit.greatest
+    tests = [f"{point}_raw != {signed(raw)}" for point, raws in limit.unless for raw in raws]
+    applies, clamp = " && ".join(tests), f"{name} {'<' if is_low else '>'} {signed(start)}"
+    simple = _simple(limit.rule, scope)
+    if simple is None:
+        scope.used.add("rules")
+        return LimitView(name, signed(start), applies, (), "number_of_rule", clamp, _rule(limit.rule, scope))
+    if is_low and start <= 0 and _never_negative(limit.rule, scope):
+        clamp = ""
+    return LimitView(name, signed(start), applies, simple[1], simple[0], clamp, None)
+
+
+def limit_is_wide(limit: Limit, scope: Scope) -> bool:
+    """Whether a limit may need more than 32 bits on its way."""
+    if any(factor.ten_to for factor in limit.rule.factors):
+        return True
+    return _reach(limit.rule, scope) > INT32[1]
+
+
+def _never_negative(rule: Linear, scope: Scope) -> bool:
+    return min(rule.ratio, rule.offset) >= 0 and all(_bounds(factor, scope)[0] >= 0 for factor in rule.factors)
+
+
+def _case(case: ScaleCase, scope: Scope) -> RuleCase:
+    test = f"{case.point}_raw == {signed(case.raw or 0)}" if case.point is not None else ""
+    return _rule(case.rule, scope, test)
+
+
+def _rule(rule: Linear, scope: Scope, test: str = "") -> RuleCase:
+    ends = {1: abs(rule.ratio.numerator), -1: rule.ratio.denominator}
+    steps = []
+    for factor in rule.factors:
+        number = _number(factor, "int64_t")
+        if factor.ten_to:
+            ends[1] = ends[-1] = _BIG  # the exponent decides which of the two grows
+            steps.append(Step("ten", "rule", f"-({number})" if factor.power < 0 else number, False))
+            continue
+        ends[factor.power] *= _reach_of(factor, scope)
+        kind = "plain" if ends[factor.power] <= INT64[1] else "checked"
+        steps.append(Step(kind, "num" if factor.power > 0 else "den", number, True))
+    return RuleCase(
+        test,
+        signed(rule.ratio.numerator),
+        signed(rule.ratio.denominator),
+        signed(rule.offset.numerator),
+        signed(rule.offset.denominator),
+        tuple(steps),
+    )
+
+
+def _simple(rule: Linear, scope: Scope) -> tuple[str, tuple[str, ...]] | None:
+    """A limit as one expression, with the factors that must not be zero; None when 64 bits are not proven to suffice."""
+    factors, part = rule.factors, rule.offset.denominator
+    positive = all(_bounds(factor, scope)[0] >= 0 for factor in factors if factor.power < 0)
+    if any(factor.ten_to for factor in factors) or not positive or _reach(rule, scope) > INT64[1]:
+        return None
+    cast = "int64_t" if _reach(rule, scope) > INT32[1] else "int32_t"
+    tops = [_number(factor, cast) for factor in factors if factor.power > 0]
+    bottoms = [_number(factor, cast) for factor in factors if factor.power < 0]
+    top = _product(rule.ratio.numerator * part, tops, cast)
+    bottom = _product(rule.ratio.denominator * part, bottoms, cast)
+    if rule.offset:
+        lift = _product(rule.offset.numerator * rule.ratio.denominator, bottoms, cast)
+        top = f"{top} + {lift}"
+    if bottom == "1":
+        return top, ()
+    return f"{scope.helper('divide_wide' if cast == 'int64_t' else 'divide')}({top}, {bottom})", tuple(bottoms)
+
+
+def _product(constant: int, names: list[str], cast: str) -> str:
+    """A product without factors of one; a lone constant keeps the type of its surroundings by itself."""
+    parts = list(names)
+    if constant != 1 or not parts:
+        parts.append(f"({cast}){signed(constant)}" if not parts and abs(constant) > INT32[1] else signed(constant))
+    return " * ".join(parts)
+
+
+def _number(factor: Factor, cast: str) -> str:
+    """raw * slope + intercept of a factor, in brackets where it is more than a name."""
+    text = f"({cast}){factor.point}_raw"
+    if factor.slope != 1:
+        text = f"{text} * {signed(factor.slope)}"
+    if factor.intercept:
+        text = f"{text} {'-' if factor.intercept < 0 else '+'} {abs(factor.intercept)}"
+    return f"({text})" if " " in text else text
+
+
+def _bounds(factor: Factor, scope: Scope) -> tuple[int, int]:
+    ends = [raw * factor.slope + factor.intercept for raw in raw_bounds(scope.points[factor.point])]
+    return min(ends), max(ends)
+
+
+def _reach_of(factor: Factor, scope: Scope) -> int:
+    low, high = _bounds(factor, scope)
+    return max(abs(low), abs(high), 1)
+
+
+def _reach(rule: Linear, scope: Scope) -> int:
+    """A number that no intermediate of a limit's expression exceeds in size, whatever the arguments hold."""
+    top, bottom = abs(rule.ratio.numerator) * rule.offset.denominator, rule.ratio.denominator * rule.offset.denominator
+    for factor in rule.factors:
+        if factor.power > 0:
+            top *= _reach_of(factor, scope)
+        else:
+            bottom *= _reach_of(factor, scope)
+    return top + bottom * (abs(rule.offset.numerator) + 1)

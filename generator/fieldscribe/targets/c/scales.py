@@ -1,0 +1,168 @@
+"""Scales that are known at compile time, as C expressions whose integers are proven to fit."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from math import gcd
+from typing import NamedTuple
+
+from fieldscribe.model import Linear, Point
+from fieldscribe.targets.c.literals import EXACT_FLOAT, INT32, INT64, raw_bounds, raw_type, real, signed
+from fieldscribe.targets.c.scope import Scope
+from fieldscribe.targets.c.views import ScaledView
+
+
+class Plan(NamedTuple):
+    """The integers of a scale: raw = (count * p + q) / r and value = (raw * a - b) / c, with r and c above 0.
+
+    `counts` are the counts whose raw numbers lie in the outer limits, `numerator` is the largest that decoding to a
+    value meets; each `_wide` says that 32 bits do not suffice.
+    """
+
+    p: int
+    q: int
+    r: int
+    a: int
+    b: int
+    c: int
+    count_wide: bool
+    encode_wide: bool
+    decode_wide: bool
+    numerator: int
+    counts: tuple[int, int]
+
+
+def scaled_view(point: Point, scope: Scope, low: int, high: int) -> ScaledView:
+    """The functions' expressions for a scale without run-time factors; `low` and `high` are the outer raw limits."""
+    assert point.scale is not None
+    rule = point.scale[0].rule
+    plan = _plan(rule, point.decimals, raw_bounds(point), low, high)
+    limits = INT64 if plan.count_wide else INT32
+    tests = [f"count < {signed(plan.counts[0])}"] if plan.counts[0] > limits[0] else []
+    tests += [f"count > {signed(plan.counts[1])}"] if plan.counts[1] < limits[1] else []
+    narrow = _is_float(plan, rule, low, high)
+    wide = not narrow
+    if point.writable:
+        scope.used.add("round_wide" if wide else "round")
+    return ScaledView(
+        count_type="int64_t" if plan.count_wide else "int32_t",
+        count_outside=" || ".join(tests),
+        raw_of_count=_raw_of_count(plan, scope, raw_type(point)) if point.writable else "",
+        count_of_raw=_count_of_raw(plan, scope) if point.readable else "",
+        real="double" if wide else scope.helper("real"),
+        round=f"{scope.prefix}_round_wide" if wide else f"{scope.prefix}_round",
+        whole_type="int64_t" if wide else "int32_t",
+        low=signed(low),
+        high=signed(high),
+        scaled=_scaled(rule, scope, wide) if point.writable else "",
+        value_of_raw=_value_of_raw(plan, "double" if wide else f"{scope.prefix}_real"),
+    )
+
+
+@lru_cache(maxsize=4096)
+def _plan(rule: Linear, decimals: int, raws: tuple[int, int], low: int, high: int) -> Plan:
+    ratio, offset = rule.ratio, rule.offset
+    p = ratio.numerator * offset.denominator
+    r = ratio.denominator * offset.denominator * 10**decimals
+    p, q, r = _reduced(p, offset.numerator * ratio.denominator * 10**decimals, r)
+    a, b, c = _reduced(
+        offset.denominator * ratio.denominator, offset.numerator * ratio.denominator, offset.denominator * ratio.numerator
+    )
+    ends = [_divided(raw * r - q, p) for raw in raws]
+    count_wide = not (INT32[0] <= min(ends) and max(ends) <= INT32[1])
+    limits = INT64 if count_wide else INT32
+    first, last = _counts(p, q, r, low, high)
+    counts = max(first, limits[0]), min(last, limits[1])
+    encoded = [abs(value) for count in counts for value in (count, count * p, count * p + q)]
+    decoded = [abs(value) for raw in raws for value in (raw, raw * r, raw * r - q)]
+    numerators = [abs(value) for raw in raws for value in (raw, raw * a, raw * a - b)]
+    return Plan(
+        p, q, r, a, b, c, count_wide,
+        encode_wide=max(encoded) + r > INT32[1],
+        decode_wide=max(decoded) + abs(p) > INT32[1],
+        numerator=max(numerators),
+        counts=counts,
+    )  # fmt: skip
+
+
+def _reduced(factor: int, add: int, divisor: int) -> tuple[int, int, int]:
+    """The same linear rule in the smallest integers, the divisor above 0."""
+    common = gcd(factor, add, divisor) * (1 if divisor > 0 else -1)
+    return factor // common, add // common, divisor // common
+
+
+def _divided(number: int, divisor: int) -> int:
+    """The quotient, rounded to nearest, halves away from zero."""
+    if divisor < 0:
+        number, divisor = -number, -divisor
+    quotient = (2 * abs(number) + divisor) // (2 * divisor)
+    return -quotient if number < 0 else quotient
+
+
+def _counts(p: int, q: int, r: int, low: int, high: int) -> tuple[int, int]:
+    """The least and the greatest count whose rounded raw number lies in low..high."""
+    if p < 0:
+        first, last = _counts(-p, q, r, low, high)
+        return -last, -first
+    # a half rounds away from zero: it belongs to a limit above zero from below, and to one below zero from above
+    below, above = (2 * low - 1) * r - 2 * q, (2 * high + 1) * r - 2 * q
+    first = -(-below // (2 * p)) if low > 0 else below // (2 * p) + 1
+    last = above // (2 * p) if high < 0 else -(-above // (2 * p)) - 1
+    return first, last
+
+
+def _is_float(plan: Plan, rule: Linear, low: int, high: int) -> bool:
+    """Whether binary32 holds every integer that the two conversions meet."""
+    largest = max(abs(low), abs(high)) + 1
+    encode = max(abs(rule.ratio.numerator), rule.ratio.denominator, largest) <= EXACT_FLOAT
+    return encode and max(plan.c, plan.numerator) <= EXACT_FLOAT
+
+
+def _linear(name: str, factor: int, add: int, cast: str) -> str:
+    """`name * factor + add`, without what does nothing."""
+    start = f"({cast}){name}" if cast else name
+    if factor == -1:
+        start = f"-{start}"
+    elif factor != 1:
+        start = f"{start} * {signed(factor)}"
+    return start if add == 0 else f"{start} {'-' if add < 0 else '+'} {abs(add)}"
+
+
+def _raw_of_count(plan: Plan, scope: Scope, target: str) -> str:
+    cast = ""
+    if plan.encode_wide != plan.count_wide and plan.r != 1:
+        cast = "int64_t" if plan.encode_wide else "int32_t"
+    number = _linear("count", plan.p, plan.q, cast)
+    if plan.r != 1:
+        helper = scope.helper("divide_wide" if plan.encode_wide else "divide")
+        return f"({target}){helper}({number}, {plan.r})"
+    return f"({target})({number})" if " " in number else f"({target}){number}"
+
+
+def _count_of_raw(plan: Plan, scope: Scope) -> str:
+    sign = 1 if plan.p > 0 else -1
+    number = _linear("raw", plan.r * sign, -plan.q * sign, "int64_t" if plan.decode_wide else "int32_t")
+    if abs(plan.p) == 1:
+        return "raw" if number.endswith(")raw") else number
+    return f"{scope.helper('divide_wide' if plan.decode_wide else 'divide')}({number}, {abs(plan.p)})"
+
+
+def _scaled(rule: Linear, scope: Scope, wide: bool) -> str:
+    """The value in raw steps, before rounding: times, divided by, plus, each rounded by itself."""
+    text = "value"
+    if rule.ratio.numerator != 1:
+        text = f"{scope.helper('times_wide' if wide else 'times')}(value, {signed(rule.ratio.numerator)})"
+    if rule.ratio.denominator != 1:
+        text = f"{text} / {rule.ratio.denominator}"
+    if rule.offset:
+        offset = abs(rule.offset)
+        number = real(offset.numerator / offset.denominator) if offset.denominator != 1 else str(offset.numerator)
+        text += f" {'-' if rule.offset < 0 else '+'} ({'double' if wide else scope.prefix + '_real'}){number}"
+    return text
+
+
+def _value_of_raw(plan: Plan, real_type: str) -> str:
+    plain = plan.a == 1 and plan.b == 0
+    number = "raw" if plain else f"({_linear('raw', plan.a, -plan.b, 'int64_t' if plan.numerator > INT32[1] else 'int32_t')})"
+    text = f"({real_type}){number}"
+    return text if plan.c == 1 else f"{text} / {plan.c}"

@@ -1,0 +1,47 @@
+"""What the view of one device shares while it is built: prefixes, points by name, and the helpers that turned out to be needed."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from fieldscribe.model import Device, Point
+from fieldscribe.names import upper
+from fieldscribe.targets.c.literals import raw_type
+
+
+@dataclass(slots=True)
+class Scope:
+    """The namespace of one device; `used` collects the names of shared helpers, `enums` the enums already placed."""
+
+    prefix: str
+    upper: str
+    points: Mapping[str, Point]
+    errata: Mapping[str, str]
+    used: set[str] = field(default_factory=set)
+    enums: set[str] = field(default_factory=set)
+
+    def helper(self, name: str) -> str:
+        """The identifier of a shared helper, which the header will then hold."""
+        self.used.add(name)
+        return f"{self.prefix}_{name}"
+
+    def declare(self, names: tuple[str, ...]) -> str:
+        """Parameters for the raw numbers of other points: `, uint16_t lower_limit_raw`."""
+        return "".join(f", {raw_type(self.points[name])} {name}_raw" for name in names) if names else ""
+
+    def place(self, names: tuple[str, ...]) -> str:
+        """The same as arguments of a call: `, lower_limit_raw`."""
+        return "".join(f", {name}_raw" for name in names) if names else ""
+
+
+def scope_of(device: Device) -> Scope:
+    """A fresh scope for a device."""
+    points: dict[str, Point] = {}
+    for point in device.points:
+        points.setdefault(point.name, point)
+        points.setdefault(point.item, point)
+    lines = {
+        one.id: f"Erratum {one.id} ({one.certainty}): printed {one.printed}; taken {one.taken}." for one in device.errata
+    }
+    return Scope(device.id, upper(device.id), points, lines)

@@ -1,0 +1,219 @@
+"""What the C templates see: final identifiers, literals, masks, expressions and comment text, nothing left to decide."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+Define = tuple[str, str]
+"""A macro's name and its literal."""
+
+
+@dataclass(frozen=True, slots=True)
+class EnumView:
+    """Enumerators (name, literal, comment) and the function that gives their text."""
+
+    title: str
+    entries: tuple[tuple[str, str, str], ...]
+    cases: tuple[tuple[str, str], ...]
+    fits_int: bool
+    function: str
+    number_type: str
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """One factor of a rule: `kind` is plain, checked (may overflow) or ten; `zero` asks for a test before."""
+
+    kind: str
+    target: str
+    factor: str
+    zero: bool
+
+
+@dataclass(frozen=True, slots=True)
+class RuleCase:
+    """A linear rule whose factors are known at run time; `test` is empty when it always holds."""
+
+    test: str
+    num: str
+    den: str
+    offset: str
+    parts: str
+    steps: tuple[Step, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class LimitView:
+    """A limit that other points set.
+
+    `start` stands while the test `applies` fails, and always bounds the limit: `clamp` is that comparison, or empty.
+    """
+
+    name: str
+    start: str
+    applies: str
+    zeros: tuple[str, ...]
+    number: str
+    clamp: str
+    rule: RuleCase | None
+
+
+@dataclass(frozen=True, slots=True)
+class CheckView:
+    """May a raw number be written? `test` is about `raw`, or about `number` where limits are computed before."""
+
+    limits: tuple[LimitView, ...]
+    number_type: str
+    test: str
+    refused: str
+
+
+@dataclass(frozen=True, slots=True)
+class PlainView:
+    """The raw number is the value."""
+
+    value_type: str
+    outside: str
+
+
+@dataclass(frozen=True, slots=True)
+class ScaledView:
+    """A scale known at compile time."""
+
+    count_type: str
+    count_outside: str
+    raw_of_count: str
+    count_of_raw: str
+    real: str
+    round: str
+    whole_type: str
+    low: str
+    high: str
+    scaled: str
+    value_of_raw: str
+
+
+@dataclass(frozen=True, slots=True)
+class RuledView:
+    """A scale that other points decide at run time."""
+
+    cases: tuple[RuleCase, ...]
+    total: bool
+    tens: str
+    low: str
+    high: str
+    pass_scale: str
+
+
+@dataclass(frozen=True, slots=True)
+class FloatView:
+    """The raw number is the bit pattern of a floating-point number."""
+
+    real: str
+    bits: int
+    outside: str
+
+
+Codec = PlainView | ScaledView | RuledView | FloatView
+
+
+@dataclass(frozen=True, slots=True)
+class WordsView:
+    """How raw lies in words, in address order."""
+
+    count: int
+    bits: str
+    to_words: tuple[tuple[int, str], ...]
+    from_words: str
+
+
+@dataclass(frozen=True, slots=True)
+class BitsView:
+    """How raw lies inside a word that others share."""
+
+    extract: str
+    insert: str
+
+
+@dataclass(frozen=True, slots=True)
+class FlagView:
+    """A number of several bits inside the raw number."""
+
+    function: str
+    number_type: str
+    number: str
+
+
+@dataclass(frozen=True, slots=True)
+class PointView:
+    """One generated point."""
+
+    function: str
+    macro: str
+    item: str
+    comment: tuple[str, ...]
+    defines: tuple[Define, ...]
+    enum: EnumView | None
+    shape: str
+    codec: Codec
+    raw_type: str
+    from_whole: str
+    from_value: str
+    readable: bool
+    writable: bool
+    check: CheckView | None
+    recheck: bool
+    no_value: str
+    declare_all: str
+    declare_scale: str
+    declare_limits: str
+    pass_limits: str
+    words: WordsView | None
+    bits: BitsView | None
+    flags: tuple[FlagView, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class GroupView:
+    """A section of the header: generated points, and remarks on those that are not."""
+
+    title: str
+    entries: tuple[tuple[PointView | None, tuple[str, ...]], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Needs:
+    """Which shared helpers the header holds."""
+
+    signed: bool
+    signed32: bool
+    signed64: bool
+    divide: bool
+    divide_wide: bool
+    real: bool
+    times: bool
+    times_wide: bool
+    round: bool
+    round_wide: bool
+    f32: bool
+    f64: bool
+    rules: bool
+    floats: bool
+
+
+@dataclass(frozen=True, slots=True)
+class DeviceView:
+    """The header of a device."""
+
+    head: tuple[str, ...]
+    title: str
+    file: str
+    guard: str
+    prefix: str
+    upper: str
+    version: str
+    digest: str
+    spaces: tuple[tuple[str, int], ...]
+    groups: tuple[GroupView, ...]
+    aliases: tuple[tuple[str, str], ...]
+    needs: Needs

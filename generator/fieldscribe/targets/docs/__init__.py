@@ -1,0 +1,25 @@
+"""The documentation target: one Markdown reference and one table (CSV) per device."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+from fieldscribe.targets.docs.page import page_of
+from fieldscribe.targets.docs.sheet import sheet_of
+
+if TYPE_CHECKING:
+    from fieldscribe.model import Device
+    from fieldscribe.render import Render
+
+
+def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
+    """The files for one device: path relative to the output folder, and text."""
+    yield f"docs/{device.id}.md", render("docs/device.md.j2", {"page": page_of(device)}).rstrip("\n") + "\n"
+    yield f"docs/{device.id}.csv", render("docs/device.csv.j2", {"rows": sheet_of(device)})
+
+
+def runtime(device: Device) -> Iterable[tuple[str, str]]:
+    """Documentation needs no runtime."""
+    del device
+    return ()

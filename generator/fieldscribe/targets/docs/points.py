@@ -1,0 +1,205 @@
+"""The tables of points, group by group, and the tables of the bits inside their words."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+from fieldscribe import wording
+from fieldscribe.exact import number_text
+from fieldscribe.model import Device, Flag, Group, Point
+from fieldscribe.targets.docs.cells import (
+    Table,
+    anchor,
+    by_rows,
+    cell,
+    code,
+    link,
+    paragraph,
+    source_text,
+    table,
+    target,
+)
+
+_INLINE_NAMES = 4
+"""An enum with at most so many names stands in the point's row; a longer one is linked."""
+
+_KEEPS = {"no": "lost when switched off", "yes": "kept, each write wears the memory"}
+
+
+@dataclass(frozen=True, slots=True)
+class FlagsView:
+    """The bits of one word."""
+
+    point: str
+    rows: Table
+
+
+@dataclass(frozen=True, slots=True)
+class GroupView:
+    """One group of points as the page shows it."""
+
+    anchor: str
+    heading: str
+    name: str
+    note: str
+    facts: str
+    points: Table | None
+    flags: tuple[FlagsView, ...]
+
+
+def group_views(device: Device) -> Iterator[GroupView]:
+    """All groups that have points, in the author's order."""
+    members: dict[str, list[Point]] = {}
+    for point in device.points:
+        members.setdefault(point.group, []).append(point)
+    by_name = {point.name: point for point in device.points}
+    for group in device.groups:
+        if group.name in members:
+            yield _group_view(device, group, members[group.name], by_name)
+
+
+def reference_heads(points: Sequence[Point]) -> tuple[str, ...]:
+    """The numberings that the points are printed in, in the order in which they appear."""
+    return tuple(dict.fromkeys(key for point in points for key in point.references))
+
+
+def _group_view(device: Device, group: Group, points: list[Point], by_name: Mapping[str, Point]) -> GroupView:
+    spaces = {point.space for point in points}
+    several = len(device.documents) > 1
+    source = source_text(group.source, several)
+    facts = [f"{len(points)} point{'' if len(points) == 1 else 's'}"]
+    facts += [f"space {next(iter(spaces))}"] if len(spaces) == 1 else []
+    facts += [f"source: {source}"] if source else []
+    flags = (FlagsView(target("bits", point.item), _flag_table(point.flags)) for point in points if point.flags)
+    return GroupView(
+        anchor=anchor("group", group.name),
+        heading=cell(wording.title_text(group.title)),
+        name=code(group.name),
+        note=paragraph(wording.title_text(group.note)) if group.note else "",
+        facts=cell("; ".join(facts)),
+        points=_point_table(device, points, by_name, len(spaces) > 1, several),
+        flags=tuple(flags),
+    )
+
+
+def _point_table(
+    device: Device, points: list[Point], by_name: Mapping[str, Point], with_space: bool, several: bool
+) -> Table | None:
+    references = [
+        (cell(key.capitalize()), [cell(str(point.references.get(key, ""))) for point in points])
+        for key in reference_heads(points)
+    ]
+    return table(
+        [
+            ("Code", [cell(point.code or "") for point in points]),
+            ("Name", [target("point", point.item) for point in points]),
+            ("Title", [cell(wording.title_text(point.title)) for point in points]),
+            ("Space", [cell(point.space) if with_space else "" for point in points]),
+            ("Wire address", [wording.words_text(point) for point in points]),
+            *references,
+            ("Type", [wording.type_text(point) for point in points]),
+            ("Access", [point.access for point in points]),
+            ("Range", [_range_cell(point, by_name) for point in points]),
+            ("Raw range", [cell(wording.raw_range_text(point)) if _has_rule(point) else "" for point in points]),
+            ("Scale", [cell(wording.scale_text(point)) for point in points]),
+            ("Default", [_default_cell(point) for point in points]),
+            ("Remarks", ["; ".join(_remarks(device, point)) for point in points]),
+            ("Source", [cell(source_text(point.source, several)) for point in points]),
+        ]
+    )
+
+
+def _has_rule(point: Point) -> bool:
+    return point.scale is not None or any(not isinstance(end, int) for end in _ends(point))
+
+
+def _ends(point: Point) -> Iterator[object]:
+    for one in point.allowed.intervals:
+        yield one.low
+        yield one.high
+
+
+def _range_cell(point: Point, by_name: Mapping[str, Point]) -> str:
+    return "" if point.flags else cell(wording.range_text(point, by_name))
+
+
+def _default_cell(point: Point) -> str:
+    return "" if point.default is None else cell(wording.with_unit(number_text(point.default), point))
+
+
+def _remarks(device: Device, point: Point) -> Iterator[str]:
+    """What else there is to know, shortest facts first, errata last."""
+    if point.variant:
+        yield cell(f"only {point.variant}")
+    yield from _repeated(point)
+    yield from _names(point)
+    yield from (cell(wording.special_text(special)) for special in point.specials)
+    if point.steps:
+        yield cell("steps: " + wording.steps_text(point))
+    yield from (cell(f"{one.purpose}: {one.space} {_words(one.addresses)}") for one in point.places[1:])
+    yield from _conditions(device, point)
+    if point.note:
+        yield cell(wording.title_text(point.note))
+    yield from (f"erratum {link('erratum', one)}" for one in point.errata)
+    if not point.generated:
+        yield cell(f"not generated: {point.reason or 'no reason given'}")
+
+
+def _repeated(point: Point) -> Iterator[str]:
+    if point.record:
+        yield cell(f"record {point.record}")
+    if point.set is not None:
+        yield f"set {point.set}"
+
+
+def _words(addresses: tuple[int, ...]) -> str:
+    return ", ".join(map(wording.address_text, addresses))
+
+
+def _names(point: Point) -> Iterator[str]:
+    if point.flags:
+        yield f"bits: {link('bits', point.item)}"
+    if point.enum is None:
+        return
+    if len(point.enum.entries) <= _INLINE_NAMES:
+        yield ", ".join(cell(wording.entry_text(entry)) for entry in point.enum.entries)
+    else:
+        yield f"names: {link('names', point.enum.name)}"
+
+
+def _conditions(device: Device, point: Point) -> Iterator[str]:
+    if point.keeps in _KEEPS:
+        yield _KEEPS[point.keeps]
+    elif point.keeps is not None:
+        known = any(point.keeps == command.name for command in device.commands)
+        yield f"kept after {link('command', point.keeps) if known else code(point.keeps)}"
+    if point.conditions:
+        yield cell("write only when: " + ", ".join(point.conditions))
+    if point.when:
+        yield cell(f"exists when {point.when}")
+    if point.since:
+        yield cell(f"since {point.since}")
+    if point.until:
+        yield cell(f"until {point.until}")
+    if point.changes:
+        yield cell(f"changes {point.changes}")
+    yield from (f"was {code(old)}" for old in point.was)
+    if point.reserved:
+        yield "reserved"
+
+
+def _flag_table(flags: tuple[Flag, ...]) -> Table:
+    rows = [
+        (
+            wording.flag_bits(flag),
+            code(flag.name),
+            cell(wording.title_text(flag.title)),
+            "0" if flag.width == 1 and flag.active == 0 else "1" if flag.width == 1 else "",
+            ", ".join(cell(wording.entry_text(entry)) for entry in flag.values),
+        )
+        for flag in flags
+    ]
+    made = by_rows(("Bits", "Name", "Title", "True when", "Values"), rows)
+    assert made is not None, "a word with flags has rows"
+    return made

@@ -1,0 +1,109 @@
+"""The table of all points for spreadsheets: one row a point, every cell ready."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+from fieldscribe import text, wording
+from fieldscribe.exact import hex_text, number_text
+from fieldscribe.model import Device, Point
+from fieldscribe.targets.docs.points import reference_heads
+
+_cell = lru_cache(maxsize=65536)(text.csv_cell)
+
+
+def sheet_of(device: Device) -> list[str]:
+    """The lines of the table, its head first."""
+    languages = tuple(dict.fromkeys(key for point in device.points for key in point.title))
+    references = reference_heads(device.points)
+    by_name = {point.name: point for point in device.points}
+    heads = ("code", "name", "variant", "group", *(f"title_{key}" for key in languages), *_PLACE, *references, *_FACTS)
+    lines = [",".join(map(_cell, heads))]
+    for point in device.points:
+        titles = [_cell(point.title.get(key, "")) for key in languages]
+        printed = [_cell(str(point.references.get(key, ""))) for key in references]
+        cells = [*_identity(point), *titles, *_place(point), *printed]
+        cells += [*_meaning(point, by_name), *_names(point), *_behaviour(device, point), *_origin(point)]
+        lines.append(",".join(cells))
+    return lines
+
+
+_PLACE = ("space", "wire_hex", "wire", "words_high_first", "other_places")
+_FACTS = (
+    *("type", "words", "bits", "access", "raw_min", "raw_max", "raw_range", "range", "unit", "scale", "resolution"),
+    *("default", "steps", "names", "flags", "specials"),
+    *("keeps", "conditions", "when", "since", "until", "changes", "record", "set", "was", "note"),
+    *("errata", "document", "section", "page", "line", "generated", "reason"),
+)
+
+
+def _identity(point: Point) -> tuple[str, ...]:
+    return _cell(point.code or ""), _cell(point.name), _cell(point.variant or ""), _cell(point.group)
+
+
+def _place(point: Point) -> tuple[str, ...]:
+    addresses = point.addresses
+    if not addresses:
+        return _cell(point.space), "", "", "", ""
+    lowest = min(addresses)
+    others = "; ".join(f"{one.purpose}: {one.space} {_hexes(one.addresses)}" for one in point.places[1:])
+    words = _hexes(addresses) if len(addresses) > 1 else ""
+    return _cell(point.space), hex_text(lowest), str(lowest), words, _cell(others) if others else ""
+
+
+def _hexes(addresses: tuple[int, ...]) -> str:
+    return " ".join(map(hex_text, addresses))
+
+
+def _meaning(point: Point, by_name: dict[str, Point]) -> tuple[str, ...]:
+    outer = None if point.info.floating else wording.outer_raw(point)
+    return (
+        point.type,
+        str(point.words),
+        f"{point.bits[0]}..{point.bits[1]}" if point.bits else "",
+        point.access,
+        str(outer[0]) if outer else "",
+        str(outer[1]) if outer else "",
+        _cell(wording.raw_range_text(point)),
+        _cell(wording.range_text(point, by_name)),
+        _cell(point.unit.symbol),
+        _cell(wording.scale_text(point)),
+        _cell(wording.resolution_text(point)),
+        "" if point.default is None else number_text(point.default),
+        _cell(wording.steps_text(point)),
+    )
+
+
+def _names(point: Point) -> tuple[str, ...]:
+    names = "; ".join(map(wording.entry_text, point.enum.entries)) if point.enum else ""
+    flags = "; ".join(map(wording.flag_text, point.flags))
+    specials = "; ".join(map(wording.special_text, point.specials))
+    return _cell(names), _cell(flags), _cell(specials)
+
+
+def _behaviour(device: Device, point: Point) -> tuple[str, ...]:
+    return (
+        _cell(wording.keeps_text(device, point)),
+        _cell("; ".join(point.conditions)),
+        _cell(point.when or ""),
+        _cell(point.since or ""),
+        _cell(point.until or ""),
+        _cell(point.changes or ""),
+        _cell(point.record or ""),
+        "" if point.set is None else str(point.set),
+        _cell("; ".join(point.was)),
+        _cell(wording.title_text(point.note)) if point.note else "",
+    )
+
+
+def _origin(point: Point) -> tuple[str, ...]:
+    source = point.source
+    return (
+        _cell("; ".join(point.errata)),
+        _cell(source.document),
+        _cell(source.section or ""),
+        _cell(source.page or ""),
+        "" if source.line is None else str(source.line),
+        "yes" if point.generated else "no",
+        _cell(point.reason or ""),
+    )

@@ -1,0 +1,75 @@
+"""The conformance vectors of a device: what every language has to answer, computed from the model alone.
+
+Nothing here is shared with the other targets: a wrong rule in one of them cannot repeat itself in its own test.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from json import dumps
+from typing import TYPE_CHECKING
+
+from fieldscribe.targets.vectors.floats import floats
+from fieldscribe.targets.vectors.frames import blocks, builds, printed, replies
+from fieldscribe.targets.vectors.lines import Lines
+from fieldscribe.targets.vectors.oracle import Oracle
+from fieldscribe.targets.vectors.scaled import scaled
+from fieldscribe.targets.vectors.whole import address, bits, flags, names, specials, whole, words
+
+if TYPE_CHECKING:
+    from fieldscribe.model import Device, Point
+    from fieldscribe.render import Render
+
+FORMAT = 1
+
+
+def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
+    """The one file of this target: its path, and one vector per line. `render` is not needed."""
+    del render
+    lines = collect(device)
+    head = {
+        "format": FORMAT,
+        "device": device.id,
+        "version": device.version,
+        "digest": device.digest,
+        "counts": lines.counts,
+    }
+    opening = dumps(head, ensure_ascii=False)[:-1] + ', "vectors": [\n'
+    yield f"vectors/{device.id}.json", lines.text(opening, "\n]}\n")
+
+
+def runtime(device: Device) -> Iterable[tuple[str, str]]:
+    """No files are copied beside the vectors."""
+    del device
+    return ()
+
+
+def collect(device: Device) -> Lines:
+    """All vectors of a device: its points in the author's order, then its frames and blocks."""
+    lines = Lines()
+    oracle = Oracle({point.name: point for point in reversed(device.points)})
+    for point in device.points:
+        if point.generated:
+            _point(lines, oracle, point)
+    if device.family == "modbus":
+        builds(lines, device.bus)
+        replies(lines, device.bus)
+        printed(lines, device)
+    blocks(lines, device)
+    return lines
+
+
+def _point(lines: Lines, oracle: Oracle, point: Point) -> None:
+    address(lines, point)
+    if point.form == "scaled":
+        scaled(lines, oracle, point)
+    elif point.form == "float":
+        floats(lines, point)
+    else:
+        whole(lines, oracle, point)
+    names(lines, point)
+    specials(lines, point)
+    flags(lines, point)
+    bits(lines, point)
+    words(lines, point)
+    lines.gather()

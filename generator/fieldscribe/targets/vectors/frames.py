@@ -1,0 +1,226 @@
+"""Vectors of frames: requests to build, replies good and bad, the manual's own examples, and batched reads."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from json import dumps
+
+from fieldscribe.families.modbus import (
+    FUNCTIONS,
+    Profile,
+    Reply,
+    Request,
+    build,
+    crc16,
+    frame,
+    parse_reply,
+    parse_request,
+    profile_of,
+)
+from fieldscribe.model import Bus, Device
+from fieldscribe.targets.vectors.lines import Lines, array
+
+_READS = (0x01, 0x02, 0x03, 0x04)
+_TRANSACTION = 0x1234
+
+
+def builds(lines: Lines, bus: Bus) -> None:
+    """Requests of every function with edge counts, addresses and values, and each way to be refused."""
+    profile = profile_of(bus)
+    for framing in bus.framings:
+        for request in _requests(profile, framing):
+            status, data = build(profile, framing, request)
+            lines.add("build", f'{_request_text(framing, request)}, "status": "{status}", "bytes": "{data.hex()}"')
+
+
+def _request_text(framing: str, request: Request) -> str:
+    what = f'"count": {request.count}' if request.function in _READS else f'"values": {array(request.values)}'
+    return (
+        f'"framing": "{framing}", "unit": {request.unit}, "transaction": {request.transaction}, '
+        f'"function": {request.function}, "address": {request.address}, {what}'
+    )
+
+
+def _requests(profile: Profile, framing: str) -> Iterator[Request]:
+    transaction = _TRANSACTION if framing == "tcp" else 0
+    low, high = profile.units
+    good = low if low != profile.broadcast else low + 1
+    for function in FUNCTIONS:
+        first = _request(good, function, 0x0102, 1, transaction)
+        if function not in profile.most:
+            yield first
+            continue
+        yield first
+        for unit in dict.fromkeys((low, high, low - 1, high + 1, profile.broadcast)):
+            if unit is not None and 0 <= unit <= 255:
+                yield _request(unit, function, 0x0102, 1, transaction)
+        most = profile.most[function]
+        for count in dict.fromkeys((0, 1, 2, 8, 9, 16, 17, most - 1, most, most + 1)):
+            if 0 <= count <= most + 1 and (count != 1 or function in _READS):
+                yield _request(good, function, 0x0102, count, transaction)
+        for address, count in ((0, 1), (0xFFFF, 1), (0xFFFF, 2), (0x10000 - most, most), (0x10001 - most, most)):
+            if 0 <= address <= 0xFFFF:
+                yield _request(good, function, address, count, transaction, plain=True)
+        for value in _single_values(function):
+            yield Request(good, function, 0 if function == 8 else 0x0102, 1, (value,), transaction)
+    yield Request(good, 0x2B, 0, 1, (0,), transaction)
+
+
+def _single_values(function: int) -> tuple[int, ...]:
+    if function in (0x05, 0x0F):
+        return (0, 1, 2)
+    return (0, 1, 0x8000, 0xFFFF) if function in (0x06, 0x08, 0x10) else ()
+
+
+def _request(unit: int, function: int, address: int, count: int, transaction: int, *, plain: bool = False) -> Request:
+    """A request with recognisable values; 08h gets its sub-function unless the address is meant as it is (`plain`)."""
+    if function in _READS:
+        return Request(unit, function, address, count, (), transaction)
+    if function in (0x05, 0x0F):
+        values = tuple(1 if place % 3 == 0 else 0 for place in range(count))
+    else:
+        values = tuple(0xA55A + place & 0xFFFF for place in range(count))
+    return Request(unit, function, address if plain or function != 0x08 else 0, count, values, transaction)
+
+
+def replies(lines: Lines, bus: Bus) -> None:
+    """Answers to one request of each function: good, refused, and malformed in every way."""
+    profile = profile_of(bus)
+    low, _ = profile.units
+    unit = low if low != profile.broadcast else low + 1
+    for framing in bus.framings:
+        transaction = _TRANSACTION if framing == "tcp" else 0
+        shortest = True
+        for function in FUNCTIONS:
+            if function not in profile.most:
+                continue
+            most = profile.most[function]
+            for count in dict.fromkeys((1, min(2, most), min(11, most), most)):
+                request = _request(unit, function, 0x0102, count, transaction)
+                _reply(lines, framing, request, _frame(framing, request, good_answer(request)))
+            request = _request(unit, function, 0x0102, min(2, most), transaction)
+            for pdu in _bad_answers(request, bus):
+                _reply(lines, framing, request, _frame(framing, request, pdu))
+            for data in _bad_frames(framing, request):
+                _reply(lines, framing, request, data)
+            if shortest:
+                shortest = False
+                for data in _single_bit_errors(_frame(framing, request, good_answer(request))):
+                    _reply(lines, framing, request, data)
+
+
+def _frame(framing: str, request: Request, pdu: bytes) -> bytes:
+    return frame(framing, request.unit, request.transaction, pdu)
+
+
+def good_answer(request: Request) -> bytes:
+    """The PDU that a device answers, with recognisable contents."""
+    head = bytes((request.function,))
+    if request.function in (0x01, 0x02):
+        size = (request.count + 7) // 8
+        return head + bytes((size,)) + bytes(0x35 + 0x5B * place & 0xFF for place in range(size))
+    if request.function in (0x03, 0x04):
+        data = b"".join((0x8001 + 0x1203 * place & 0xFFFF).to_bytes(2, "big") for place in range(request.count))
+        return head + bytes((len(data),)) + data
+    number = (
+        request.count
+        if request.function in (0x0F, 0x10)
+        else request.values[0] * (0xFF00 if request.function == 5 else 1)
+    )
+    return head + request.address.to_bytes(2, "big") + number.to_bytes(2, "big")
+
+
+def _bad_answers(request: Request, bus: Bus) -> Iterator[bytes]:
+    """PDUs in a sound frame that are no good answer: exceptions, other functions, other lengths, other echoes."""
+    good = good_answer(request)
+    refused = request.function | 0x80
+    for code in dict.fromkeys((*(one.number for one in bus.exceptions), 0, 2, 255)):
+        yield bytes((refused, code))
+    yield bytes((refused, 1, 0))
+    yield from (bytes((refused ^ 1, 1)), bytes((request.function ^ 1,)) + good[1:], b"\x2b" + good[1:])
+    yield from (good + b"\x00", good[:-1], good[:2])
+    if request.function in _READS:
+        yield bytes((request.function, good[1] + 1)) + good[2:] + b"\x00"
+        yield bytes((request.function, good[1] - 1)) + good[2:-1]
+        yield from (
+            bytes((request.function, good[1] + 1)) + good[2:],
+            bytes((request.function, 0)),
+            bytes((request.function, 255)) + good[2:],
+        )
+    else:
+        for place in range(1, 5):
+            yield good[:place] + bytes((good[place] ^ 1,)) + good[place + 1 :]
+    if request.function == 0x05:
+        yield good[:3] + b"\x00\x01"
+
+
+def _bad_frames(framing: str, request: Request) -> Iterator[bytes]:
+    """Frames that are cut, too long, or of another unit, checksum, protocol or transaction."""
+    pdu = good_answer(request)
+    good = _frame(framing, request, pdu)
+    yield from (good[:length] for length in range(len(good)))
+    yield from (good + b"\x00", good + good[-2:])
+    yield frame(framing, request.unit ^ 3, request.transaction, pdu)
+    yield frame(framing, request.unit ^ 3, request.transaction, bytes((request.function | 0x80, 1)))
+    if framing == "tcp":
+        yield from (frame("tcp", request.unit, request.transaction ^ flip, pdu) for flip in (0x0001, 0x0100))
+        for place in range(2, 6):
+            yield good[:place] + bytes((good[place] ^ 1,)) + good[place + 1 :]
+        yield frame("rtu", request.unit, 0, pdu)
+    else:
+        yield good[:-2] + good[:-3:-1]
+        crc = crc16(good[:-2]) ^ 0xFFFF
+        yield good[:-2] + crc.to_bytes(2, "little")
+
+
+def _single_bit_errors(data: bytes) -> Iterator[bytes]:
+    for place in range(8 * len(data)):
+        yield data[: place >> 3] + bytes((data[place >> 3] ^ 1 << (place & 7),)) + data[(place >> 3) + 1 :]
+
+
+def _reply(lines: Lines, framing: str, request: Request, data: bytes) -> None:
+    lines.add("reply", f"{_request_text(framing, request)}, {_reply_text(data, parse_reply(framing, request, data))}")
+
+
+def _reply_text(data: bytes, reply: Reply) -> str:
+    rest = f'"values_out": {array(reply.values)}, "exception": {reply.exception}'
+    return f'"bytes": "{data.hex()}", "status": "{reply.status}", {rest}'
+
+
+def printed(lines: Lines, device: Device) -> None:
+    """The manual's frames: requests are built as they should read, replies are parsed, and misprints are refused."""
+    profile = profile_of(device.bus)
+    requests: dict[str, Request] = {}
+    for one in device.frames:
+        head = f'"frame": {dumps(one.name)}, '
+        if one.direction == "request":
+            request = parse_request(one.framing, one.corrected)
+            if isinstance(request, str):
+                continue
+            requests[one.name] = request
+            status, data = build(profile, one.framing, request)
+            lines.add(
+                "printed_build",
+                f'{head}{_request_text(one.framing, request)}, "status": "{status}", "bytes": "{data.hex()}"',
+            )
+            echoes = request.function in (0x05, 0x06, 0x08)
+            answers: Iterable[bytes] = (one.printed,) if echoes and not one.valid else ()
+        else:
+            asked = requests.get(one.answers or "")
+            if asked is None:
+                continue
+            request, answers = asked, dict.fromkeys((one.printed, one.corrected))
+        for data in answers:
+            reply = parse_reply(one.framing, request, data)
+            lines.add("printed_reply", f"{head}{_request_text(one.framing, request)}, {_reply_text(data, reply)}")
+
+
+def blocks(lines: Lines, device: Device) -> None:
+    """The batched reads of each group."""
+    for group, found in device.blocks.items():
+        for index, block in enumerate(found):
+            lines.add(
+                "block",
+                f'"group": {dumps(group)}, "index": {index}, "space": {dumps(block.space)}, "function": {block.function}, '
+                f'"address": {block.address}, "count": {block.count}',
+            )

@@ -1,0 +1,91 @@
+"""Exact numbers: rounding as the design fixes it, binary64 and binary32 patterns, and how numbers read in the file."""
+
+from __future__ import annotations
+
+import math
+import struct
+from fractions import Fraction
+from functools import lru_cache
+
+INFINITY = math.inf
+EXACT = 1 << 53
+"""Up to here every integer is a binary64 number."""
+
+
+def half_away(over: int, under: int) -> int:
+    """over / under (under > 0) rounded to the nearest integer, halves away from zero."""
+    if over < 0:
+        return -((-2 * over + under) // (2 * under))
+    return (2 * over + under) // (2 * under)
+
+
+def quotient(over: int, under: int) -> float:
+    """The binary64 nearest to over / under (under not 0); infinity where that is too large."""
+    try:
+        return over / under  # of integers: correctly rounded
+    except OverflowError:
+        return INFINITY if (over < 0) == (under < 0) else -INFINITY
+
+
+def hex64(value: float) -> str:
+    """The bits of a binary64 in 16 hex digits."""
+    return struct.pack(">d", value).hex()
+
+
+def bits64(value: float) -> int:
+    """The bits of a binary64 as a number."""
+    return int.from_bytes(struct.pack(">d", value), "big")
+
+
+def float_of_bits(bits: int, width: int) -> float:
+    """The number that a binary32 or binary64 pattern is."""
+    form, size = (">f", 4) if width == 32 else (">d", 8)
+    number: float = struct.unpack(form, bits.to_bytes(size, "big"))[0]
+    return math.nan if math.isnan(number) else number
+
+
+def bits32(value: float) -> int | None:
+    """The pattern of the binary32 nearest to a finite binary64, ties to even; None where that is infinite."""
+    sign = 0x8000_0000 if math.copysign(1.0, value) < 0 else 0
+    over, under = abs(value).as_integer_ratio()
+    if over == 0:
+        return sign
+    exponent = max(math.frexp(abs(value))[1] - 24, -149)  # of the last place
+    if exponent >= 0:
+        under <<= exponent
+    else:
+        over <<= -exponent
+    places, rest = divmod(over, under)
+    if 2 * rest > under or 2 * rest == under and places & 1:
+        places += 1
+    # A normal number's 24th bit adds one to the exponent field, and so does a carry out of the fraction.
+    pattern = places if exponent == -149 else places + ((exponent + 149) << 23)
+    return None if pattern >= 0x7F80_0000 else sign | pattern
+
+
+@lru_cache(maxsize=4096)
+def decimal_places(under: int) -> int | None:
+    """How many decimals a fraction with this denominator needs; None if no number of them is enough."""
+    rest, twos, fives = under, 0, 0
+    while rest % 2 == 0:
+        rest, twos = rest // 2, twos + 1
+    while rest % 5 == 0:
+        rest, fives = rest // 5, fives + 1
+    return max(twos, fives) if rest == 1 else None
+
+
+def exact_text(over: int, under: int) -> str:
+    """over / under (under > 0) as an exact decimal if there is one of at most 24 places, else as a fraction."""
+    places = decimal_places(under)
+    if places is None or places > 24:
+        return str(Fraction(over, under))
+    if places == 0:
+        return str(over // under)
+    digits = str(abs(over) * 10**places // under).rjust(places + 1, "0")
+    text = f"{digits[:-places]}.{digits[-places:]}".rstrip("0").rstrip(".")
+    return f"-{text}" if over < 0 else text
+
+
+def float_text(value: float) -> str:
+    """A binary64 in the fewest digits that tell it apart."""
+    return repr(value).removesuffix(".0")

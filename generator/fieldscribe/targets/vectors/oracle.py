@@ -1,0 +1,170 @@
+"""What every generated function has to answer, worked out of the model in exact rationals."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+
+from fieldscribe.model import Bound, Factor, Limit, Linear, Point
+from fieldscribe.targets.vectors.numbers import EXACT, INFINITY, half_away, quotient
+
+Settings = Mapping[str, int]
+"""Raw numbers of the points that a rule or a limit needs."""
+
+INT64 = 1 << 63
+
+
+def in_binary64(number: int) -> int:
+    """An integer as the binary64 that every language makes of it."""
+    return number if -EXACT <= number <= EXACT else int(float(number))
+
+
+@dataclass(frozen=True, slots=True)
+class Ratio:
+    """A rule with its run-time factors put in: raw = value * num / den + over / under, as integers; under > 0."""
+
+    num: int
+    den: int
+    over: int
+    under: int
+
+    def numerator(self, raw: int) -> int:
+        """The numerator of the exact value of `raw`; its denominator is `denominator`."""
+        return (raw * self.under - self.over) * (self.den if self.num > 0 else -self.den)
+
+    @property
+    def denominator(self) -> int:
+        """The positive denominator of every raw number's value."""
+        return abs(self.num) * self.under
+
+    def raw_of_float(self, value: float) -> int | None:
+        """The raw number of a finite value in binary64 steps, each rounded; None when a step leaves binary64."""
+        above, below = value.as_integer_ratio()
+        if self.num != 1:
+            value = quotient(above * in_binary64(self.num), below)
+            if abs(value) == INFINITY:
+                return None
+            above, below = value.as_integer_ratio()
+        if self.den != 1:
+            above, below = quotient(above, below * in_binary64(self.den)).as_integer_ratio()
+        if self.over:
+            offset_over, offset_under = quotient(self.over, self.under).as_integer_ratio()
+            value = quotient(above * offset_under + offset_over * below, below * offset_under)
+            if abs(value) == INFINITY:
+                return None
+            above, below = value.as_integer_ratio()
+        return half_away(above, below)
+
+    def raw_of_count(self, count: int, decimals: int) -> int:
+        """The raw number of a count of 10^-decimals units."""
+        under = self.den * 10**decimals * self.under
+        over = count * self.num * self.under + self.over * self.den * 10**decimals
+        return half_away(over, under) if under > 0 else half_away(-over, -under)
+
+    def count_of_raw(self, raw: int, decimals: int) -> int:
+        """The count of 10^-decimals units that a raw number is."""
+        return half_away(self.numerator(raw) * 10**decimals, self.denominator)
+
+    def divides_exactly(self, raw: int) -> bool:
+        """Whether one binary64 division of integers gives the value: both are at most 2^53."""
+        return abs(self.numerator(raw)) <= EXACT and self.denominator <= EXACT
+
+
+@lru_cache(maxsize=4096)
+def fixed_ratio(rule: Linear) -> Ratio:
+    """The rule without its factors."""
+    return Ratio(rule.ratio.numerator, rule.ratio.denominator, rule.offset.numerator, rule.offset.denominator)
+
+
+class Oracle:
+    """Answers for points; knows the outer bounds of the points that exponents come from."""
+
+    def __init__(self, points: Mapping[str, Point]) -> None:
+        self.points = points
+
+    def ratio(self, point: Point, settings: Settings) -> Ratio | str:
+        """The rule in force, or why there is none: `no_case`, `zero_factor`, `overflow`."""
+        for case in point.scale or ():
+            if case.point is None or settings[case.point] == case.raw:
+                return self._with_factors(case.rule, settings) if case.rule.factors else fixed_ratio(case.rule)
+        return "no_case"
+
+    def _with_factors(self, rule: Linear, settings: Settings) -> Ratio | str:
+        numbers = [(factor, factor.slope * settings[factor.point] + factor.intercept) for factor in rule.factors]
+        if any(number == 0 for factor, number in numbers if not factor.ten_to):
+            return "zero_factor"
+        if any(not self.exponent_fits(factor, settings) for factor, _ in numbers if factor.ten_to):
+            return "overflow"
+        num, den = rule.ratio.numerator, rule.ratio.denominator
+        for factor, number in numbers:
+            power, number = (factor.power * number, 10 ** abs(number)) if factor.ten_to else (factor.power, number)
+            num, den = (num * number, den) if power >= 0 else (num, den * number)
+        return Ratio(num, den, rule.offset.numerator, rule.offset.denominator)
+
+    def exponent_fits(self, factor: Factor, settings: Settings) -> bool:
+        """Whether an exponent's raw number lies within what its own point may hold."""
+        low, high = outer_bounds(self.points[factor.point])
+        return low <= settings[factor.point] <= high
+
+    def limits(self, point: Point, settings: Settings) -> list[tuple[int, int]] | str:
+        """The intervals that hold now, or `zero_factor`."""
+        found: list[tuple[int, int]] = []
+        for one in point.allowed.intervals:
+            if isinstance(one.low, int) and isinstance(one.high, int):
+                found.append((one.low, one.high))
+                continue
+            low = self._bound(one.low, settings, lower=True)
+            high = self._bound(one.high, settings, lower=False)
+            if isinstance(low, str) or isinstance(high, str):
+                return "zero_factor"
+            found.append((low, high))
+        return found or [(point.least, point.greatest)]
+
+    def _bound(self, bound: Bound, settings: Settings, *, lower: bool) -> int | str:
+        if isinstance(bound, int):
+            return bound
+        if any(settings.get(name) in codes for name, codes in bound.unless):
+            return bound.least if lower else bound.greatest
+        product = self._limit_ratio(bound, settings)
+        if product is None:
+            return "zero_factor"
+        return max(bound.least, product) if lower else min(bound.greatest, product)
+
+    def _limit_ratio(self, limit: Limit, settings: Settings) -> int | None:
+        rule = limit.rule
+        over, under = rule.ratio.numerator, rule.ratio.denominator
+        for factor in rule.factors:
+            number = factor.slope * settings[factor.point] + factor.intercept
+            power, number = (factor.power * number, 10 ** abs(number)) if factor.ten_to else (factor.power, number)
+            if power >= 0:
+                over *= number
+            elif number == 0:
+                return None
+            else:
+                under *= number
+        over, under = over * rule.offset.denominator + rule.offset.numerator * under, under * rule.offset.denominator
+        return half_away(over, under) if under > 0 else half_away(-over, -under)
+
+    def check(self, point: Point, raw: int, settings: Settings) -> str:
+        """Whether a raw number may be written: `ok`, `out_of_range`, `unknown_value`, `zero_factor`."""
+        limits = self.limits(point, settings)
+        if isinstance(limits, str):
+            return limits
+        if any(low <= raw <= high for low, high in limits) and point.least <= raw <= point.greatest:
+            return "ok"
+        return (
+            "unknown_value" if point.form == "enum" and point.enum is not None and point.enum.closed else "out_of_range"
+        )
+
+
+def outer_bounds(point: Point) -> tuple[int, int]:
+    """The least and greatest raw number that may ever be written; the type's where the point says none."""
+    lows = [one.low if isinstance(one.low, int) else one.low.least for one in point.allowed.intervals]
+    highs = [one.high if isinstance(one.high, int) else one.high.greatest for one in point.allowed.intervals]
+    return (min(lows), max(highs)) if lows else (point.least, point.greatest)
+
+
+def is_no_value(point: Point, raw: int) -> bool:
+    """Whether the number says that there is no value."""
+    return any(special.no_value and special.low <= raw <= special.high for special in point.specials)

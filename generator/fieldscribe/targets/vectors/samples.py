@@ -1,0 +1,133 @@
+"""Which numbers a point is tried with: edges, one beyond, signs, halves, settings of what it depends on."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from functools import lru_cache
+from math import gcd
+
+from fieldscribe.model import Limit, Point
+from fieldscribe.targets.vectors.oracle import Oracle, Ratio, outer_bounds
+
+Limits = Sequence[tuple[int, int]]
+
+
+def edges(limits: Limits) -> dict[int, None]:
+    """Each limit and one beyond it, in the order of the limits; so every hole of a list is met."""
+    found: dict[int, None] = {}
+    for low, high in limits:
+        for raw in (low, high, low - 1, high + 1):
+            found[raw] = None
+    return found
+
+
+def raws_to_decode(point: Point, limits: Limits) -> list[int]:
+    """Raw numbers that the point's bits hold: limits, edges of the type and of the sign, special codes."""
+    found = {raw: None for interval in limits for raw in interval}
+    for special in point.specials:
+        found.update({special.low: None, special.high: None})
+    found.update({point.least: None, point.greatest: None})
+    if point.least < 0:
+        found.update({-1: None, 0: None})
+    return _held(point, found)
+
+
+def raws_to_check(point: Point, limits: Limits) -> list[int]:
+    """Raw numbers that the point's bits hold: limits, one beyond each, edges of the type, special codes."""
+    found = edges(limits)
+    for special in point.specials:
+        found.update({special.low: None, special.high: None})
+    found.update({point.least: None, point.greatest: None})
+    return _held(point, found)
+
+
+def _held(point: Point, numbers: Iterable[int]) -> list[int]:
+    least, greatest = point.least, point.greatest
+    return [raw for raw in numbers if least <= raw <= greatest]
+
+
+@lru_cache(maxsize=4096)
+def _half_step(ratio: Ratio) -> tuple[int, int] | None:
+    """(residue, modulus) of the raw numbers r whose r + 1/2 has a dyadic value; None if there are none."""
+    # The value is ((2r + 1) * under - 2 * over) * den / (2 * num * under): the odd part of the denominator must vanish.
+    odd = abs(ratio.num) * ratio.under
+    odd //= odd & -odd
+    odd //= gcd(odd, ratio.den)
+    slope, start = 2 * ratio.under, ratio.under - 2 * ratio.over
+    common = gcd(slope, odd)
+    if start % common:
+        return None
+    modulus = odd // common
+    return (-start // common * pow(slope // common, -1, modulus) % modulus if modulus > 1 else 0), modulus
+
+
+def halves(ratio: Ratio, limits: Limits) -> list[float]:
+    """Values exactly between two raw numbers, in binary64: the lowest inside the limits, the highest, one below 0."""
+    step = _half_step(ratio)
+    if step is None:
+        return []
+    residue, modulus = step
+    low, high = limits[0][0], limits[-1][1]
+    first = low + (residue - low) % modulus
+    last = high - 1 - (high - 1 - residue) % modulus
+    found: dict[float, None] = {}
+    for raw in (first, last, -1 - (-1 - residue) % modulus):
+        if low <= raw < high:
+            over = ((2 * raw + 1) * ratio.under - 2 * ratio.over) * (ratio.den if ratio.num > 0 else -ratio.den)
+            under = 2 * ratio.denominator
+            value = over / under
+            above, below = value.as_integer_ratio()
+            if above * under == over * below:
+                found[value] = None
+    return list(found)
+
+
+def settings(oracle: Oracle, point: Point) -> list[dict[str, int]]:
+    """Raw numbers for all arguments: a typical set, then one argument at a time through all that it may bring."""
+    names = point.arguments
+    base = {name: _typical(oracle, point, name) for name in names}
+    found = [base, *({**base, name: raw} for name in names for raw in _choices(oracle, point, name))]
+    # Each case with every end of the factors that it has, not only those of the first case.
+    for case in point.scale or ():
+        if case.point is not None and case.raw is not None:
+            for factor in case.rule.factors:
+                raws = _choices(oracle, point, factor.point)
+                found += [{**base, case.point: case.raw, factor.point: raw} for raw in raws]
+    return list({tuple(one.items()): one for one in found}.values())
+
+
+def _typical(oracle: Oracle, point: Point, name: str) -> int:
+    for case in point.scale or ():
+        if case.point == name and case.raw is not None:
+            return case.raw
+    low, high = _bounds(oracle, name)
+    middle = low + (high - low) // 3
+    return middle if middle else min(high, 1)
+
+
+def _choices(oracle: Oracle, point: Point, name: str) -> list[int]:
+    """Raw numbers for one argument, as far as its point holds them: ends, cases and none, zeros, codes that lift limits."""
+    low, high = _bounds(oracle, name)
+    rules = [case.rule for case in point.scale or ()] + [limit.rule for limit in limits_of(point)]
+    cases = [case.raw for case in point.scale or () if case.point == name and case.raw is not None]
+    found = [*cases, max(cases) + 1] if cases else [low, high]
+    for factor in [factor for rule in rules for factor in rule.factors if factor.point == name]:
+        if factor.ten_to:
+            found += [low - 1, high + 1]
+        elif factor.slope and factor.intercept % factor.slope == 0:
+            found.append(-factor.intercept // factor.slope)
+    found += [
+        code for limit in limits_of(point) for other, codes in limit.unless if other == name for code in codes[:4]
+    ]
+    source = oracle.points.get(name)
+    return [raw for raw in dict.fromkeys(found) if source is None or source.least <= raw <= source.greatest]
+
+
+def limits_of(point: Point) -> list[Limit]:
+    """The limits of a point that other points set."""
+    return [bound for one in point.allowed.intervals for bound in (one.low, one.high) if isinstance(bound, Limit)]
+
+
+def _bounds(oracle: Oracle, name: str) -> tuple[int, int]:
+    source = oracle.points.get(name)
+    return (1, 1) if source is None else outer_bounds(source)

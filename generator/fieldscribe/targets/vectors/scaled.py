@@ -1,0 +1,153 @@
+"""Vectors of points with a scale: values in binary64, and counts of 10^-decimals units."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import inf, nan, nextafter
+
+from fieldscribe.model import Point
+from fieldscribe.targets.vectors import samples
+from fieldscribe.targets.vectors.lines import Lines, subject, with_text
+from fieldscribe.targets.vectors.numbers import exact_text, float_text, hex64, quotient
+from fieldscribe.targets.vectors.oracle import INT64, Oracle, Ratio, is_no_value
+
+INT32 = 1 << 31
+
+
+def _float(value: float) -> str:
+    return f'"float": "{hex64(value)}", "value": "{float_text(value)}"'
+
+
+_NAN, _INFINITY, _MINUS_INFINITY = _float(nan), _float(inf), _float(-inf)
+_HUGE, _MINUS_ZERO = _float(1e300), _float(-0.0)
+
+
+def scaled(lines: Lines, oracle: Oracle, point: Point) -> None:
+    """All vectors of a scaled point, for each setting of what it depends on."""
+    full = True
+    for settings in samples.settings(oracle, point) if point.arguments else [{}]:
+        head = subject(point.item) + with_text(settings)
+        ratio = oracle.ratio(point, settings)
+        limits = oracle.limits(point, settings)
+        if isinstance(ratio, str):
+            _no_rule(lines, point, head, ratio)
+        elif isinstance(limits, str):
+            _no_limits(lines, point, head, ratio, limits)
+        else:
+            _Sheet(lines, point, head, ratio, limits, full).write()
+            full = False
+
+
+def _no_rule(lines: Lines, point: Point, head: str, status: str) -> None:
+    """A setting with which nothing can be computed."""
+    raw = next(raw for raw in (1, 0, point.greatest) if not is_no_value(point, raw))
+    if point.readable:
+        lines.add("decode", f'{head}, "raw": {raw}, "status": "{status}"')
+        lines.add("decode_count", f'{head}, "raw": {raw}, "status": "{status}"')
+    if point.writable:
+        lines.add("encode", f'{head}, {_float(1.0)}, "status": "{status}"')
+        lines.add("encode_count", f'{head}, "count": 1, "status": "{status}"')
+        lines.add("encode", f'{head}, {_NAN}, "status": "not_a_number"')
+
+
+def _no_limits(lines: Lines, point: Point, head: str, ratio: Ratio, status: str) -> None:
+    """A setting with which values can be computed but not what may be written."""
+    if point.writable:
+        # Inside the outer bounds of the limit, so that nothing but the limit can refuse it.
+        raw = samples.limits_of(point)[0].greatest
+        value = quotient(ratio.numerator(raw), ratio.denominator)
+        lines.add("encode", f'{head}, {_float(value)}, "status": "{status}"')
+        lines.add("encode_count", f'{head}, "count": {ratio.count_of_raw(raw, point.decimals)}, "status": "{status}"')
+        lines.add("check", f'{head}, "raw": {raw}, "status": "{status}"')
+
+
+@dataclass(frozen=True, slots=True)
+class _Sheet:
+    """One point with one setting under which it can be computed; `full` for the first setting, others get less."""
+
+    lines: Lines
+    point: Point
+    head: str
+    ratio: Ratio
+    limits: samples.Limits
+    full: bool
+
+    def write(self) -> None:
+        """All kinds, readable parts first."""
+        if self.point.readable:
+            raws = samples.raws_to_decode(self.point, self.limits)
+            self._decode(raws)
+            self._decode_count(raws)
+        if self.point.writable:
+            self._encode()
+            self._encode_count()
+            if self.full or self.point.limit_arguments:
+                self._check()
+
+    def _decode(self, raws: list[int]) -> None:
+        ratio, head, add, under = self.ratio, self.head, self.lines.add, self.ratio.denominator
+        for raw in raws:
+            if is_no_value(self.point, raw):
+                add("decode", f'{head}, "raw": {raw}, "status": "no_value"')
+            elif ratio.divides_exactly(raw):
+                over = ratio.numerator(raw)
+                bits = hex64(over / under)
+                add(
+                    "decode",
+                    f'{head}, "raw": {raw}, "status": "ok", "float": "{bits}", "value": "{exact_text(over, under)}"',
+                )
+
+    def _decode_count(self, raws: list[int]) -> None:
+        ratio, head, add, decimals = self.ratio, self.head, self.lines.add, self.point.decimals
+        for raw in raws:
+            if is_no_value(self.point, raw):
+                add("decode_count", f'{head}, "raw": {raw}, "status": "no_value"')
+                continue
+            count = ratio.count_of_raw(raw, decimals)
+            rest = f'"status": "ok", "count": {count}' if -INT64 <= count < INT64 else '"status": "overflow"'
+            add("decode_count", f'{head}, "raw": {raw}, {rest}')
+
+    def _inside(self, raw: int | None) -> bool:
+        return raw is not None and any(low <= raw <= high for low, high in self.limits)
+
+    def _encoded(self, raw: int | None) -> str:
+        return f'"status": "ok", "raw": {raw}' if self._inside(raw) else '"status": "out_of_range"'
+
+    def _encode(self) -> None:
+        ratio, head, add = self.ratio, self.head, self.lines.add
+        values = {quotient(ratio.numerator(raw), ratio.denominator): None for raw in samples.edges(self.limits)}
+        for half in samples.halves(ratio, self.limits):
+            values.update({half: None, nextafter(half, 0.0): None})
+        for value in values:
+            text = f'"float": "{hex64(value)}", "value": "{float_text(value)}"'
+            add("encode", f"{head}, {text}, {self._encoded(ratio.raw_of_float(value))}")
+        if self.full:
+            add("encode", f"{head}, {_MINUS_ZERO}, {self._encoded(ratio.raw_of_float(-0.0))}")
+            add("encode", f'{head}, {_NAN}, "status": "not_a_number"')
+            add("encode", f'{head}, {_INFINITY}, "status": "out_of_range"')
+            add("encode", f'{head}, {_MINUS_INFINITY}, "status": "out_of_range"')
+            add("encode", f"{head}, {_HUGE}, {self._encoded(ratio.raw_of_float(1e300))}")
+
+    def _encode_count(self) -> None:
+        ratio, head, add, decimals = self.ratio, self.head, self.lines.add, self.point.decimals
+        for count in self._counts():
+            add("encode_count", f'{head}, "count": {count}, {self._encoded(ratio.raw_of_count(count, decimals))}')
+
+    def _counts(self) -> list[int]:
+        """Counts of the limits, beyond them, around the first and the last half, and the ends of the integers."""
+        point, ratio, power = self.point, self.ratio, 10**self.point.decimals
+        found = {ratio.count_of_raw(raw, point.decimals): None for raw in samples.edges(self.limits)}
+        if ratio.denominator != power * abs(ratio.den) * ratio.under:  # else a count is a raw number
+            for raw in (self.limits[0][0], self.limits[-1][1] - 1):
+                below = (ratio.numerator(raw) + ratio.numerator(raw + 1)) * power // (2 * ratio.denominator)
+                found.update({below: None, below + 1: None})
+        ends = [ratio.count_of_raw(raw, point.decimals) for raw in (point.least, point.greatest)]
+        edge = INT32 if all(-INT32 <= count < INT32 for count in ends) else INT64
+        if self.full:
+            found.update({INT32 - 1: None, -INT32: None, edge - 1: None, -edge: None})
+        return [count for count in found if -edge <= count < edge]
+
+    def _check(self) -> None:
+        for raw in samples.raws_to_check(self.point, self.limits):
+            status = "ok" if self._inside(raw) else "out_of_range"
+            self.lines.add("check", f'{self.head}, "raw": {raw}, "status": "{status}"')

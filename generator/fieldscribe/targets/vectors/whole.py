@@ -1,0 +1,134 @@
+"""Vectors of points whose raw number is the value (integers, enums, flags, bits), of bit groups, words, addresses."""
+
+from __future__ import annotations
+
+from json import dumps
+
+from fieldscribe.model import Point
+from fieldscribe.targets.vectors import samples
+from fieldscribe.targets.vectors.lines import Lines, array, subject, with_text
+from fieldscribe.targets.vectors.oracle import INT64, Oracle, Settings, is_no_value
+
+
+def whole(lines: Lines, oracle: Oracle, point: Point) -> None:
+    """Decoding, encoding and checking of a point without a scale, for each setting of what it depends on."""
+    for settings in samples.settings(oracle, point) if point.arguments else [{}]:
+        limits = oracle.limits(point, settings)
+        head = subject(point.item) + with_text(settings)
+        if isinstance(limits, str):
+            raw = samples.limits_of(point)[0].greatest
+            if point.writable:
+                lines.add("encode_count", f'{head}, "count": {raw}, "status": "{limits}"')
+                lines.add("check", f'{head}, "raw": {raw}, "status": "{limits}"')
+        else:
+            _sheet(lines, oracle, point, settings, head, limits)
+
+
+def _sheet(lines: Lines, oracle: Oracle, point: Point, settings: Settings, head: str, limits: samples.Limits) -> None:
+    raws = dict.fromkeys((*samples.raws_to_check(point, limits), *samples.raws_to_decode(point, limits)))
+    if point.enum is not None:
+        raws.update(dict.fromkeys(entry.raw for entry in point.enum.entries))
+    for flag in point.flags:
+        raws[_signed(point, (1 << flag.width) - 1 << flag.low)] = None
+    top = INT64 if point.width > 16 else 1 << 31
+    if point.readable:
+        for raw in raws:
+            rest = '"status": "no_value"' if is_no_value(point, raw) else f'"status": "ok", "count": {raw}'
+            if raw < INT64:
+                lines.add("decode_count", f'{head}, "raw": {raw}, {rest}')
+    if not point.writable:
+        return
+    beyond = dict.fromkeys((*samples.edges(limits), point.least - 1, point.greatest + 1, top - 1, -top))
+    for count in {**raws, **beyond}:
+        if -top <= count < top:
+            status = oracle.check(point, count, settings)
+            lines.add(
+                "encode_count",
+                f'{head}, "count": {count}, "status": "{status}"' + (f', "raw": {count}' if status == "ok" else ""),
+            )
+    for raw in raws:
+        lines.add("check", f'{head}, "raw": {raw}, "status": "{oracle.check(point, raw, settings)}"')
+
+
+def _signed(point: Point, pattern: int) -> int:
+    """A pattern of the point's bits as its raw number."""
+    return pattern - (1 << point.width) if point.info.signed and pattern >> (point.width - 1) else pattern
+
+
+def names(lines: Lines, point: Point) -> None:
+    """Each named number of an enum, and numbers without a name."""
+    if point.enum is None:
+        return
+    head = subject(point.item)
+    named = {entry.raw: entry.name for entry in point.enum.entries}
+    for raw, name in named.items():
+        lines.add("name", f'{head}, "raw": {raw}, "name": {dumps(name)}')
+    strange = dict.fromkeys((*(raw + 1 for raw in named), min(named, default=0) - 1, point.least, point.greatest))
+    for raw in [raw for raw in strange if raw not in named and point.least <= raw <= point.greatest]:
+        lines.add("name", f'{head}, "raw": {raw}, "name": null')
+
+
+def specials(lines: Lines, point: Point) -> None:
+    """The numbers that are no quantity."""
+    for special in point.specials:
+        rest = f'"special": {dumps(special.name)}, "low": {special.low}, "high": {special.high}'
+        lines.add("special", f"{subject(point.item)}, {rest}")
+
+
+def flags(lines: Lines, point: Point) -> None:
+    """Each flag alone, all but each flag, and each of its named numbers."""
+    full = (1 << point.width) - 1
+    for flag in point.flags:
+        ones = (1 << flag.width) - 1
+        mask = ones << flag.low
+        words = [mask, full ^ mask, *(1 << bit for bit in range(flag.low, flag.low + flag.width))]
+        words += [entry.raw << flag.low for entry in flag.values if 0 <= entry.raw <= ones]
+        for word in dict.fromkeys(words):
+            number = word >> flag.low & ones
+            rest = f'"raw": {_signed(point, word)}, "flag": {dumps(flag.name)}, "number": {number}'
+            lines.add("flag", f"{subject(point.item)}, {rest}")
+
+
+def bits(lines: Lines, point: Point) -> None:
+    """A bit group taken out of its word, and another number put in."""
+    if point.bits is None:
+        return
+    low, ones = point.bits[1], (1 << point.width) - 1
+    patterns = dict.fromkeys((0, ones, 1, ones >> 1, ones ^ ones >> 1))
+    for word, put in (
+        (0, ones),
+        (0xFFFF, 0),
+        (0x5A3C, 0x5555 & ones),
+        (0xA5C3, 0xAAAA & ones),
+        *((0, one) for one in patterns),
+    ):
+        _bits_line(lines, point, word, put, word & ~(ones << low) | put << low)
+    for one in patterns:
+        _bits_line(lines, point, one << low, ones ^ one, (ones ^ one) << low)
+
+
+def _bits_line(lines: Lines, point: Point, word: int, put: int, result: int) -> None:
+    assert point.bits is not None
+    raw = _signed(point, word >> point.bits[1] & (1 << point.width) - 1)
+    rest = f'"word": {word}, "raw": {raw}, "replaced": {_signed(point, put)}, "result": {result}'
+    lines.add("bits", f"{subject(point.item)}, {rest}")
+
+
+def words(lines: Lines, point: Point) -> None:
+    """Patterns of a point of several words, in ascending order of the addresses."""
+    if point.words < 2 or not point.places:
+        return
+    count = point.words
+    order = sorted(range(count), key=point.places[0].addresses.__getitem__)
+    ascending = sum(0x0001_0203_0405_0607 >> 64 - 16 * count & 0xFFFF << 16 * place for place in range(count))
+    patterns = (0, 1, ascending, 1 << 16 * count - 1, (1 << 16 * count - 1) - 1, (1 << 16 * count) - 1, 0xFFFF)
+    for pattern in patterns:
+        parts = [pattern >> 16 * (count - 1 - place) & 0xFFFF for place in order]
+        lines.add("words", f'{subject(point.item)}, "raw": {_signed(point, pattern)}, "words": {array(parts)}')
+
+
+def address(lines: Lines, point: Point) -> None:
+    """Where the point is on the wire."""
+    if point.address is not None:
+        rest = f'"space": {dumps(point.places[0].space)}, "address": {point.address}, "words": {point.words}'
+        lines.add("address", f"{subject(point.item)}, {rest}")

@@ -1,0 +1,100 @@
+"""The one place where text from a description becomes a comment or a literal of some language.
+
+Descriptions come from strangers: whatever a title holds, the result of these functions stays inside its comment or quotes.
+"""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from functools import lru_cache
+
+_PLAIN = re.compile(r"[ -~]*")
+_SPACES = re.compile(r"\s+")
+_DROPPED_CATEGORIES = frozenset({"Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp"})
+
+
+@lru_cache(maxsize=65536)
+def line(text: str) -> str:
+    """One clean line: white space folded; control, format (bidi), surrogate and unassigned characters dropped."""
+    if not _PLAIN.fullmatch(text):
+        spaced = "".join(" " if char in "\r\n\t\v\f\x85\u2028\u2029" else char for char in text)
+        text = "".join(char for char in spaced if unicodedata.category(char) not in _DROPPED_CATEGORIES)
+    return _SPACES.sub(" ", text).strip()
+
+
+@lru_cache(maxsize=65536)
+def c_comment(text: str) -> str:
+    """Text for inside a C block comment: no end or start of comment, no trigraph, no line splice."""
+    cleaned = line(text).replace("*/", "* /").replace("/*", "/ *").replace("??", "? ?")
+    return cleaned.rstrip("\\") if cleaned.endswith("\\") else cleaned
+
+
+@lru_cache(maxsize=65536)
+def c_string(text: str) -> str:
+    """A C string literal with its quotes; beyond ASCII as UTF-8 in octal escapes (they end by themselves)."""
+    escaped = []
+    for byte in line(text).encode():
+        char = chr(byte)
+        plain = " " <= char <= "~" and char not in '"\\?'
+        escaped.append(char if plain else f"\\{byte:03o}")
+    return '"' + "".join(escaped) + '"'
+
+
+@lru_cache(maxsize=65536)
+def python_string(text: str) -> str:
+    """A Python string literal in double quotes, printable characters as they are."""
+    escaped = []
+    for char in line(text):
+        if char in '"\\':
+            escaped.append("\\" + char)
+        elif char.isprintable():
+            escaped.append(char)
+        else:
+            escaped.append(f"\\U{ord(char):08x}")
+    return '"' + "".join(escaped) + '"'
+
+
+@lru_cache(maxsize=65536)
+def python_doc(text: str) -> str:
+    """Text for inside a triple-quoted docstring or a `#` comment."""
+    return line(text).replace("\\", "\\\\").replace('"', "'")
+
+
+@lru_cache(maxsize=65536)
+def rust_doc(text: str) -> str:
+    """Text for a Rust `///` or `//` line: Markdown characters that rustdoc would read are escaped."""
+    return re.sub(r"([\\`*_\[\]<>#|])", r"\\\1", line(text))
+
+
+@lru_cache(maxsize=65536)
+def rust_string(text: str) -> str:
+    """A Rust string literal with its quotes."""
+    escaped = []
+    for char in line(text):
+        if char in '"\\':
+            escaped.append("\\" + char)
+        elif char.isprintable():
+            escaped.append(char)
+        else:
+            escaped.append(f"\\u{{{ord(char):x}}}")
+    return '"' + "".join(escaped) + '"'
+
+
+@lru_cache(maxsize=65536)
+def markdown(text: str) -> str:
+    """Text for a Markdown paragraph or table cell: no markup, no HTML, no link, no cell border."""
+    cleaned = line(text).replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
+    return re.sub(r"([\\`*_{}\[\]()#+\-!|~])", r"\\\1", cleaned) if _needs_escape(cleaned) else cleaned
+
+
+def csv_cell(text: str) -> str:
+    """A cell for CSV, quoted where needed; what a spreadsheet would run as a formula starts with an apostrophe."""
+    cleaned = line(text)
+    if cleaned[:1] in ("=", "+", "-", "@") and not re.fullmatch(r"[-+]?[0-9][0-9.]*", cleaned):
+        cleaned = "'" + cleaned
+    return '"' + cleaned.replace('"', '""') + '"' if any(char in cleaned for char in ',"') else cleaned
+
+
+def _needs_escape(text: str) -> bool:
+    return any(char in text for char in "\\`*_{}[]()#+-!|~")

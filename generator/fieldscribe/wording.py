@@ -1,0 +1,165 @@
+"""How facts of a point are said to people: ranges, scales and units as exact text, one wording for all outputs.
+
+The texts are plain: whoever places them in markup or code encodes them (text.py). Another point appears as `name.raw`
+(its raw number), or as `name` (its value) where `points` is given and the value is what the rule means.
+"""
+
+from __future__ import annotations
+
+from fieldscribe.exact import exact, fixed_rule, hex_text, number_text
+from fieldscribe.model import Device, Entry, Flag, Point, Special, Titles
+from fieldscribe.rule_words import RAW, Points, inverse_text, ranges_text, shown
+
+_ACCESS = {"r": "read only", "w": "write only", "rw": "read and write", "none": "not reachable over the bus"}
+
+
+def address_text(address: int) -> str:
+    """A wire address in both notations: `1028h (4136)`."""
+    return f"{hex_text(address)} ({address})"
+
+
+def words_text(point: Point) -> str:
+    """All words of a point, and which one holds the high part: `1013h (4115) high, 1014h (4116) low`."""
+    addresses = point.addresses
+    if len(addresses) < 2:
+        return address_text(addresses[0]) if addresses else ""
+    if len(addresses) == 2:
+        return f"{address_text(addresses[0])} high, {address_text(addresses[1])} low"
+    return ", ".join(map(address_text, addresses)) + " (high part first)"
+
+
+def with_unit(text: str, point: Point) -> str:
+    """The text with the point's unit behind it."""
+    return f"{text} {point.unit.symbol}" if text and point.unit.symbol else text
+
+
+def title_text(titles: Titles) -> str:
+    """A title in all its languages, English first: `Base frequency / Basisfrequenz`."""
+    if len(titles) == 1:
+        return titles["en"]
+    return " / ".join(dict.fromkeys((titles["en"], *(title for key, title in titles.items() if key != "en"))))
+
+
+def type_text(point: Point) -> str:
+    """The wire type, with the bits of a bit group: `u8, bits 15..14`."""
+    if point.bits is None:
+        return point.type
+    high, low = point.bits
+    return f"{point.type}, bit {low}" if high == low else f"{point.type}, bits {high}..{low}"
+
+
+def access_text(access: str) -> str:
+    """What the bus may do with a point, in words."""
+    return _ACCESS.get(access, access)
+
+
+def value_text(point: Point, raw: int) -> str:
+    """The value of a raw number, without its unit; empty where other points decide it or raw is a bit pattern."""
+    rule = None if point.info.floating else fixed_rule(point)
+    return "" if rule is None else shown(raw, rule)
+
+
+def meaning_text(point: Point, raw: int) -> str:
+    """What a raw number means: the name of a special code or of an enum, else value and unit; empty for itself."""
+    for special in point.specials:
+        if special.low <= raw <= special.high:
+            return special.name
+    if point.enum is not None:
+        return next((one.name for one in point.enum.entries if one.raw == raw), "")
+    return "" if point.scale is None and not point.unit.symbol else with_unit(value_text(point, raw), point)
+
+
+def resolution_text(point: Point) -> str:
+    """What one raw step is in the unit: `0.1 Hz`; with coarser steps: `0.01 s, from 100 s on 0.1 s`. May be empty."""
+    rule = fixed_rule(point)
+    stepped = point.form == "scaled" or (point.form == "integer" and (point.unit.symbol or point.steps))
+    if rule is None or not stepped:
+        return ""
+    steps = point.steps or ((0, 1),)
+    parts = [with_unit(exact(abs(steps[0][1] * rule[0]), rule[2]), point)]
+    for start, step in steps[1:]:
+        coarser = with_unit(exact(abs(step * rule[0]), rule[2]), point)
+        parts.append(f"from {with_unit(shown(start, rule), point)} on {coarser}")
+    return ", ".join(parts)
+
+
+def steps_text(point: Point) -> str:
+    """The raw steps that the device keeps: `raw 1, from raw 10000 on 10`."""
+    if not point.steps:
+        return ""
+    return f"raw {point.steps[0][1]}" + "".join(f", from raw {start} on {step}" for start, step in point.steps[1:])
+
+
+def scale_text(point: Point) -> str:
+    """How a raw number becomes the value: `raw x 0.1 Hz`; empty where the raw number is the value or a bit pattern."""
+    if point.scale is None:
+        return f"raw x 1 {point.unit.symbol}" if point.unit.symbol and point.form == "integer" else ""
+    if len(point.scale) == 1 and point.scale[0].point is None:
+        return with_unit(inverse_text(point.scale[0].rule), point)
+    return "; ".join(
+        with_unit(inverse_text(case.rule), point) + f" when {case.point}.raw is {case.raw}" for case in point.scale
+    )
+
+
+def range_text(point: Point, points: Points | None = None) -> str:
+    """Which values may be written, in the unit: `0..400 Hz`; empty where only the raw numbers can be said."""
+    if point.info.floating:
+        ends = [f"{number_text(low)}..{number_text(high)}" for low, high in point.allowed.units]
+        return with_unit(" or ".join(ends), point) if ends else "any number"
+    rule = fixed_rule(point)
+    return "" if rule is None else ranges_text(point, rule, points, point.unit.symbol)
+
+
+def raw_range_text(point: Point) -> str:
+    """Which raw numbers may be written: `0..4000`; empty for f32 and f64, whose limits are values."""
+    return "" if point.info.floating else ranges_text(point, RAW, None, "")
+
+
+def outer_raw(point: Point) -> tuple[int, int] | None:
+    """The least and the greatest raw number that can ever be allowed."""
+    intervals = point.allowed.intervals
+    if not intervals:
+        return None
+    lows = [one.low if isinstance(one.low, int) else one.low.least for one in intervals]
+    highs = [one.high if isinstance(one.high, int) else one.high.greatest for one in intervals]
+    return min(lows), max(highs)
+
+
+def entry_text(entry: Entry) -> str:
+    """One named number: `0 = keypad (Keypad / Bedienfeld)`."""
+    quantity = f", {entry.quantity}" if entry.quantity else ""
+    return f"{entry.raw} = {entry.name} ({title_text(entry.title)}{quantity})"
+
+
+def special_text(special: Special) -> str:
+    """A raw number beside the quantities: `32767 = no_sensor (No sensor), no value`."""
+    numbers = str(special.low) if special.low == special.high else f"{special.low}..{special.high}"
+    return f"{numbers} = {special.name} ({title_text(special.title)})" + (", no value" if special.no_value else "")
+
+
+def flag_bits(flag: Flag) -> str:
+    """The bits of a flag: `3`, or `5..4`."""
+    return str(flag.low) if flag.width == 1 else f"{flag.low + flag.width - 1}..{flag.low}"
+
+
+def flag_text(flag: Flag) -> str:
+    """One flag of a word: `bit 3 = fault (Fault), true when 0`, or `bits 5..4 = mode (Mode): 0 = stop (Stop)`."""
+    head = f"{'bit' if flag.width == 1 else 'bits'} {flag_bits(flag)} = {flag.name} ({title_text(flag.title)})"
+    inverted = ", true when 0" if flag.width == 1 and flag.active == 0 else ""
+    values = ": " + ", ".join(map(entry_text, flag.values)) if flag.values else ""
+    return head + inverted + values
+
+
+def keeps_text(device: Device, point: Point) -> str:
+    """Whether a written value survives switching off, and what that takes."""
+    if point.keeps is None:
+        return ""
+    if point.keeps in ("no", "yes"):
+        return "lost when switched off" if point.keeps == "no" else "kept; each write wears the memory"
+    command = next((one for one in device.commands if one.name == point.keeps), None)
+    if command is None:
+        return f"kept by {point.keeps}"
+    value = "any value" if command.value is None else str(command.value)
+    where = f"{command.space} {address_text(command.address)} with function {hex_text(command.function, 2)}"
+    wears = f"; the memory stands {command.wears} writes" if command.wears else ""
+    return f"kept only after the command {command.name} (write {value} to {where}){wears}"

@@ -1,0 +1,147 @@
+"""Numbers as manuals write them."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from time import perf_counter
+
+import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
+
+from fieldscribe.language.numbers import LONGEST, NumberError, parse_integer, parse_number
+
+NUMBERS = {
+    "4136": Fraction(4136),
+    "0.1": Fraction(1, 10),
+    "-5": Fraction(-5),
+    "+3": Fraction(3),
+    "-0.50": Fraction(-1, 2),
+    "010": Fraction(10),
+    "0": Fraction(0),
+    "0x1028": Fraction(0x1028),
+    "0X1028": Fraction(0x1028),
+    "1028h": Fraction(0x1028),
+    "1028H": Fraction(0x1028),
+    "DDh": Fraction(0xDD),
+    "1bh": Fraction(0x1B),
+    "-1Fh": Fraction(-0x1F),
+    "H'33F": Fraction(0x33F),
+    "0b0101": Fraction(5),
+    "-0b11": Fraction(-3),
+    "0b01h": Fraction(0xB01),
+    "0B01h": Fraction(0xB01),
+    "4E20h": Fraction(0x4E20),
+    "1e3": Fraction(1000),
+    "1.5e-3": Fraction(3, 2000),
+    "1E+3": Fraction(1000),
+    "1E-3": Fraction(1, 1000),
+    "2.5E3": Fraction(2500),
+    "1e400": Fraction(10**400),
+    " 12\t": Fraction(12),
+}
+
+# text: (part of the message, part of the hint)
+REFUSED = {
+    "": ("missing", "1028h"),
+    "  ": ("missing", "1028h"),
+    "0,5": ("decimal comma", "0.5"),
+    "1,234": ("separator of thousands", "1.234"),
+    "1,234,567": ("thousands", "1234567"),
+    "1 000": ("thousands", "1000"),
+    "1'000": ("thousands", "1000"),
+    "1_000": ("thousands", "1000"),
+    "1\u00a0000": ("thousands", "1000"),
+    "1.000.000": ("thousands", "1000000"),
+    "4E20": ("hexadecimal or a power of ten", "write 4E20h or 0x4E20"),
+    "-4E20": ("hexadecimal or a power of ten", "write -4E20h or -0x4E20"),
+    "1FF": ("without a marker", "1FFh"),
+    "FF": ("without a marker", "FFh"),
+    "5A": ("without a marker", "unit"),
+    "0b102": ("0 and 1", "0b0101"),
+    "0b": ("0 and 1", "0b0101"),
+    "0B01": ("small b", "0b0101"),
+    "0x": ("hexadecimal", "0x1028"),
+    "0xZZ": ("hexadecimal", "0x1028"),
+    "0x10h": ("one marker", "1028h"),
+    "12Gh": ("hexadecimal", "1028h"),
+    "H'": ("hexadecimal", "H'1028"),
+    "H'33F'": ("hexadecimal", "H'1028"),
+    ".5": ("before the decimal point", "0.5"),
+    "5.": ("behind the decimal point", "5.0"),
+    "- 5": ("between sign and number", "directly"),
+    "10 28h": ("inside", "without blanks"),
+    "1 2": ("inside", "without blanks"),
+    "50 Hz": ("unit", "alone"),
+    "50.0Hz": ("unit", "alone"),
+    "100ms": ("unit", "alone"),
+    "5%": ("unit", "alone"),
+    "20 \u00b0C": ("unit", "alone"),
+    "\u22125": ("minus", "-"),
+    "1e401": ("beyond 400", "exponent"),
+    "1e-401": ("beyond 400", "exponent"),
+    "1" * (LONGEST + 1): ("at most 64", "1e30"),
+    "--5": ("not a number", "4136"),
+    "\u0661\u0662": ("not a number", "4136"),
+    "nan": ("not a number", "4136"),
+    "h": ("not a number", "4136"),
+    "12\n": ("not a number", "4136"),
+}
+
+
+@pytest.mark.parametrize("text", NUMBERS)
+def test_numbers_mean_what_the_manual_means(text: str) -> None:
+    assert parse_number(text) == NUMBERS[text]
+
+
+@pytest.mark.parametrize("text", REFUSED)
+def test_what_is_no_number_is_refused_with_a_hint(text: str) -> None:
+    message, hint = REFUSED[text]
+    with pytest.raises(NumberError) as caught:
+        parse_number(text)
+    assert message in caught.value.message
+    assert hint in caught.value.hint
+
+
+def test_whole_numbers() -> None:
+    assert parse_integer("1028h") == 0x1028
+    assert parse_integer("-7") == -7
+    assert parse_integer("1e3") == 1000
+
+
+@pytest.mark.parametrize("text", ["0.5", "12.0", "15e-1", "2036.10"])
+def test_a_fraction_is_no_whole_number(text: str) -> None:
+    with pytest.raises(NumberError, match="not a whole number"):
+        parse_integer(text)
+
+
+def test_a_message_quotes_hostile_text_clean_and_short() -> None:
+    with pytest.raises(NumberError) as caught:
+        parse_number("\u202e\x1b[31m" + "x" * 57)
+    assert len(caught.value.message) < 80
+    assert caught.value.message.isprintable()
+
+
+@given(st.text(max_size=80) | st.text(alphabet="0123456789.,+-eExXbBhH'aFfF _", max_size=80))
+@example("1" * 64)
+@example("9" * 32 + " " * 31 + "z")
+@example("1e" + "0" * 62)
+@example("1e" + "9" * 62)
+def test_any_text_gives_a_number_or_a_number_error(text: str) -> None:
+    begun = perf_counter()
+    for parse in (parse_number, parse_integer):
+        try:
+            parse(text)
+        except NumberError as error:
+            assert error.message
+            assert (error.message + error.hint).isprintable()
+    assert perf_counter() - begun < 0.1
+
+
+@given(st.integers(-(2**64), 2**64))
+def test_all_notations_of_a_whole_number_agree(number: int) -> None:
+    sign, magnitude = ("-" if number < 0 else ""), abs(number)
+    for text in (f"{magnitude}", f"0{magnitude:X}h", f"0x{magnitude:x}", f"H'{magnitude:X}", f"{magnitude}e0"):
+        assert parse_integer(sign + text) == number
+    if magnitude < 2**60:
+        assert parse_integer(f"{sign}0b{magnitude:b}") == number
