@@ -5,8 +5,10 @@ from __future__ import annotations
 from fractions import Fraction
 from functools import lru_cache
 from math import gcd
+from typing import TYPE_CHECKING
 
-from fieldscribe.model import Factor, Linear, Point
+if TYPE_CHECKING:
+    from fieldscribe.model import Factor, Linear, Point
 
 _SHORT = 6
 """A factor with at most this many decimals is said as a decimal (`x 0.125`), else as a division (`/ 256`)."""
@@ -69,9 +71,9 @@ def inverse(rule: Linear) -> tuple[int, int, int]:
 
 
 def fixed_rule(point: Point) -> tuple[int, int, int] | None:
-    """Integers (multiply, add, divide) with value = (raw * multiply + add) / divide; None where other points decide."""
+    """Integers (multiply, add, divide) with value = (raw * multiply + add) / divide; None if not fixed or unknown."""
     if point.scale is None:
-        return 1, 0, 1
+        return (1, 0, 1) if point.generated or not point.unit.symbol else None
     first = point.scale[0]
     if len(point.scale) > 1 or first.point is not None or first.rule.factors:
         return None

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from fieldscribe import wording
 from fieldscribe.exact import hex_text, number_text
 from fieldscribe.explain_requests import read_text, write_text
 from fieldscribe.lookup import Match, find, near
-from fieldscribe.model import Device, Erratum, Point, Source
 from fieldscribe.text import line
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from fieldscribe.model import Device, Erratum, Point, Source
 
 __all__ = ["Explanation", "Match", "explain_point", "find", "near"]
 
@@ -58,7 +62,7 @@ def explain_point(device: Device, point: Point, *, as_documented: bool = False) 
     if as_documented:
         rows = _documented(rows, errata)
     else:
-        rows += [(f"Erratum {one.id}", _erratum_text(one)) for one in errata]
+        rows += [("Erratum", _erratum_text(one)) for one in errata]
     rows += _last_rows(device, point)
     head = f"{point.code} {point.item}" if point.code else point.item
     heading = line(f"{head}: {wording.title_text(point.title)}")
@@ -123,7 +127,7 @@ def _needs(names: tuple[str, ...] | list[str]) -> str:
 
 def _names_rows(point: Point) -> Iterator[Row]:
     if point.enum is not None:
-        yield "Names", "only the named numbers may be written" if point.enum.closed else "other numbers are possible"
+        yield "Names", "only these may be written" if point.enum.closed else "the range says what may be written"
         for entry in point.enum.entries:
             yield f"Raw {entry.raw}", wording.entry_text(entry).partition(" = ")[2]
     for special in point.specials:
@@ -162,7 +166,8 @@ def _source_text(device: Device, source: Source) -> str:
 
 
 def _erratum_text(erratum: Erratum) -> str:
-    return f"The manual prints: {erratum.printed}. Taken: {erratum.taken}. {erratum.why} ({erratum.certainty})"
+    printed, taken, why = (text.rstrip(". ") for text in (erratum.printed, erratum.taken, erratum.why))
+    return f"{erratum.id} ({erratum.certainty}): the manual prints: {printed}. Taken: {taken}. {why}."
 
 
 def _documented(rows: list[Row], errata: list[Erratum]) -> list[Row]:

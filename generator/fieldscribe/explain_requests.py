@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import struct
+from typing import TYPE_CHECKING
 
 from fieldscribe import wording
 from fieldscribe.exact import fixed_rule, hex_text
 from fieldscribe.families.modbus import SPACES, Request, build, profile_of
-from fieldscribe.model import Device, Point
+
+if TYPE_CHECKING:
+    from fieldscribe.model import Device, Point
 
 
 def read_text(device: Device, point: Point) -> str:

@@ -5,9 +5,13 @@ It changes only with its `format` number. JSON numbers are integers; every other
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from fieldscribe.export_points import export_point, source_of
-from fieldscribe.export_rules import PointsByName
-from fieldscribe.model import Bus, Code, Command, Device, Document, Erratum, Frame
+
+if TYPE_CHECKING:
+    from fieldscribe.export_rules import PointsByName
+    from fieldscribe.model import Bus, Code, Command, Device, Document, Erratum, Frame
 
 FORMAT = 1
 """The number of this contract."""

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from fieldscribe.exact import fixed_rule, number_text
 from fieldscribe.export_rules import PointsByName, bound_of, scale_of
-from fieldscribe.model import Allowed, Entry, Enum, Flag, Place, Point, Source, Special
+
+if TYPE_CHECKING:
+    from fieldscribe.model import Allowed, Entry, Enum, Flag, Place, Point, Source, Special
 
 _MOST_VALUES = 4096
 """A longer list of single numbers is said as ranges alone."""

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from fieldscribe.diagnostics import Report, Span
-from fieldscribe.language.load import Map, load
-from fieldscribe.language.shape import check_shape
 from fieldscribe.language.source import read_source, shown
-from fieldscribe.model import Device
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+    from fieldscribe.language.load import Map
+    from fieldscribe.model import Device
 
 DEVICE_FILE = "device.yaml"
 _UNSAFE_NAMES = frozenset({"con", "prn", "aux", "nul", *(f"{port}{n}" for port in ("com", "lpt") for n in range(10))})
@@ -26,7 +29,11 @@ def find_devices(paths: Iterable[Path], report: Report) -> list[Path]:
         else:
             candidates = sorted(path.glob(f"*/{DEVICE_FILE}"))
         if not candidates:
-            missing = "there is no such file or folder" if not path.exists() else f"the folder holds no {DEVICE_FILE}, nor do its folders"
+            missing = (
+                "there is no such file or folder"
+                if not path.exists()
+                else f"the folder holds no {DEVICE_FILE}, nor do its folders"
+            )
             hint = f"name a folder with {DEVICE_FILE}, or a folder of such folders"
             report.error("no-device", missing, Span(shown(path), 1, 1), hint)
         found.update(dict.fromkeys(candidates))
@@ -72,7 +79,12 @@ def _read(device_file: Path, report: Report) -> tuple[Map, ...] | None:
         if name in seen:
             report.error("duplicate-name", f"the part `{name}` is listed twice", span, "remove one of them")
         elif not (device_file.parent / name).is_file():
-            report.error("missing-part", f"there is no file `{name}` beside {device_file.name}", span, "create it or take it off the list")
+            report.error(
+                "missing-part",
+                f"there is no file `{name}` beside {device_file.name}",
+                span,
+                "create it or take it off the list",
+            )
         else:
             parts.append(_file(device_file.parent / name, "part_file", report))
         seen[name] = index
@@ -80,6 +92,9 @@ def _read(device_file: Path, report: Report) -> tuple[Map, ...] | None:
 
 
 def _file(path: Path, kind: str, report: Report) -> Map | None:
+    from fieldscribe.language.load import load
+    from fieldscribe.language.shape import check_shape
+
     source = read_source(path, report)
     root = None if source is None else load(source, report)
     return root if root is not None and check_shape(root, kind, report) else None
@@ -88,7 +103,12 @@ def _file(path: Path, kind: str, report: Report) -> Map | None:
 def _safe_name(header: Map, report: Report) -> None:
     if header["device"] in _UNSAFE_NAMES:
         hint = "name it after vendor and model, such as `hitachi_l200`"
-        report.error("unsafe-name", f"`{header['device']}` is no safe name for a folder on every system", header.span("device"), hint)
+        report.error(
+            "unsafe-name",
+            f"`{header['device']}` is no safe name for a folder on every system",
+            header.span("device"),
+            hint,
+        )
 
 
 def _compile(files: tuple[Map, ...], report: Report) -> Device:

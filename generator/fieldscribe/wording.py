@@ -6,9 +6,13 @@ The texts are plain: whoever places them in markup or code encodes them (text.py
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from fieldscribe.exact import exact, fixed_rule, hex_text, number_text
-from fieldscribe.model import Device, Entry, Flag, Point, Special, Titles
 from fieldscribe.rule_words import RAW, Points, inverse_text, ranges_text, shown
+
+if TYPE_CHECKING:
+    from fieldscribe.model import Device, Entry, Flag, Point, Special, Titles
 
 _ACCESS = {"r": "read only", "w": "write only", "rw": "read and write", "none": "not reachable over the bus"}
 
@@ -93,7 +97,8 @@ def steps_text(point: Point) -> str:
 def scale_text(point: Point) -> str:
     """How a raw number becomes the value: `raw x 0.1 Hz`; empty where the raw number is the value or a bit pattern."""
     if point.scale is None:
-        return f"raw x 1 {point.unit.symbol}" if point.unit.symbol and point.form == "integer" else ""
+        plain = point.form == "integer" and point.unit.symbol and point.generated
+        return f"raw x 1 {point.unit.symbol}" if plain else ""
     if len(point.scale) == 1 and point.scale[0].point is None:
         return with_unit(inverse_text(point.scale[0].rule), point)
     return "; ".join(
@@ -127,8 +132,9 @@ def outer_raw(point: Point) -> tuple[int, int] | None:
 
 def entry_text(entry: Entry) -> str:
     """One named number: `0 = keypad (Keypad / Bedienfeld)`."""
-    quantity = f", {entry.quantity}" if entry.quantity else ""
-    return f"{entry.raw} = {entry.name} ({title_text(entry.title)}{quantity})"
+    title = title_text(entry.title)
+    quantity = f", {entry.quantity}" if entry.quantity and entry.quantity not in title else ""
+    return f"{entry.raw} = {entry.name} ({title}{quantity})"
 
 
 def special_text(special: Special) -> str:
@@ -155,11 +161,11 @@ def keeps_text(device: Device, point: Point) -> str:
     if point.keeps is None:
         return ""
     if point.keeps in ("no", "yes"):
-        return "lost when switched off" if point.keeps == "no" else "kept; each write wears the memory"
+        return "no, lost when switched off" if point.keeps == "no" else "yes, each write wears the memory"
     command = next((one for one in device.commands if one.name == point.keeps), None)
     if command is None:
-        return f"kept by {point.keeps}"
+        return f"by {point.keeps}"
     value = "any value" if command.value is None else str(command.value)
     where = f"{command.space} {address_text(command.address)} with function {hex_text(command.function, 2)}"
     wears = f"; the memory stands {command.wears} writes" if command.wears else ""
-    return f"kept only after the command {command.name} (write {value} to {where}){wears}"
+    return f"only after the command {command.name} (write {value} to {where}){wears}"

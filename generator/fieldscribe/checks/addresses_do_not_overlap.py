@@ -31,11 +31,23 @@ def _compare(subject: Subject, mine: Resolved, other: Resolved, address: int) ->
         return
     related = [(other.draft.span("at"), f"`{other.point.name}` stands here")]
     if mine.point.bits and other.point.bits:
-        message = f"`{mine.point.name}` and `{other.point.name}` both take bit {max(low, other_low)} of address {address}"
-        subject.report.error("bits-overlap", message, mine.draft.span("bits"), "points may share a word, but not its bits", related)
+        message = (
+            f"`{mine.point.name}` and `{other.point.name}` both take bit {max(low, other_low)} of address {address}"
+        )
+        subject.report.error(
+            "bits-overlap", message, mine.draft.span("bits"), "points may share a word, but not its bits", related
+        )
     else:
-        message = f"`{mine.point.name}` and `{other.point.name}` both stand at {mine.point.space} {address} ({address:04X}h)"
-        subject.report.error("address-taken", message, mine.draft.span("at"), "correct one `at`, or give both `bits` of the word", related)
+        message = (
+            f"`{mine.point.name}` and `{other.point.name}` both stand at {mine.point.space} {address} ({address:04X}h)"
+        )
+        subject.report.error(
+            "address-taken",
+            message,
+            mine.draft.span("at"),
+            "correct one `at`, or give both `bits` of the word",
+            related,
+        )
 
 
 def _gaps(subject: Subject, taken: dict[tuple[str, int], list[Resolved]]) -> None:
@@ -43,11 +55,18 @@ def _gaps(subject: Subject, taken: dict[tuple[str, int], list[Resolved]]) -> Non
     for space, gaps in subject.bus.gaps.items():
         if space not in spaces:
             bus = next(file["bus"] for file in subject.scope.files if "bus" in file)
-            subject.report.error("unknown-space", f"there is no space `{space}`", bus["gaps"].key_span(space), f"known: {', '.join(spaces)}")
+            subject.report.error(
+                "unknown-space",
+                f"there is no space `{space}`",
+                bus["gaps"].key_span(space),
+                f"known: {', '.join(spaces)}",
+            )
         for resolved in (one for (where, _), points in taken.items() if where == space for one in points):
             if any(low <= address <= high for low, high in gaps for address in resolved.point.addresses):
                 message = f"`{resolved.point.name}` lies in a gap that no request may touch"
-                subject.report.error("address-in-gap", message, resolved.draft.span("at"), "correct the gap under `bus`, or the address")
+                subject.report.error(
+                    "address-in-gap", message, resolved.draft.span("at"), "correct the gap under `bus`, or the address"
+                )
 
 
 def _commands(subject: Subject, taken: dict[tuple[str, int], list[Resolved]]) -> None:

@@ -19,7 +19,12 @@ def check(subject: Subject) -> None:
             exact = exact * point.scale[0].rule.ratio + point.scale[0].rule.offset
         if exact.denominator != 1 or not _allowed(point, exact.numerator):
             message = f"the default {point.default} is no value that the range allows"
-            subject.report.error("default-outside-range", message, resolved.draft.span("default"), "defaults are in the unit; correct it or the range")
+            subject.report.error(
+                "default-outside-range",
+                message,
+                resolved.draft.span("default"),
+                "defaults are in the unit; correct it or the range",
+            )
 
 
 def _allowed(point: Point, raw: int) -> bool:

@@ -16,9 +16,13 @@ def check(subject: Subject) -> None:
             _entries(subject, resolved)
         for special in point.specials:
             if special.low < point.least or special.high > point.greatest:
-                message = f"the special code {special.low} lies outside the type, which holds {point.least}..{point.greatest}"
+                message = (
+                    f"the special code {special.low} lies outside the type, which holds {point.least}..{point.greatest}"
+                )
                 key = "no_value" if special.no_value else "special"
-                subject.report.error("range-outside-type", message, resolved.draft.span(key), "correct the code or the `type`")
+                subject.report.error(
+                    "range-outside-type", message, resolved.draft.span(key), "correct the code or the `type`"
+                )
 
 
 def _entries(subject: Subject, resolved: Resolved) -> None:
@@ -27,7 +31,11 @@ def _entries(subject: Subject, resolved: Resolved) -> None:
     raw = draft.get("enum")
     ranged = draft.layer("range") is not None
     for entry in point.enum.entries:
-        key = next((key for key in raw if isinstance(raw, Map) and _is(key, entry.raw)), None) if isinstance(raw, Map) else None
+        key = (
+            next((key for key in raw if isinstance(raw, Map) and _is(key, entry.raw)), None)
+            if isinstance(raw, Map)
+            else None
+        )
         span = raw.key_span(key) if isinstance(raw, Map) and key is not None else draft.span("enum")
         if not point.least <= entry.raw <= point.greatest:
             message = f"`{entry.name}` is {entry.raw}, outside the type, which holds {point.least}..{point.greatest}"

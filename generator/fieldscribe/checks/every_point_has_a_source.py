@@ -19,4 +19,6 @@ def check(subject: Subject) -> None:
             subject.report.error("missing-source", f"`{draft.name}` cites no section and no page", draft.span(), hint)
         elif document.file is not None and source.line is None:
             hint = f"add `line: …`, its line in {document.file}"
-            subject.report.error("missing-source", f"`{draft.name}` cites no line of the manual's text", draft.span(), hint)
+            subject.report.error(
+                "missing-source", f"`{draft.name}` cites no line of the manual's text", draft.span(), hint
+            )

@@ -26,7 +26,9 @@ def check(subject: Subject) -> None:
     seen: dict[str, _Seen] = {}
     points = {resolved.point.item: resolved.point for resolved in subject.resolved}
     for one in subject.open_frames:
-        found = _request(subject, one, points) if one.frame.direction == "request" else _reply(subject, one, seen, points)
+        found = (
+            _request(subject, one, points) if one.frame.direction == "request" else _reply(subject, one, seen, points)
+        )
         ids = tuple(erratum.erratum.id for erratum in subject.cited.get(f"frame:{one.frame.name}", ()))
         seen[one.frame.name] = found
         subject.frames.append(replace(found.frame, errata=ids))
@@ -50,7 +52,14 @@ def _request(subject: Subject, one: OpenFrame, points: Mapping[str, Point]) -> _
     frame = _checked(subject, one)
     request = modbus.parse_request(frame.framing, frame.corrected)
     if isinstance(request, str):
-        subject.disagrees(f"frame:{frame.name}", "form", frame.printed.hex(), None, one.raw.span("bytes"), f"this is no request: {request}")
+        subject.disagrees(
+            f"frame:{frame.name}",
+            "form",
+            frame.printed.hex(),
+            None,
+            one.raw.span("bytes"),
+            f"this is no request: {request}",
+        )
         return _Seen(replace(frame, valid=False), None)
     profile = modbus.profile_of(subject.bus)
     most = profile.most.get(request.function, 0)
@@ -78,7 +87,9 @@ def _reply(subject: Subject, one: OpenFrame, seen: Mapping[str, _Seen], points: 
     asked = seen.get(frame.answers or "")
     if frame.answers is None:
         hint = "name the request under `answers`"
-        subject.report.error("unknown-frame", f"the response `{frame.name}` answers nothing", one.raw.span("name"), hint)
+        subject.report.error(
+            "unknown-frame", f"the response `{frame.name}` answers nothing", one.raw.span("name"), hint
+        )
     if asked is None or asked.request is None:
         return _Seen(replace(frame, valid=False), None)
     reply = modbus.parse_reply(frame.framing, asked.request, frame.corrected)
@@ -95,7 +106,9 @@ def _meaning(
     subject: Subject, one: OpenFrame, address: int, function: int, values: tuple[int, ...], points: Mapping[str, Point]
 ) -> None:
     says = one.raw.get("says")
-    spaces = {space for space, known in modbus.SPACES.items() if function in (known.read, known.write_one, known.write_many)}
+    spaces = {
+        space for space, known in modbus.SPACES.items() if function in (known.read, known.write_one, known.write_many)
+    }
     for word in says or ():
         assert isinstance(says, Map)
         draft = subject.index.find(word)

@@ -18,4 +18,6 @@ def check(subject: Subject) -> None:
     for raw in subject.scope.listed("commands"):
         busy = raw.get("busy")
         if busy is not None and subject.index.find(busy) is None:
-            subject.report.error("unknown-point", f"there is no point `{busy}`", raw.span("busy"), subject.index.hint(busy))
+            subject.report.error(
+                "unknown-point", f"there is no point `{busy}`", raw.span("busy"), subject.index.hint(busy)
+            )

@@ -45,7 +45,14 @@ class Subject:
         return self.scope.report
 
     def disagrees(
-        self, about: str, key: str, printed: Any, taken: Any, span: Span, message: str, right: Callable[[Any], bool] | None = None
+        self,
+        about: str,
+        key: str,
+        printed: Any,
+        taken: Any,
+        span: Span,
+        message: str,
+        right: Callable[[Any], bool] | None = None,
     ) -> None:
         """A printed fact that disagrees with what was taken: an error, unless an erratum about it says both.
 
@@ -60,7 +67,9 @@ class Subject:
             said = erratum.raw["taken"].get(key) if isinstance(erratum.raw["taken"], Map) else None
             if said is None or (taken is not None and not (right(said) if right else same(said, taken))):
                 wrong = f"the erratum takes {_shown(said)} for `{key}`, the facts say {_shown(taken)}"
-                self.report.error("erratum-differs", wrong, erratum.raw.span("taken"), f"write `taken: {{{key}: {_shown(taken)}}}`")
+                self.report.error(
+                    "erratum-differs", wrong, erratum.raw.span("taken"), f"write `taken: {{{key}: {_shown(taken)}}}`"
+                )
             return
         hint = f"correct the fact, or explain it: an erratum with `printed: {{{key}: {_shown(printed)}}}`"
         self.report.error("printed-disagrees", message, span, hint)

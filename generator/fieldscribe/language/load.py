@@ -88,10 +88,20 @@ def load(source: SourceFile, report: Report) -> Map | None:
         _syntax(source, error, report)
         return None
     except yaml.YAMLError as error:
-        report.error("yaml-syntax", f"this is not YAML: {error}".splitlines()[0], source.span(1, 1), "save the file as plain UTF-8 text")
+        report.error(
+            "yaml-syntax",
+            f"this is not YAML: {error}".splitlines()[0],
+            source.span(1, 1),
+            "save the file as plain UTF-8 text",
+        )
         return None
     if not isinstance(root, Map):
-        report.error("wrong-type", "the file must be a mapping of keys to values", source.span(1, 1), "start with `fieldscribe: 1`")
+        report.error(
+            "wrong-type",
+            "the file must be a mapping of keys to values",
+            source.span(1, 1),
+            "start with `fieldscribe: 1`",
+        )
         return None
     return None if len(report.findings) > before else root
 
@@ -122,12 +132,19 @@ class _Builder:
         self.next_event()  # stream start
         event = self.next_event()
         if type(event) is yaml.StreamEndEvent:
-            self._refuse("file-empty", "the file holds only comments", event, "a description starts with `fieldscribe: 1`")
+            self._refuse(
+                "file-empty", "the file holds only comments", event, "a description starts with `fieldscribe: 1`"
+            )
         root = self._node(self.next_event(), 0)
         self.next_event()  # document end
         event = self.next_event()
         if type(event) is not yaml.StreamEndEvent:
-            self._refuse("yaml-syntax", "a second YAML document starts here", event, "one file holds one document: remove the `---`")
+            self._refuse(
+                "yaml-syntax",
+                "a second YAML document starts here",
+                event,
+                "one file holds one document: remove the `---`",
+            )
         return root
 
     def _node(self, event: Any, depth: int) -> Value:
@@ -136,13 +153,23 @@ class _Builder:
             return self._alias(event)
         self.nodes += 1
         if event.tag is not None:
-            self._refuse("yaml-tag", f"the tag {event.tag[:60]!r} is not allowed", event, "remove the tag: types follow from the key")
+            self._refuse(
+                "yaml-tag",
+                f"the tag {event.tag[:60]!r} is not allowed",
+                event,
+                "remove the tag: types follow from the key",
+            )
         if kind is yaml.ScalarEvent:
             value: Value = scalar(event.value) if event.implicit[0] else event.value
             self._remember(event, value, self.nodes - 1)
             return value
         if depth >= MOST_DEPTH:
-            self._refuse("yaml-depth", f"nested deeper than {MOST_DEPTH} levels", event, "a description never needs this; check the brackets")
+            self._refuse(
+                "yaml-depth",
+                f"nested deeper than {MOST_DEPTH} levels",
+                event,
+                "a description never needs this; check the brackets",
+            )
         first = self.nodes
         collection = self._mapping(event, depth) if kind is yaml.MappingStartEvent else self._sequence(event, depth)
         self._remember(event, collection, first)
@@ -180,7 +207,9 @@ class _Builder:
 
     def _key(self, event: Any, into: Map) -> str | None:
         if type(event) is not yaml.ScalarEvent:
-            self._refuse("yaml-key", "a key must be plain text, not a list, a mapping or an alias", event, "quote the key")
+            self._refuse(
+                "yaml-key", "a key must be plain text, not a list, a mapping or an alias", event, "quote the key"
+            )
         if event.tag is not None or event.anchor is not None:
             self._refuse("yaml-tag", "a key takes no tag and no anchor", event, "remove it")
         key: str = event.value
@@ -188,7 +217,9 @@ class _Builder:
             mark = event.start_mark
             span = self.source.span(mark.line + 1, mark.column + 1, max(1, len(key)))
             first = (into.key_span(key), "first given here")
-            self.report.error("duplicate-key", f"the key `{key}` is given twice", span, "remove or rename one of them", [first])
+            self.report.error(
+                "duplicate-key", f"the key `{key}` is given twice", span, "remove or rename one of them", [first]
+            )
             return None
         return key
 
@@ -196,15 +227,24 @@ class _Builder:
         if event.anchor is not None:
             self.anchors[event.anchor] = (value, self.nodes - first + 1)
         if self.nodes > MOST_NODES:
-            self._refuse("yaml-size", f"more than {MOST_NODES} values", event, "aliases count each time; split the description")
+            self._refuse(
+                "yaml-size", f"more than {MOST_NODES} values", event, "aliases count each time; split the description"
+            )
 
     def _alias(self, event: Any) -> Value:
         if event.anchor not in self.anchors:
-            self._refuse("yaml-alias", f"the alias *{event.anchor} stands inside what it names, or names nothing", event, "write it out")
+            self._refuse(
+                "yaml-alias",
+                f"the alias *{event.anchor} stands inside what it names, or names nothing",
+                event,
+                "write it out",
+            )
         value, size = self.anchors[event.anchor]
         self.nodes += size
         if self.nodes > MOST_NODES:
-            self._refuse("yaml-size", f"more than {MOST_NODES} values", event, "aliases count each time; write out what repeats")
+            self._refuse(
+                "yaml-size", f"more than {MOST_NODES} values", event, "aliases count each time; write out what repeats"
+            )
         return value
 
     def _refuse(self, rule: str, message: str, event: Any, hint: str) -> NoReturn:

@@ -150,13 +150,25 @@ def _string(choices: list[str] | None, pattern: str | None, longest: int) -> Che
 
     def check(value: str, span: Span, report: Report) -> bool:
         if choices is not None and value not in choices:
-            report.error("wrong-choice", f"`{value[:60]}` is none of {', '.join(choices)}", span, _nearest(value, choices))
+            report.error(
+                "wrong-choice", f"`{value[:60]}` is none of {', '.join(choices)}", span, _nearest(value, choices)
+            )
             return False
         if longest and len(value) > longest:
-            report.error("text-too-long", f"the text has {len(value)} characters, at most {longest} are allowed", span, "shorten it")
+            report.error(
+                "text-too-long",
+                f"the text has {len(value)} characters, at most {longest} are allowed",
+                span,
+                "shorten it",
+            )
             return False
         if compiled is not None and not compiled.search(value):
-            report.error("wrong-form", f"`{value[:60]}` does not have the form {compiled.pattern}", span, _form_hint(value, compiled.pattern))
+            report.error(
+                "wrong-form",
+                f"`{value[:60]}` does not have the form {compiled.pattern}",
+                span,
+                _form_hint(value, compiled.pattern),
+            )
             return False
         return True
 
@@ -173,7 +185,9 @@ def _form_hint(value: str, pattern: str) -> str:
 def _number(choices: list[int] | None, least: int | None, greatest: int | None) -> Check:
     def check(value: int | Decimal, span: Span, report: Report) -> bool:
         if choices is not None and value not in choices:
-            report.error("wrong-choice", f"{value} is none of {', '.join(map(str, choices))}", span, f"write {choices[-1]}")
+            report.error(
+                "wrong-choice", f"{value} is none of {', '.join(map(str, choices))}", span, f"write {choices[-1]}"
+            )
             return False
         if (least is not None and value < least) or (greatest is not None and value > greatest):
             bounds = f"at least {least}" if greatest is None else f"{least} to {greatest}"
@@ -198,7 +212,11 @@ def _array(item: Check, least: int) -> Check:
 
 
 def _object(
-    properties: Mapping[str, Check], patterns: list[tuple[re.Pattern[str], Check]], additional: Check | None, required: tuple[str, ...], least: int
+    properties: Mapping[str, Check],
+    patterns: list[tuple[re.Pattern[str], Check]],
+    additional: Check | None,
+    required: tuple[str, ...],
+    least: int,
 ) -> Check:
     def key_check(key: str) -> Check | None:
         for pattern, found in patterns:
@@ -211,7 +229,12 @@ def _object(
         for key, one in value.items():
             found = properties.get(key) or key_check(key)
             if found is None:
-                report.error("unknown-key", f"the key `{key[:60]}` is not known here", value.key_span(key), _nearest(key, sorted(properties)))
+                report.error(
+                    "unknown-key",
+                    f"the key `{key[:60]}` is not known here",
+                    value.key_span(key),
+                    _nearest(key, sorted(properties)),
+                )
                 broken.append(key)
             elif not found(one, value.span(key), report):
                 broken.append(key)

@@ -39,10 +39,14 @@ def read_source(path: Path, report: Report) -> SourceFile | None:
         with path.open("rb") as stream:
             data = stream.read(MOST_BYTES + 1)
     except OSError as error:
-        report.error("file-unreadable", f"cannot read the file: {error.strerror}", start, "check the path and its permissions")
+        report.error(
+            "file-unreadable", f"cannot read the file: {error.strerror}", start, "check the path and its permissions"
+        )
         return None
     if len(data) > MOST_BYTES:
-        report.error("file-too-large", f"the file is larger than {MOST_BYTES >> 20} MiB", start, "split it with `parts`")
+        report.error(
+            "file-too-large", f"the file is larger than {MOST_BYTES >> 20} MiB", start, "split it with `parts`"
+        )
         return None
     return _decoded(name, data, report)
 
@@ -58,6 +62,8 @@ def _decoded(name: str, data: bytes, report: Report) -> SourceFile | None:
         report.error("file-not-utf8", f"byte {data[error.start]:#04x} is not UTF-8", Span(name, line, column), hint)
         return None
     if not text.strip():
-        report.error("file-empty", "the file is empty", start, "a description starts with `fieldscribe: 1` and `device: …`")
+        report.error(
+            "file-empty", "the file is empty", start, "a description starts with `fieldscribe: 1` and `device: …`"
+        )
         return None
     return SourceFile(name, text)

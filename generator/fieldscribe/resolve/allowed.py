@@ -33,7 +33,9 @@ def as_text(raw: Any) -> str:
 class Ranges:
     """The allowed numbers of every point, and the bounds that they can never leave."""
 
-    def __init__(self, scales: Scales, widths: dict[int, tuple[int, int]], specials: dict[int, tuple[Special, ...]]) -> None:
+    def __init__(
+        self, scales: Scales, widths: dict[int, tuple[int, int]], specials: dict[int, tuple[Special, ...]]
+    ) -> None:
         self.scales = scales
         self.report = scales.scope.report
         self.widths = widths
@@ -63,7 +65,9 @@ class Ranges:
         return tuple(sorted(result))
 
     def _refuse_names(self, name: str, part: str) -> Affine:
-        raise FormulaError(f"`{name}`: a range of floating-point numbers takes constants only", 0, "write the widest range")
+        raise FormulaError(
+            f"`{name}`: a range of floating-point numbers takes constants only", 0, "write the widest range"
+        )
 
     def _alternatives(self, draft: Draft, key: str) -> tuple[tuple[Expression, Expression], ...]:
         raw = draft.get(key)
@@ -80,7 +84,9 @@ class Ranges:
         text = as_text(raw)
         try:
             parsed = parse_range(text)
-            found = [tuple(self._bound(draft, end, text, span, in_units) for end in ends) for ends in parsed.alternatives]
+            found = [
+                tuple(self._bound(draft, end, text, span, in_units) for end in ends) for ends in parsed.alternatives
+            ]
         except FormulaError as error:
             formula_finding(error, span, self.report)
             return None
@@ -99,7 +105,12 @@ class Ranges:
 
     def _checked(self, draft: Draft, low: Bound, high: Bound, span: Span) -> bool:
         if isinstance(low, int) and isinstance(high, int) and low > high:
-            self.report.error("range-reversed", f"the range {low}..{high} runs downwards", span, f"write {high}..{low} if that is meant")
+            self.report.error(
+                "range-reversed",
+                f"the range {low}..{high} runs downwards",
+                span,
+                f"write {high}..{low} if that is meant",
+            )
             return False
         least, greatest = self.widths[id(draft)]
         for end in (low, high):
@@ -128,7 +139,12 @@ class Ranges:
             return limit
         scale = cases[0].rule
         if len(cases) > 1 or (limit.factors and limit.offset):
-            self.report.error("bad-formula", "limits in units need one rule and no sum here", span, "give the limits as raw numbers under `range`")
+            self.report.error(
+                "bad-formula",
+                "limits in units need one rule and no sum here",
+                span,
+                "give the limits as raw numbers under `range`",
+            )
             raise Unknown
         if not limit.factors:
             return Linear((limit.ratio + limit.offset) * scale.ratio, scale.offset, scale.factors)
@@ -140,7 +156,11 @@ class Ranges:
         unless = []
         for factor in rule.factors:
             used = self.scales.index.by_item(factor.point)
-            codes = [code for special in self.specials[id(used)] for code in range(special.low, min(special.high, special.low + _MOST_LISTED) + 1)]
+            codes = [
+                code
+                for special in self.specials[id(used)]
+                for code in range(special.low, min(special.high, special.low + _MOST_LISTED) + 1)
+            ]
             if codes:
                 unless.append((factor.point, tuple(codes)))
         least = max(own_least, min(corners, default=own_least))

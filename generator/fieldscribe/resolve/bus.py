@@ -18,10 +18,21 @@ def bus_of(scope: Scope) -> Bus:
     """The bus of the device; a finding when no file or two files say `bus`."""
     found = [file for file in scope.files if "bus" in file]
     if not found:
-        scope.report.error("missing-key", "no file of the device says `bus`", scope.header.span(), "add `bus:` with framings, units and functions")
+        scope.report.error(
+            "missing-key",
+            "no file of the device says `bus`",
+            scope.header.span(),
+            "add `bus:` with framings, units and functions",
+        )
         return NO_BUS
     for second in found[1:]:
-        scope.report.error("duplicate-name", "`bus` is said twice", second.key_span("bus"), "write it once", [(found[0].key_span("bus"), "first here")])
+        scope.report.error(
+            "duplicate-name",
+            "`bus` is said twice",
+            second.key_span("bus"),
+            "write it once",
+            [(found[0].key_span("bus"), "first here")],
+        )
     raw: Map = found[0]["bus"]
     units = interval(raw["units"], raw.span("units"), scope.report)
     return Bus(
@@ -47,10 +58,14 @@ def codes(scope: Scope, raw: Map | None) -> tuple[Code, ...]:
         if number is None:
             continue
         if number in result:
-            scope.report.error("duplicate-enum-value", f"the code {number} is given twice", raw.key_span(key), "remove one of them")
+            scope.report.error(
+                "duplicate-enum-value", f"the code {number} is given twice", raw.key_span(key), "remove one of them"
+            )
             continue
         name = value if isinstance(value, str) else str(value["name"])
-        result[number] = Code(number, name, _code_titles(value, name), None if isinstance(value, str) else value.get("max"))
+        result[number] = Code(
+            number, name, _code_titles(value, name), None if isinstance(value, str) else value.get("max")
+        )
     return tuple(result.values())
 
 
@@ -85,7 +100,12 @@ def commands_of(scope: Scope) -> tuple[Command, ...]:
         function = integer(raw["function"], raw.span("function"), scope.report)
         value = None if raw["value"] == "any" else integer(raw["value"], raw.span("value"), scope.report)
         if raw["name"] in result:
-            scope.report.error("duplicate-name", f"the command `{raw['name']}` is declared twice", raw.span("name"), "rename one of them")
+            scope.report.error(
+                "duplicate-name",
+                f"the command `{raw['name']}` is declared twice",
+                raw.span("name"),
+                "rename one of them",
+            )
         elif address is not None and function is not None:
             title = titles(raw.get("title"), humanised(raw["name"]))
             result[raw["name"]] = Command(

@@ -72,7 +72,15 @@ def digest(device: Device) -> str:
     summed = hashlib.sha256()
     bus = device.bus
     codes = [(code.number, code.name, code.most) for code in (*bus.functions, *bus.exceptions)]
-    head = (device.id, device.version, device.family, sorted(device.variants.items()), bus.framings, bus.units, bus.broadcast)
+    head = (
+        device.id,
+        device.version,
+        device.family,
+        sorted(device.variants.items()),
+        bus.framings,
+        bus.units,
+        bus.broadcast,
+    )
     summed.update(repr((head, codes, sorted(bus.gaps.items()), bus.pad_coil_bytes)).encode())
     for point in device.points:
         summed.update(repr(_code_facts(point)).encode())
@@ -83,11 +91,13 @@ def digest(device: Device) -> str:
 
 def _code_facts(point: Point) -> tuple[object, ...]:
     enum = point.enum and (point.enum.name, point.enum.closed, [(one.raw, one.name) for one in point.enum.entries])
-    flags = [(one.low, one.width, one.name, one.active, [(entry.raw, entry.name) for entry in one.values]) for one in point.flags]
+    flags = [
+        (one.low, one.width, one.name, one.active, [(entry.raw, entry.name) for entry in one.values])
+        for one in point.flags
+    ]
     specials = [(one.low, one.high, one.name, one.no_value) for one in point.specials]
     return (
         point.item, point.code, point.group, point.space, point.places, sorted(point.references.items()), point.type, point.bits,
         point.access, point.unit.symbol, point.scale, point.decimals, point.allowed, point.default, point.steps, enum, flags,
         specials, point.changes, point.keeps, point.conditions, point.was, point.errata, point.generated,
     )  # fmt: skip
-

@@ -79,7 +79,9 @@ def groups(scope: Scope) -> Iterator[Map]:
 
 def expand(scope: Scope) -> list[Draft]:
     """All points of all groups, in the order of the text."""
-    return [draft for group in groups(scope) for point in group.get("points", ()) for draft in _point(scope, group, point)]
+    return [
+        draft for group in groups(scope) for point in group.get("points", ()) for draft in _point(scope, group, point)
+    ]
 
 
 def _point(scope: Scope, group: Map, point: Map) -> Iterator[Draft]:
@@ -111,7 +113,10 @@ def _variants(scope: Scope, draft: Draft) -> Iterator[Draft]:
         if value not in axes.get(axis, {}).get("values", {}):
             known = [f"{one}={each}" for one, entry in axes.items() for each in entry["values"]]
             scope.report.error(
-                "unknown-variant", f"device.yaml declares no variant `{key}`", overrides.key_span(key), unknown_name(key, known, "variants")
+                "unknown-variant",
+                f"device.yaml declares no variant `{key}`",
+                overrides.key_span(key),
+                unknown_name(key, known, "variants"),
             )
             continue
         enum_name = f"{draft.enum_name}_{value.lower()}" if "enum" in override else draft.enum_name
@@ -131,7 +136,9 @@ def _record(scope: Scope, group: Map, use: Map) -> Iterator[Draft]:
     for name in use.get("members", {}):
         if name not in members:
             hint = unknown_name(name, sorted(members), "points` of the record, `")
-            scope.report.error("unknown-member", f"the record has no member `{name}`", use["members"].key_span(name), hint)
+            scope.report.error(
+                "unknown-member", f"the record has no member `{name}`", use["members"].key_span(name), hint
+            )
     for point in record["points"]:
         if "record" in point:
             message = f"a record cannot contain the record `{point['record']}`"
@@ -149,13 +156,34 @@ def _member(scope: Scope, group: Map, use: Map, point: Map) -> Draft:
     layers = (*shared, *_format(scope, point), _whole_record(use))
     name = f"{use['name']}_{point['name']}"
     enum_name = f"{use['record']}_{point['name']}"
-    return Draft(name, layers, group, override if override is not None else point, title, record=use["name"], use=use, enum_name=enum_name)
+    return Draft(
+        name,
+        layers,
+        group,
+        override if override is not None else point,
+        title,
+        record=use["name"],
+        use=use,
+        enum_name=enum_name,
+    )
 
 
 def _whole_record(use: Map) -> Map:
     """What the use of a record says for all its members: where it stands in the manual, and the code of the whole."""
     result = Map(use.file, use.at)
-    for key in ("code", "line", "section", "page", "access", "keeps", "changes", "conditions", "when", "since", "until"):
+    for key in (
+        "code",
+        "line",
+        "section",
+        "page",
+        "access",
+        "keeps",
+        "changes",
+        "conditions",
+        "when",
+        "since",
+        "until",
+    ):
         if key in use:
             result[key] = use[key]
             result.value_at[key] = use.value_at[key]

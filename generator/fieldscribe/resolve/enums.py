@@ -32,7 +32,9 @@ def _shared(scope: Scope, draft: Draft, name: str, closed: bool) -> Enum | None:
         found = next((value for known, value, _ in scope.declared("enums") if known == name), None)
         if found is None:
             known = [one for one, _, _ in scope.declared("enums")]
-            scope.report.error("unknown-enum", f"there is no enum `{name}`", draft.span("enum"), unknown_name(name, known, "enums"))
+            scope.report.error(
+                "unknown-enum", f"there is no enum `{name}`", draft.span("enum"), unknown_name(name, known, "enums")
+            )
             return None
         scope.enums[key] = Enum(name, {"en": humanised(name)}, entries_of(scope, found), closed)
     return scope.enums[key]
@@ -49,10 +51,22 @@ def entries_of(scope: Scope, raw: Map) -> tuple[Entry, ...]:
             continue
         if entry.raw in by_number:
             first = (raw.key_span(by_number[entry.raw]), "first given here")
-            scope.report.error("duplicate-enum-value", f"the number {entry.raw} is named twice", raw.key_span(key), "remove one of them", [first])
+            scope.report.error(
+                "duplicate-enum-value",
+                f"the number {entry.raw} is named twice",
+                raw.key_span(key),
+                "remove one of them",
+                [first],
+            )
         elif entry.name in by_name:
             first = (raw.key_span(by_name[entry.name]), "first given here")
-            scope.report.error("duplicate-enum-name", f"two numbers have the name `{entry.name}`", raw.span(key), "names are unique in an enum", [first])
+            scope.report.error(
+                "duplicate-enum-name",
+                f"two numbers have the name `{entry.name}`",
+                raw.span(key),
+                "names are unique in an enum",
+                [first],
+            )
         else:
             result.append(entry)
         by_number.setdefault(entry.raw, key)
@@ -105,14 +119,27 @@ def flags_of(scope: Scope, draft: Draft, width: int) -> tuple[Flag, ...]:
         if high < low:
             scope.report.error("range-reversed", f"bits `{key}` run upwards", raw.key_span(key), f"write {low}..{high}")
         elif high >= width:
-            scope.report.error("bit-outside-word", f"bit {high} lies outside the {width} bits of the point", raw.key_span(key), f"bits are numbered {width - 1}..0")
+            scope.report.error(
+                "bit-outside-word",
+                f"bit {high} lies outside the {width} bits of the point",
+                raw.key_span(key),
+                f"bits are numbered {width - 1}..0",
+            )
         elif any(bit in taken for bit in range(low, high + 1)):
             other = next(taken[bit] for bit in range(low, high + 1) if bit in taken)
             first = (raw.key_span(other), "taken here")
-            scope.report.error("bits-overlap", f"bit {low} is taken twice", raw.key_span(key), "flags cannot overlap", [first])
+            scope.report.error(
+                "bits-overlap", f"bit {low} is taken twice", raw.key_span(key), "flags cannot overlap", [first]
+            )
         elif name in names:
             first = (raw.key_span(names[name]), "first given here")
-            scope.report.error("duplicate-enum-name", f"two flags have the name `{name}`", raw.span(key), "names are unique in a word", [first])
+            scope.report.error(
+                "duplicate-enum-name",
+                f"two flags have the name `{name}`",
+                raw.span(key),
+                "names are unique in a word",
+                [first],
+            )
         else:
             result.append(_flag(scope, low, high - low + 1, name, value))
         taken.update(dict.fromkeys(range(low, high + 1), key))
@@ -124,5 +151,9 @@ def _flag(scope: Scope, low: int, width: int, name: str, value: Map | str) -> Fl
     if isinstance(value, str):
         return Flag(low, width, name, {"en": humanised(name)}, 1, ())
     values = entries_of(scope, value["values"]) if "values" in value else ()
-    meanings = [Entry(number, key, titles(value[key]), None) for number, key in enumerate(("zero", "one")) if key in value]
-    return Flag(low, width, name, titles(value.get("title"), humanised(name)), value.get("active", 1), values or tuple(meanings))
+    meanings = [
+        Entry(number, key, titles(value[key]), None) for number, key in enumerate(("zero", "one")) if key in value
+    ]
+    return Flag(
+        low, width, name, titles(value.get("title"), humanised(name)), value.get("active", 1), values or tuple(meanings)
+    )

@@ -40,7 +40,13 @@ def errata_of(scope: Scope, index: Index) -> list[OpenErratum]:
     for raw in scope.listed("errata"):
         if raw["id"] in seen:
             first = (seen[raw["id"]].span("id"), "first given here")
-            scope.report.error("duplicate-name", f"two errata have the id `{raw['id']}`", raw.span("id"), "ids are never reused", [first])
+            scope.report.error(
+                "duplicate-name",
+                f"two errata have the id `{raw['id']}`",
+                raw.span("id"),
+                "ids are never reused",
+                [first],
+            )
             continue
         seen[raw["id"]] = raw
         points = tuple(_points(scope, index, raw))
@@ -48,7 +54,16 @@ def errata_of(scope: Scope, index: Index) -> list[OpenErratum]:
         if not points and where is None:
             continue
         source = source_of(scope, raw)
-        text = Erratum(raw["id"], points, where or "", source, said(raw["printed"]), said(raw["taken"]), str(raw["why"]), raw["certainty"])
+        text = Erratum(
+            raw["id"],
+            points,
+            where or "",
+            source,
+            said(raw["printed"]),
+            said(raw["taken"]),
+            str(raw["why"]),
+            raw["certainty"],
+        )
         result.append(OpenErratum(text, raw, set()))
     return result
 
@@ -59,14 +74,21 @@ def _points(scope: Scope, index: Index, raw: Map) -> Iterator[str]:
     for word, span in words:
         found = index.all(word)
         if not found:
-            scope.report.error("unknown-point", f"the erratum is about `{word}`, which no point has as name or code", span, index.hint(word))
+            scope.report.error(
+                "unknown-point",
+                f"the erratum is about `{word}`, which no point has as name or code",
+                span,
+                index.hint(word),
+            )
         yield from dict.fromkeys(draft.name for draft in found)
 
 
 def _where(scope: Scope, raw: Map, frames: set[str]) -> str | None:
     if "frame" in raw:
         if raw["frame"] not in frames:
-            scope.report.error("unknown-frame", f"there is no frame `{raw['frame']}`", raw.span("frame"), "name one of `frames`")
+            scope.report.error(
+                "unknown-frame", f"there is no frame `{raw['frame']}`", raw.span("frame"), "name one of `frames`"
+            )
         return f"frame:{raw['frame']}"
     if "function" in raw:
         number = integer(raw["function"], raw.span("function"), scope.report)

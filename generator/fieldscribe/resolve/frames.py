@@ -31,21 +31,45 @@ def frames_of(scope: Scope, bus: Bus, index: Index, points: Mapping[str, Point])
     for raw in scope.listed("frames"):
         name = raw["name"]
         if name in result:
-            scope.report.error("duplicate-name", f"two frames have the name `{name}`", raw.span("name"), "rename one of them")
+            scope.report.error(
+                "duplicate-name", f"two frames have the name `{name}`", raw.span("name"), "rename one of them"
+            )
             continue
         digits = "".join(str(raw["bytes"]).split())
         if len(digits) % 2:
-            scope.report.error("bad-number", "the bytes have an odd number of digits", raw.span("bytes"), "write two digits for each byte")
+            scope.report.error(
+                "bad-number",
+                "the bytes have an odd number of digits",
+                raw.span("bytes"),
+                "write two digits for each byte",
+            )
             continue
         answers = raw.get("answers")
         if answers is not None and answers not in result:
-            scope.report.error("unknown-frame", f"there is no frame `{answers}` above", raw.span("answers"), "the request stands before its answer")
+            scope.report.error(
+                "unknown-frame",
+                f"there is no frame `{answers}` above",
+                raw.span("answers"),
+                "the request stands before its answer",
+            )
             continue
         data = bytes.fromhex(digits)
         direction = raw.get("direction") or ("response" if answers else "request")
         framing = raw.get("framing") or (bus.framings[0] if bus.framings else "rtu")
         title = titles(raw.get("title"), humanised(name))
-        frame = Frame(name, framing, direction, answers, data, data, True, _meaning(scope, raw, index, points), title, source_of(scope, raw), ())
+        frame = Frame(
+            name,
+            framing,
+            direction,
+            answers,
+            data,
+            data,
+            True,
+            _meaning(scope, raw, index, points),
+            title,
+            source_of(scope, raw),
+            (),
+        )
         result[name] = OpenFrame(frame, raw)
     return list(result.values())
 
@@ -56,7 +80,9 @@ def _meaning(scope: Scope, raw: Map, index: Index, points: Mapping[str, Point]) 
     for word, value in said.items():
         draft = index.find(word)
         if draft is None:
-            scope.report.error("unknown-point", f"there is no point `{word}`", raw["says"].key_span(word), index.hint(word))
+            scope.report.error(
+                "unknown-point", f"there is no point `{word}`", raw["says"].key_span(word), index.hint(word)
+            )
             continue
         point = points.get(draft.item)
         if point is not None:
@@ -80,7 +106,9 @@ def _raw_of(scope: Scope, point: Point, value: Any, said: Map, word: str) -> int
         return None
     if point.scale is not None:
         if len(point.scale) > 1 or point.scale[0].rule.factors:
-            scope.report.error("bad-formula", f"`{word}` needs other points to be scaled", said.span(word), "leave it out of `says`")
+            scope.report.error(
+                "bad-formula", f"`{word}` needs other points to be scaled", said.span(word), "leave it out of `says`"
+            )
             return None
         exact = exact * point.scale[0].rule.ratio + point.scale[0].rule.offset
     return round_half_away(exact)

@@ -27,9 +27,19 @@ def decimals_of(draft: Draft, cases: tuple[ScaleCase, ...] | None, ranges: Range
     report = ranges.report
     if smallest * 10**needed < 1:
         hint = "give the points in the scale a narrower `range`"
-        report.error("integer-path", f"one raw step is {float(smallest):.3g} units, too fine for {MOST_DECIMALS} decimals", span, hint)
+        report.error(
+            "integer-path",
+            f"one raw step is {float(smallest):.3g} units, too fine for {MOST_DECIMALS} decimals",
+            span,
+            hint,
+        )
     elif said is not None and said < needed:
-        report.error("integer-path", f"with {said} decimals two raw numbers would have one count", span, f"at least {needed} decimals are needed")
+        report.error(
+            "integer-path",
+            f"with {said} decimals two raw numbers would have one count",
+            span,
+            f"at least {needed} decimals are needed",
+        )
     chosen = needed if said is None else int(said)
     for case in cases:
         _fits(draft, case, chosen, ranges, span)
@@ -63,4 +73,9 @@ def _fits(draft: Draft, case: ScaleCase, decimals: int, ranges: Ranges, span: Sp
     if numerator > _EXACT or abs(up) * rule.offset.denominator > _EXACT:
         ranges.report.error("float-path", "some values of this point cannot be exact in a double", span, hint)
     elif 2 * numerator * 10**decimals > _INT64 or 2 * abs(up) * rule.offset.denominator * 10**decimals > _INT64:
-        ranges.report.error("integer-path", f"counts of 10^-{decimals} units do not fit into 64 bits", span, f"{hint}, or give fewer `decimals`")
+        ranges.report.error(
+            "integer-path",
+            f"counts of 10^-{decimals} units do not fit into 64 bits",
+            span,
+            f"{hint}, or give fewer `decimals`",
+        )

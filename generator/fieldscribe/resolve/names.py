@@ -53,7 +53,13 @@ def index_of(scope: Scope, drafts: list[Draft]) -> Index:
         first = index.by_name.get(draft.name)
         if first is not None and not (draft.variant and first.variant and draft.own is first.own):
             related = [(first.span(), "first given here")]
-            scope.report.error("duplicate-name", f"two points have the name `{draft.name}`", draft.span(), "names are unique in a device", related)
+            scope.report.error(
+                "duplicate-name",
+                f"two points have the name `{draft.name}`",
+                draft.span(),
+                "names are unique in a device",
+                related,
+            )
             continue
         index.by_name.setdefault(draft.name, draft)
         index.by_items[draft.item] = draft
@@ -69,7 +75,12 @@ def space_of(scope: Scope, draft: Draft) -> str:
     space = str(draft.get("space"))
     known = FAMILIES[scope.family].spaces
     if space not in known:
-        scope.report.error("unknown-space", f"the family {scope.family} has no space `{space}`", draft.span("space"), f"known: {', '.join(known)}")
+        scope.report.error(
+            "unknown-space",
+            f"the family {scope.family} has no space `{space}`",
+            draft.span("space"),
+            f"known: {', '.join(known)}",
+        )
     return space
 
 
@@ -83,7 +94,12 @@ def bits_of(scope: Scope, draft: Draft) -> tuple[int, int] | None:
     if found is None:
         return None
     if found[1] > 15:
-        scope.report.error("bit-outside-word", f"bit {found[1]} lies outside the 16-bit word", draft.span("bits"), "bits are numbered 15..0")
+        scope.report.error(
+            "bit-outside-word",
+            f"bit {found[1]} lies outside the 16-bit word",
+            draft.span("bits"),
+            "bits are numbered 15..0",
+        )
         return None
     return found[1], found[0]
 
@@ -97,13 +113,17 @@ def type_of(scope: Scope, draft: Draft, space: str, bits: tuple[int, int] | None
     said = str(draft.get("type", default))
     info: TypeInfo = TYPES[said]
     if bits is None and single != (said == "bit"):
-        message = f"`{said}` does not fit the space `{space}`, which holds {'single bits' if single else '16-bit words'}"
+        message = (
+            f"`{said}` does not fit the space `{space}`, which holds {'single bits' if single else '16-bit words'}"
+        )
         hint = "use `bit`" if single else "use `bits` to take one bit of a word"
         scope.report.error("type-outside-space", message, _type_span(draft), hint)
         return default
     if bits is None and not single and info.bits < 16:
         message = f"`{said}` is smaller than the words of `{space}`"
-        scope.report.error("type-outside-space", message, _type_span(draft), "use u16 or s16, or say which `bits` of the word it takes")
+        scope.report.error(
+            "type-outside-space", message, _type_span(draft), "use u16 or s16, or say which `bits` of the word it takes"
+        )
         return default
     if width is not None and (width > info.bits or info.floating or info.bits > 16):
         message = f"{width} bits do not fit the type `{said}`"

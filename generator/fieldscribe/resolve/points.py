@@ -127,7 +127,12 @@ def _address(scope: Scope, draft: Draft) -> int | None:
     raw = draft.get("at")
     span = draft.span("at")
     if draft.layer("at") is None:
-        scope.report.error("missing-key", f"`{draft.name}` says no address", draft.span(), "add `at: …`, or `at: ~` if the manual prints none")
+        scope.report.error(
+            "missing-key",
+            f"`{draft.name}` says no address",
+            draft.span(),
+            "add `at: …`, or `at: ~` if the manual prints none",
+        )
         return None
     if raw is None:
         return None
@@ -136,11 +141,18 @@ def _address(scope: Scope, draft: Draft) -> int | None:
         return None
     address = exact.numerator
     if exact.denominator != 1:
-        scope.report.error("bad-number", f"the address {exact} is not a whole number", span, "`at` is the number on the wire")
+        scope.report.error(
+            "bad-number", f"the address {exact} is not a whole number", span, "`at` is the number on the wire"
+        )
         return None
     last = FAMILIES[scope.family].last_address
     if not 0 <= address <= last:
-        scope.report.error("address-outside-space", f"the address {address} lies outside 0..{last}", span, "`at` is the number on the wire")
+        scope.report.error(
+            "address-outside-space",
+            f"the address {address} lies outside 0..{last}",
+            span,
+            "`at` is the number on the wire",
+        )
         return None
     return address
 
@@ -221,4 +233,6 @@ def _existence(scope: Scope, draft: Draft, index: Index) -> None:
         if index.find(name.name) is None and name.name not in axes:
             place = draft.span("when")
             message = f"there is no point and no variant axis `{name.name}`"
-            scope.report.error("unknown-point", message, place._replace(column=place.column + name.column), index.hint(name.name))
+            scope.report.error(
+                "unknown-point", message, place._replace(column=place.column + name.column), index.hint(name.name)
+            )

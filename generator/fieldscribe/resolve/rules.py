@@ -77,7 +77,12 @@ class Scales:
             return Affine(used.item, Fraction(1), Fraction(0))
         if used in self._open:
             chain = " needs ".join(f"`{draft.name}`" for draft in [*self._open[self._open.index(used) :], used])
-            self.scope.report.error("scale-cycle", f"a scale that needs itself: {chain}", span, "use `.raw` of one of them, or break the circle")
+            self.scope.report.error(
+                "scale-cycle",
+                f"a scale that needs itself: {chain}",
+                span,
+                "use `.raw` of one of them, or break the circle",
+            )
             raise Unknown
         cases = self.cases(used)
         if cases is None:

@@ -46,7 +46,13 @@ class Scope:
                 if name in seen:
                     here = file[section].key_span(name)
                     first = (seen[name].key_span(name), "first declared here")
-                    self.report.error("duplicate-name", f"`{name}` is declared twice under `{section}`", here, "rename one of them", [first])
+                    self.report.error(
+                        "duplicate-name",
+                        f"`{name}` is declared twice under `{section}`",
+                        here,
+                        "rename one of them",
+                        [first],
+                    )
                     continue
                 seen[name] = file[section]
                 yield name, value, file[section]
@@ -104,7 +110,10 @@ def source_of(scope: Scope, *layers: Map) -> Source:
     line = found.get("line")
     section, page = found.get("section"), found.get("page")
     return Source(
-        document, None if section is None else str(section), None if page is None else str(page), line if isinstance(line, int) else None
+        document,
+        None if section is None else str(section),
+        None if page is None else str(page),
+        line if isinstance(line, int) else None,
     )
 
 

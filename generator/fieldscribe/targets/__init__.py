@@ -2,27 +2,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from importlib import import_module
-from typing import Protocol, cast
+from typing import TYPE_CHECKING, Any
 
-from fieldscribe.model import Device
-from fieldscribe.render import Render
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+    from typing import Protocol
+
+    from fieldscribe.model import Device
+    from fieldscribe.render import Render
+
+    class Target(Protocol):
+        """What a target's module offers."""
+
+        def outputs(self, device: Device, render: Render) -> Iterable[tuple[str, str]]:
+            """The files of a device: path relative to the output folder, and text."""
+
+        def runtime(self, device: Device) -> Iterable[tuple[str, str]]:
+            """Real source that goes beside them: path relative to the output folder, and path below the templates folder."""
+
 
 TARGETS = ("c", "python", "rust", "docs", "vectors")
 """All targets by name, in the order in which they are written."""
 
 
-class Target(Protocol):
-    """What a target's module offers."""
-
-    def outputs(self, device: Device, render: Render) -> Iterable[tuple[str, str]]:
-        """The files of a device: path relative to the output folder, and text."""
-
-    def runtime(self, device: Device) -> Iterable[tuple[str, str]]:
-        """Real source that goes beside them: path relative to the output folder, and path below the templates folder."""
-
-
 def target(name: str) -> Target:
     """The target of that name; its module is imported when first asked for."""
-    return cast("Target", import_module(f"fieldscribe.targets.{name}"))
+    module: Any = import_module(f"fieldscribe.targets.{name}")
+    made: Target = module
+    return made

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -10,6 +9,8 @@ from fieldscribe.families.modbus.functions import PROTOCOL_MOST, SPACES, profile
 from fieldscribe.model import Block
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from fieldscribe.model import Bus, Place, Point
 
 

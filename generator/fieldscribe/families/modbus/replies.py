@@ -73,10 +73,8 @@ def _parse_tcp(request: Request, data: bytes) -> Reply:
     expected = 6 + (data[4] << 8 | data[5])
     if len(data) != expected:
         return Reply("short_frame" if len(data) < expected else "long_frame")
-    if data[0] << 8 | data[1] != request.transaction:
-        return Reply("wrong_transaction")
-    if data[6] != request.unit:
-        return Reply("wrong_unit")
+    if data[0] << 8 | data[1] != request.transaction or data[6] != request.unit:
+        return Reply("wrong_unit" if data[0] << 8 | data[1] == request.transaction else "wrong_transaction")
     pdu = data[7:]
     if pdu[0] == request.function | 0x80:
         return Reply("exception", (), pdu[1]) if len(pdu) == 2 else Reply("long_frame")

@@ -32,10 +32,11 @@ class Request:
 
 def _crc_table() -> tuple[int, ...]:
     table = []
-    for value in range(256):
+    for byte in range(256):
+        crc = byte
         for _ in range(8):
-            value = value >> 1 ^ 0xA001 if value & 1 else value >> 1
-        table.append(value)
+            crc = crc >> 1 ^ 0xA001 if crc & 1 else crc >> 1
+        table.append(crc)
     return tuple(table)
 
 
@@ -92,7 +93,7 @@ def _refusal(profile: Profile, request: Request) -> str:
             return "bad_unit"
     elif not low <= request.unit <= high:
         return "bad_unit"
-    if not 1 <= request.count <= most or request.function not in READS and len(request.values) != request.count:
+    if not 1 <= request.count <= most or (request.function not in READS and len(request.values) != request.count):
         return "bad_count"
     last = request.address if request.function == 0x08 else request.address + request.count - 1
     if request.address < 0 or last > (0 if request.function == 0x08 else 0xFFFF):

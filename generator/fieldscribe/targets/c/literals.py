@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from fractions import Fraction
 from functools import lru_cache
 
@@ -37,6 +36,19 @@ def raw_bounds(point: Point) -> tuple[int, int]:
     return (-(1 << (info.bits - 1)), (1 << (info.bits - 1)) - 1) if info.signed else (0, (1 << info.bits) - 1)
 
 
+def outer_limits(point: Point) -> tuple[int, int]:
+    """The least and the greatest raw number that can ever be allowed."""
+    intervals = point.allowed.intervals
+    if not intervals:
+        return point.least, point.greatest
+    if len(intervals) == 1:
+        low, high = intervals[0].low, intervals[0].high
+        return low if isinstance(low, int) else low.least, high if isinstance(high, int) else high.greatest
+    lows = [one.low if isinstance(one.low, int) else one.low.least for one in intervals]
+    highs = [one.high if isinstance(one.high, int) else one.high.greatest for one in intervals]
+    return min(lows), max(highs)
+
+
 @lru_cache(maxsize=65536)
 def signed(number: int) -> str:
     """A number as a signed constant where one can hold it, ready for any expression or `#define`."""
@@ -59,18 +71,6 @@ def hexadecimal(number: int, digits: int = 4) -> str:
     return f"0x{number:0{digits}X}U" if number < 1 << 32 else f"UINT64_C(0x{number:0{digits}X})"
 
 
-def real_at_least(limit: Fraction) -> float:
-    """The smallest binary64 number that is not below `limit`."""
-    nearest = limit.numerator / limit.denominator
-    return nearest if Fraction(nearest) >= limit else math.nextafter(nearest, math.inf)
-
-
-def real_at_most(limit: Fraction) -> float:
-    """The largest binary64 number that is not above `limit`."""
-    nearest = limit.numerator / limit.denominator
-    return nearest if Fraction(nearest) <= limit else math.nextafter(nearest, -math.inf)
-
-
-def real(number: float) -> str:
-    """A binary64 number as a constant that converts back to the same bits."""
-    return repr(number)
+def real(number: Fraction) -> str:
+    """The nearest binary64 number as a constant that converts back to the same bits."""
+    return repr(number.numerator / number.denominator)

@@ -16,7 +16,7 @@ def words_view(point: Point, scope: Scope) -> WordsView | None:
     target = raw_type(point)
     if point.words == 1:
         mask, sign = ("words[0]", "0x8000U") if info.bits == 16 else ("words[0] & 0xFFU", "0x80U")
-        return WordsView(1, "uint16_t", ((0, "raw"),), f"({target}){scope.helper('signed')}({mask}, {sign})")
+        return WordsView(1, "", ((0, "(uint16_t)raw"),), f"({target}){scope.helper('signed')}({mask}, {sign})")
     bits = f"uint{info.bits}_t"
     order = sorted(point.addresses) if point.addresses else []
     high_first = [order.index(address) for address in point.addresses] if order else list(range(point.words))

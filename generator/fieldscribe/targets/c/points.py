@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 import textwrap
-from fractions import Fraction
 
 from fieldscribe.model import Enum, Flag, Point, Special
 from fieldscribe.names import upper
-from fieldscribe.targets.c.limits import check_view, outer_limits
+from fieldscribe.targets.c.limits import check_view
 from fieldscribe.targets.c.literals import (
     VALUE_BOUNDS,
     hexadecimal,
+    outer_limits,
     raw_type,
     real,
-    real_at_least,
-    real_at_most,
     signed,
     unsigned,
 )
@@ -131,19 +129,12 @@ def _float_view(point: Point, scope: Scope) -> FloatView:
     bits = point.info.bits
     scope.used.add(f"f{bits}")
     units = point.allowed.units
-    exact_narrow = bits == 32 and all(_is_binary32(limit) for pair in units for limit in pair)
-    kind = scope.helper("real") if exact_narrow else "double"
+    kind = scope.helper("real") if bits == 32 else "double"
     tests = []
     for low, high in units:
-        ends = real(real_at_least(low)), real(real_at_most(high))
-        tests.append(f"value < ({kind}){ends[0]} || value > ({kind}){ends[1]}")
+        tests.append(f"value < ({kind}){real(low)} || value > ({kind}){real(high)}")
     outside = tests[0] if len(tests) == 1 else " && ".join(f"({test})" for test in tests)
     return FloatView(kind, bits, outside)
-
-
-def _is_binary32(limit: Fraction) -> bool:
-    top, bottom = abs(limit.numerator), limit.denominator
-    return top < 1 << 24 and bottom & (bottom - 1) == 0 and bottom < 1 << 100
 
 
 def _defines(point: Point, macro: str, scope: Scope, low: int, high: int) -> list[Define]:

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 from fieldscribe.model import Factor, Limit, Linear, Point, ScaleCase
-from fieldscribe.targets.c.literals import INT32, INT64, raw_bounds, signed
+from fieldscribe.targets.c.literals import INT32, INT64, outer_limits, raw_bounds, signed
 from fieldscribe.targets.c.scope import Scope
 from fieldscribe.targets.c.views import LimitView, RuleCase, RuledView, Step
-
-_BIG = 1 << 80
 
 
 def ruled_view(point: Point, scope: Scope, low: int, high: int) -> RuledView:
@@ -32,7 +30,8 @@ def limit_view(limit: Limit, name: str, is_low: bool, scope: Scope) -> LimitView
     simple = _simple(limit.rule, scope)
     if simple is None:
         scope.used.add("rules")
-        return LimitView(name, signed(start), applies, (), "number_of_rule", clamp, _rule(limit.rule, scope))
+        rule = _rule(limit.rule, scope, of_limit=True)
+        return LimitView(name, signed(start), applies, (), "number_of_rule", clamp, rule)
     if is_low and start <= 0 and _never_negative(limit.rule, scope):
         clamp = ""
     return LimitView(name, signed(start), applies, simple[1], simple[0], clamp, None)
@@ -54,26 +53,38 @@ def _case(case: ScaleCase, scope: Scope) -> RuleCase:
     return _rule(case.rule, scope, test)
 
 
-def _rule(rule: Linear, scope: Scope, test: str = "") -> RuleCase:
+def _rule(rule: Linear, scope: Scope, test: str = "", *, of_limit: bool = False) -> RuleCase:
+    """The steps of a rule. A scale takes no factor of zero, a limit only none to divide by."""
     ends = {1: abs(rule.ratio.numerator), -1: rule.ratio.denominator}
-    steps = []
+    steps, tens = [], []
     for factor in rule.factors:
         number = _number(factor, "int64_t")
         if factor.ten_to:
-            ends[1] = ends[-1] = _BIG  # the exponent decides which of the two grows
-            steps.append(Step("ten", "rule", f"-({number})" if factor.power < 0 else number, False))
+            exponent = f"-{number}" if factor.power < 0 else number
+            tens.append(Step("ten", "rule", exponent, False, "" if of_limit else _beyond(factor, scope)))
             continue
         ends[factor.power] *= _reach_of(factor, scope)
         kind = "plain" if ends[factor.power] <= INT64[1] else "checked"
-        steps.append(Step(kind, "num" if factor.power > 0 else "den", number, True))
+        zero = factor.power < 0 or not of_limit
+        steps.append(Step(kind, "num" if factor.power > 0 else "den", number, zero, ""))
     return RuleCase(
         test,
         signed(rule.ratio.numerator),
         signed(rule.ratio.denominator),
         signed(rule.offset.numerator),
         signed(rule.offset.denominator),
-        tuple(steps),
+        (*steps, *tens),
     )
+
+
+def _beyond(factor: Factor, scope: Scope) -> str:
+    """Whether an exponent is more than its own point may hold."""
+    point = scope.points[factor.point]
+    low, high = outer_limits(point)
+    least, greatest = raw_bounds(point)
+    tests = [f"{factor.point}_raw < {signed(low)}"] if low > least else []
+    tests += [f"{factor.point}_raw > {signed(high)}"] if high < greatest else []
+    return " || ".join(tests)
 
 
 def _simple(rule: Linear, scope: Scope) -> tuple[str, tuple[str, ...]] | None:

@@ -156,7 +156,7 @@ def _scaled(rule: Linear, scope: Scope, wide: bool) -> str:
         text = f"{text} / {rule.ratio.denominator}"
     if rule.offset:
         offset = abs(rule.offset)
-        number = real(offset.numerator / offset.denominator) if offset.denominator != 1 else str(offset.numerator)
+        number = real(offset) if offset.denominator != 1 else str(offset.numerator)
         text += f" {'-' if rule.offset < 0 else '+'} ({'double' if wide else scope.prefix + '_real'}){number}"
     return text
 

@@ -22,12 +22,16 @@ class EnumView:
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """One factor of a rule: `kind` is plain, checked (may overflow) or ten; `zero` asks for a test before."""
+    """One factor of a rule: `kind` is plain, checked (may overflow) or ten.
+
+    `zero` asks for a test before; `beyond` tests whether an exponent is more than its point may hold.
+    """
 
     kind: str
     target: str
     factor: str
     zero: bool
+    beyond: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,7 +123,7 @@ Codec = PlainView | ScaledView | RuledView | FloatView
 
 @dataclass(frozen=True, slots=True)
 class WordsView:
-    """How raw lies in words, in address order."""
+    """How raw lies in words, in address order; `bits` is the unsigned type to shift in, empty for a single word."""
 
     count: int
     bits: str

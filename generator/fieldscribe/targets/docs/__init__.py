@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from fieldscribe.targets.docs.page import page_of
 from fieldscribe.targets.docs.sheet import sheet_of
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from fieldscribe.model import Device
     from fieldscribe.render import Render
 

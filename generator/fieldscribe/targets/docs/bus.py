@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from fieldscribe.exact import hex_text
-from fieldscribe.model import Bus, Code, Device
 from fieldscribe.targets.docs.cells import Table, by_rows, cell, code, paragraph, source_text, target
 from fieldscribe.wording import address_text, title_text
+
+if TYPE_CHECKING:
+    from fieldscribe.model import Bus, Code, Device
 
 
 @dataclass(frozen=True, slots=True)

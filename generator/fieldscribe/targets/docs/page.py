@@ -2,20 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import fieldscribe
 from fieldscribe import wording
 from fieldscribe.exact import hex_text
-from fieldscribe.model import Device, Enum, Erratum, Frame, Point
 from fieldscribe.targets.docs.bus import BusView, bus_view
 from fieldscribe.targets.docs.cells import Table, anchor, by_rows, cell, code, link, paragraph, source_text, target
 from fieldscribe.targets.docs.points import GroupView, group_views, reference_heads
 
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+    from fieldscribe.model import Device, Enum, Erratum, Frame, Point
+
 _NUMBERINGS = {
     "modicon": "the number with one added, as many PLC and panel tools count; the space is not part of the number",
     "reference": "the traditional reference whose first digit says the space (4: holding registers)",
+}
+_ENUM_KINDS = {
+    True: "only these numbers may be written",
+    False: "the range of the point says which numbers may be written",
 }
 
 
@@ -108,16 +116,25 @@ def _enum_views(device: Device) -> Iterator[EnumView]:
     for point in device.points:
         if point.enum is not None:
             users.setdefault(point.enum.name, []).append(point)
-    for enum in device.enums:
+    for enum in _all_enums(device):
         links = ", ".join(link("point", point.item) for point in users.get(enum.name, ()))
         yield EnumView(
             anchor=anchor("names", enum.name),
             heading=cell(wording.title_text(enum.title)),
             name=code(enum.name),
-            kind="only these numbers may be written" if enum.closed else "other numbers are possible",
+            kind=_ENUM_KINDS[enum.closed],
             users=f" Used by {links}." if links else "",
             entries=_entries(enum),
         )
+
+
+def _all_enums(device: Device) -> Iterable[Enum]:
+    """The device's enums, then those that only points without code use."""
+    enums = {enum.name: enum for enum in device.enums}
+    for point in device.points:
+        if point.enum is not None:
+            enums.setdefault(point.enum.name, point.enum)
+    return enums.values()
 
 
 def _entries(enum: Enum) -> Table | None:

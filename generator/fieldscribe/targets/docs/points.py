@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from fieldscribe import wording
-from fieldscribe.exact import number_text
-from fieldscribe.model import Device, Flag, Group, Point
+from fieldscribe.exact import fixed_rule, number_text
 from fieldscribe.targets.docs.cells import (
     Table,
     anchor,
@@ -20,6 +19,11 @@ from fieldscribe.targets.docs.cells import (
     table,
     target,
 )
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping, Sequence
+
+    from fieldscribe.model import Device, Flag, Group, Point
 
 _INLINE_NAMES = 4
 """An enum with at most so many names stands in the point's row; a longer one is linked."""
@@ -111,7 +115,7 @@ def _point_table(
 
 
 def _has_rule(point: Point) -> bool:
-    return point.scale is not None or any(not isinstance(end, int) for end in _ends(point))
+    return point.scale is not None or fixed_rule(point) is None or any(not isinstance(end, int) for end in _ends(point))
 
 
 def _ends(point: Point) -> Iterator[object]:
@@ -140,7 +144,7 @@ def _remarks(device: Device, point: Point) -> Iterator[str]:
     yield from (cell(f"{one.purpose}: {one.space} {_words(one.addresses)}") for one in point.places[1:])
     yield from _conditions(device, point)
     if point.note:
-        yield cell(wording.title_text(point.note))
+        yield cell(wording.title_text(point.note).rstrip("."))
     yield from (f"erratum {link('erratum', one)}" for one in point.errata)
     if not point.generated:
         yield cell(f"not generated: {point.reason or 'no reason given'}")

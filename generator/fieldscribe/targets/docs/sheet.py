@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from functools import lru_cache
+from typing import TYPE_CHECKING
 
 from fieldscribe import text, wording
 from fieldscribe.exact import hex_text, number_text
-from fieldscribe.model import Device, Point
 from fieldscribe.targets.docs.points import reference_heads
+
+if TYPE_CHECKING:
+    from fieldscribe.model import Device, Point
 
 _cell = lru_cache(maxsize=65536)(text.csv_cell)
 

@@ -5,7 +5,6 @@ Nothing here is shared with the other targets: a wrong rule in one of them canno
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from json import dumps
 from typing import TYPE_CHECKING
 
@@ -17,6 +16,8 @@ from fieldscribe.targets.vectors.scaled import scaled
 from fieldscribe.targets.vectors.whole import address, bits, flags, names, specials, whole, words
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from fieldscribe.model import Device, Point
     from fieldscribe.render import Render
 

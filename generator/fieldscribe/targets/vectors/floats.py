@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from math import inf, isfinite, isnan, nan, nextafter
+from typing import TYPE_CHECKING
 
-from fieldscribe.model import Point
 from fieldscribe.targets.vectors.lines import Lines, subject
 from fieldscribe.targets.vectors.numbers import bits32, bits64, exact_text, float_of_bits, float_text, hex64
 from fieldscribe.targets.vectors.oracle import is_no_value
+
+if TYPE_CHECKING:
+    from fieldscribe.model import Point
 
 _PATTERNS_32 = (
     0,

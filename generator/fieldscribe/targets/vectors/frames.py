@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from dataclasses import replace
 from json import dumps
+from typing import TYPE_CHECKING
 
 from fieldscribe.families.modbus import (
+    FRAMINGS,
     FUNCTIONS,
     Profile,
     Reply,
@@ -17,20 +19,29 @@ from fieldscribe.families.modbus import (
     parse_request,
     profile_of,
 )
-from fieldscribe.model import Bus, Device
 from fieldscribe.targets.vectors.lines import Lines, array
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+    from fieldscribe.model import Bus, Device
 
 _READS = (0x01, 0x02, 0x03, 0x04)
 _TRANSACTION = 0x1234
+_ADDRESS = 0x0102
 
 
 def builds(lines: Lines, bus: Bus) -> None:
     """Requests of every function with edge counts, addresses and values, and each way to be refused."""
     profile = profile_of(bus)
-    for framing in bus.framings:
-        for request in _requests(profile, framing):
+    for framing in _framings(bus):
+        for request in dict.fromkeys(_requests(profile, framing)):
             status, data = build(profile, framing, request)
             lines.add("build", f'{_request_text(framing, request)}, "status": "{status}", "bytes": "{data.hex()}"')
+
+
+def _framings(bus: Bus) -> tuple[str, ...]:
+    return tuple(framing for framing in bus.framings if framing in FRAMINGS)
 
 
 def _request_text(framing: str, request: Request) -> str:
@@ -46,23 +57,23 @@ def _requests(profile: Profile, framing: str) -> Iterator[Request]:
     low, high = profile.units
     good = low if low != profile.broadcast else low + 1
     for function in FUNCTIONS:
-        first = _request(good, function, 0x0102, 1, transaction)
+        first = _request(good, function, 1, transaction)
         if function not in profile.most:
             yield first
             continue
         yield first
         for unit in dict.fromkeys((low, high, low - 1, high + 1, profile.broadcast)):
             if unit is not None and 0 <= unit <= 255:
-                yield _request(unit, function, 0x0102, 1, transaction)
+                yield _request(unit, function, 1, transaction)
         most = profile.most[function]
         for count in dict.fromkeys((0, 1, 2, 8, 9, 16, 17, most - 1, most, most + 1)):
             if 0 <= count <= most + 1 and (count != 1 or function in _READS):
-                yield _request(good, function, 0x0102, count, transaction)
+                yield _request(good, function, count, transaction)
         for address, count in ((0, 1), (0xFFFF, 1), (0xFFFF, 2), (0x10000 - most, most), (0x10001 - most, most)):
             if 0 <= address <= 0xFFFF:
-                yield _request(good, function, address, count, transaction, plain=True)
+                yield replace(_request(good, function, count, transaction), address=address)
         for value in _single_values(function):
-            yield Request(good, function, 0 if function == 8 else 0x0102, 1, (value,), transaction)
+            yield replace(_request(good, function, 1, transaction), values=(value,))
     yield Request(good, 0x2B, 0, 1, (0,), transaction)
 
 
@@ -72,15 +83,16 @@ def _single_values(function: int) -> tuple[int, ...]:
     return (0, 1, 0x8000, 0xFFFF) if function in (0x06, 0x08, 0x10) else ()
 
 
-def _request(unit: int, function: int, address: int, count: int, transaction: int, *, plain: bool = False) -> Request:
-    """A request with recognisable values; 08h gets its sub-function unless the address is meant as it is (`plain`)."""
+def _request(unit: int, function: int, count: int, transaction: int) -> Request:
+    """A request with recognisable address and values; the sub-function of 08h is 0."""
+    address = 0 if function == 0x08 else _ADDRESS
     if function in _READS:
         return Request(unit, function, address, count, (), transaction)
     if function in (0x05, 0x0F):
         values = tuple(1 if place % 3 == 0 else 0 for place in range(count))
     else:
         values = tuple(0xA55A + place & 0xFFFF for place in range(count))
-    return Request(unit, function, address if plain or function != 0x08 else 0, count, values, transaction)
+    return Request(unit, function, address, count, values, transaction)
 
 
 def replies(lines: Lines, bus: Bus) -> None:
@@ -88,25 +100,21 @@ def replies(lines: Lines, bus: Bus) -> None:
     profile = profile_of(bus)
     low, _ = profile.units
     unit = low if low != profile.broadcast else low + 1
-    for framing in bus.framings:
+    for framing in _framings(bus):
         transaction = _TRANSACTION if framing == "tcp" else 0
-        shortest = True
-        for function in FUNCTIONS:
-            if function not in profile.most:
-                continue
+        functions = [function for function in FUNCTIONS if function in profile.most]
+        for function in functions:
             most = profile.most[function]
-            for count in dict.fromkeys((1, min(2, most), min(11, most), most)):
-                request = _request(unit, function, 0x0102, count, transaction)
+            for count in dict.fromkeys((1, min(11, most), most)):
+                request = _request(unit, function, count, transaction)
                 _reply(lines, framing, request, _frame(framing, request, good_answer(request)))
-            request = _request(unit, function, 0x0102, min(2, most), transaction)
-            for pdu in _bad_answers(request, bus):
-                _reply(lines, framing, request, _frame(framing, request, pdu))
-            for data in _bad_frames(framing, request):
+            request = _request(unit, function, min(3, most), transaction)
+            found = [_frame(framing, request, pdu) for pdu in _bad_answers(request, bus)]
+            found += _bad_frames(framing, request)
+            if function == functions[0]:
+                found += _single_bit_errors(_frame(framing, request, good_answer(request)))
+            for data in dict.fromkeys(found):
                 _reply(lines, framing, request, data)
-            if shortest:
-                shortest = False
-                for data in _single_bit_errors(_frame(framing, request, good_answer(request))):
-                    _reply(lines, framing, request, data)
 
 
 def _frame(framing: str, request: Request, pdu: bytes) -> bytes:
@@ -219,8 +227,5 @@ def blocks(lines: Lines, device: Device) -> None:
     """The batched reads of each group."""
     for group, found in device.blocks.items():
         for index, block in enumerate(found):
-            lines.add(
-                "block",
-                f'"group": {dumps(group)}, "index": {index}, "space": {dumps(block.space)}, "function": {block.function}, '
-                f'"address": {block.address}, "count": {block.count}',
-            )
+            where = f'"space": {dumps(block.space)}, "function": {block.function}, "address": {block.address}'
+            lines.add("block", f'"group": {dumps(group)}, "index": {index}, {where}, "count": {block.count}')

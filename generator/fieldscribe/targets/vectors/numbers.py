@@ -13,7 +13,7 @@ EXACT = 1 << 53
 
 
 def half_away(over: int, under: int) -> int:
-    """over / under (under > 0) rounded to the nearest integer, halves away from zero."""
+    """Rounds over / under (under > 0) to the nearest integer, halves away from zero."""
     if over < 0:
         return -((-2 * over + under) // (2 * under))
     return (2 * over + under) // (2 * under)
@@ -56,7 +56,7 @@ def bits32(value: float) -> int | None:
     else:
         over <<= -exponent
     places, rest = divmod(over, under)
-    if 2 * rest > under or 2 * rest == under and places & 1:
+    if 2 * rest > under or (2 * rest == under and places & 1):
         places += 1
     # A normal number's 24th bit adds one to the exponent field, and so does a carry out of the fraction.
     pattern = places if exponent == -149 else places + ((exponent + 149) << 23)
@@ -75,7 +75,7 @@ def decimal_places(under: int) -> int | None:
 
 
 def exact_text(over: int, under: int) -> str:
-    """over / under (under > 0) as an exact decimal if there is one of at most 24 places, else as a fraction."""
+    """Writes over / under (under > 0) as an exact decimal if there is one of at most 24 places, else as a fraction."""
     places = decimal_places(under)
     if places is None or places > 24:
         return str(Fraction(over, under))

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import TYPE_CHECKING
 
-from fieldscribe.model import Bound, Factor, Limit, Linear, Point
 from fieldscribe.targets.vectors.numbers import EXACT, INFINITY, half_away, quotient
+
+if TYPE_CHECKING:
+    from fieldscribe.model import Bound, Factor, Limit, Linear, Point
 
 Settings = Mapping[str, int]
 """Raw numbers of the points that a rule or a limit needs."""
@@ -77,6 +80,32 @@ def fixed_ratio(rule: Linear) -> Ratio:
     return Ratio(rule.ratio.numerator, rule.ratio.denominator, rule.offset.numerator, rule.offset.denominator)
 
 
+def _number(factor: Factor, settings: Settings) -> int:
+    """The number that a factor takes from its point."""
+    return factor.slope * settings[factor.point] + factor.intercept
+
+
+def _product(rule: Linear, settings: Settings) -> tuple[int, int]:
+    """The rule's ratio times its factors, as numerator and denominator; the latter may be 0 or negative."""
+    over, under = rule.ratio.numerator, rule.ratio.denominator
+    for factor in rule.factors:
+        number = _number(factor, settings)
+        power = factor.power * number if factor.ten_to else factor.power
+        size = 10 ** abs(number) if factor.ten_to else number
+        over, under = (over * size, under) if power >= 0 else (over, under * size)
+    return over, under
+
+
+def _limit_number(limit: Limit, settings: Settings) -> int | None:
+    """The raw number that a limit is now; None if it divides by zero."""
+    over, under = _product(limit.rule, settings)
+    offset = limit.rule.offset
+    over, under = over * offset.denominator + offset.numerator * under, under * offset.denominator
+    if under == 0:
+        return None
+    return half_away(over, under) if under > 0 else half_away(-over, -under)
+
+
 class Oracle:
     """Answers for points; knows the outer bounds of the points that exponents come from."""
 
@@ -91,16 +120,12 @@ class Oracle:
         return "no_case"
 
     def _with_factors(self, rule: Linear, settings: Settings) -> Ratio | str:
-        numbers = [(factor, factor.slope * settings[factor.point] + factor.intercept) for factor in rule.factors]
-        if any(number == 0 for factor, number in numbers if not factor.ten_to):
+        if any(_number(factor, settings) == 0 for factor in rule.factors if not factor.ten_to):
             return "zero_factor"
-        if any(not self.exponent_fits(factor, settings) for factor, _ in numbers if factor.ten_to):
+        if any(not self.exponent_fits(factor, settings) for factor in rule.factors if factor.ten_to):
             return "overflow"
-        num, den = rule.ratio.numerator, rule.ratio.denominator
-        for factor, number in numbers:
-            power, number = (factor.power * number, 10 ** abs(number)) if factor.ten_to else (factor.power, number)
-            num, den = (num * number, den) if power >= 0 else (num, den * number)
-        return Ratio(num, den, rule.offset.numerator, rule.offset.denominator)
+        over, under = _product(rule, settings)
+        return Ratio(over, under, rule.offset.numerator, rule.offset.denominator)
 
     def exponent_fits(self, factor: Factor, settings: Settings) -> bool:
         """Whether an exponent's raw number lies within what its own point may hold."""
@@ -126,36 +151,18 @@ class Oracle:
             return bound
         if any(settings.get(name) in codes for name, codes in bound.unless):
             return bound.least if lower else bound.greatest
-        product = self._limit_ratio(bound, settings)
-        if product is None:
+        number = _limit_number(bound, settings)
+        if number is None:
             return "zero_factor"
-        return max(bound.least, product) if lower else min(bound.greatest, product)
+        return max(bound.least, number) if lower else min(bound.greatest, number)
 
-    def _limit_ratio(self, limit: Limit, settings: Settings) -> int | None:
-        rule = limit.rule
-        over, under = rule.ratio.numerator, rule.ratio.denominator
-        for factor in rule.factors:
-            number = factor.slope * settings[factor.point] + factor.intercept
-            power, number = (factor.power * number, 10 ** abs(number)) if factor.ten_to else (factor.power, number)
-            if power >= 0:
-                over *= number
-            elif number == 0:
-                return None
-            else:
-                under *= number
-        over, under = over * rule.offset.denominator + rule.offset.numerator * under, under * rule.offset.denominator
-        return half_away(over, under) if under > 0 else half_away(-over, -under)
 
-    def check(self, point: Point, raw: int, settings: Settings) -> str:
-        """Whether a raw number may be written: `ok`, `out_of_range`, `unknown_value`, `zero_factor`."""
-        limits = self.limits(point, settings)
-        if isinstance(limits, str):
-            return limits
-        if any(low <= raw <= high for low, high in limits) and point.least <= raw <= point.greatest:
-            return "ok"
-        return (
-            "unknown_value" if point.form == "enum" and point.enum is not None and point.enum.closed else "out_of_range"
-        )
+def admit(point: Point, raw: int, limits: Sequence[tuple[int, int]]) -> str:
+    """Whether a raw number may be written within these limits: `ok`, `out_of_range`, `unknown_value`."""
+    if any(low <= raw <= high for low, high in limits):
+        return "ok"
+    closed = point.form == "enum" and point.enum is not None and point.enum.closed
+    return "unknown_value" if closed else "out_of_range"
 
 
 def outer_bounds(point: Point) -> tuple[int, int]:

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from functools import lru_cache
 from math import gcd
 
-from fieldscribe.model import Limit, Point
+from fieldscribe.model import Factor, Limit, Point
 from fieldscribe.targets.vectors.oracle import Oracle, Ratio, outer_bounds
 
 Limits = Sequence[tuple[int, int]]
@@ -102,16 +102,17 @@ def _typical(oracle: Oracle, point: Point, name: str) -> int:
             return case.raw
     low, high = _bounds(oracle, name)
     middle = low + (high - low) // 3
-    return middle if middle else min(high, 1)
+    return middle or min(high, 1)
 
 
 def _choices(oracle: Oracle, point: Point, name: str) -> list[int]:
-    """Raw numbers for one argument, as far as its point holds them: ends, cases and none, zeros, codes that lift limits."""
+    """Raw numbers for one argument, as far as its point holds them: ends, cases, zeros, codes that lift limits."""
     low, high = _bounds(oracle, name)
-    rules = [case.rule for case in point.scale or ()] + [limit.rule for limit in limits_of(point)]
     cases = [case.raw for case in point.scale or () if case.point == name and case.raw is not None]
     found = [*cases, max(cases) + 1] if cases else [low, high]
-    for factor in [factor for rule in rules for factor in rule.factors if factor.point == name]:
+    for factor in _factors_with_a_zero(point):
+        if factor.point != name:
+            continue
         if factor.ten_to:
             found += [low - 1, high + 1]
         elif factor.slope and factor.intercept % factor.slope == 0:
@@ -121,6 +122,12 @@ def _choices(oracle: Oracle, point: Point, name: str) -> list[int]:
     ]
     source = oracle.points.get(name)
     return [raw for raw in dict.fromkeys(found) if source is None or source.least <= raw <= source.greatest]
+
+
+def _factors_with_a_zero(point: Point) -> list[Factor]:
+    """The factors that no rule can be computed with when they are zero: of a scale all, of a limit the divisors."""
+    scales = [factor for case in point.scale or () for factor in case.rule.factors]
+    return scales + [factor for limit in limits_of(point) for factor in limit.rule.factors if factor.power < 0]
 
 
 def limits_of(point: Point) -> list[Limit]:

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import inf, nan, nextafter
+from typing import TYPE_CHECKING
 
-from fieldscribe.model import Point
 from fieldscribe.targets.vectors import samples
 from fieldscribe.targets.vectors.lines import Lines, subject, with_text
 from fieldscribe.targets.vectors.numbers import exact_text, float_text, hex64, quotient
 from fieldscribe.targets.vectors.oracle import INT64, Oracle, Ratio, is_no_value
+
+if TYPE_CHECKING:
+    from fieldscribe.model import Point
 
 INT32 = 1 << 31
 

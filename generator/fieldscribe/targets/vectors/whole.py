@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from json import dumps
+from typing import TYPE_CHECKING
 
-from fieldscribe.model import Point
 from fieldscribe.targets.vectors import samples
 from fieldscribe.targets.vectors.lines import Lines, array, subject, with_text
-from fieldscribe.targets.vectors.oracle import INT64, Oracle, Settings, is_no_value
+from fieldscribe.targets.vectors.oracle import INT64, Oracle, admit, is_no_value
+
+if TYPE_CHECKING:
+    from fieldscribe.model import Point
 
 
 def whole(lines: Lines, oracle: Oracle, point: Point) -> None:
@@ -21,10 +24,10 @@ def whole(lines: Lines, oracle: Oracle, point: Point) -> None:
                 lines.add("encode_count", f'{head}, "count": {raw}, "status": "{limits}"')
                 lines.add("check", f'{head}, "raw": {raw}, "status": "{limits}"')
         else:
-            _sheet(lines, oracle, point, settings, head, limits)
+            _sheet(lines, point, head, limits)
 
 
-def _sheet(lines: Lines, oracle: Oracle, point: Point, settings: Settings, head: str, limits: samples.Limits) -> None:
+def _sheet(lines: Lines, point: Point, head: str, limits: samples.Limits) -> None:
     raws = dict.fromkeys((*samples.raws_to_check(point, limits), *samples.raws_to_decode(point, limits)))
     if point.enum is not None:
         raws.update(dict.fromkeys(entry.raw for entry in point.enum.entries))
@@ -41,13 +44,13 @@ def _sheet(lines: Lines, oracle: Oracle, point: Point, settings: Settings, head:
     beyond = dict.fromkeys((*samples.edges(limits), point.least - 1, point.greatest + 1, top - 1, -top))
     for count in {**raws, **beyond}:
         if -top <= count < top:
-            status = oracle.check(point, count, settings)
+            status = admit(point, count, limits)
             lines.add(
                 "encode_count",
                 f'{head}, "count": {count}, "status": "{status}"' + (f', "raw": {count}' if status == "ok" else ""),
             )
     for raw in raws:
-        lines.add("check", f'{head}, "raw": {raw}, "status": "{oracle.check(point, raw, settings)}"')
+        lines.add("check", f'{head}, "raw": {raw}, "status": "{admit(point, raw, limits)}"')
 
 
 def _signed(point: Point, pattern: int) -> int:
@@ -93,25 +96,14 @@ def bits(lines: Lines, point: Point) -> None:
     """A bit group taken out of its word, and another number put in."""
     if point.bits is None:
         return
-    low, ones = point.bits[1], (1 << point.width) - 1
-    patterns = dict.fromkeys((0, ones, 1, ones >> 1, ones ^ ones >> 1))
-    for word, put in (
-        (0, ones),
-        (0xFFFF, 0),
-        (0x5A3C, 0x5555 & ones),
-        (0xA5C3, 0xAAAA & ones),
-        *((0, one) for one in patterns),
-    ):
-        _bits_line(lines, point, word, put, word & ~(ones << low) | put << low)
-    for one in patterns:
-        _bits_line(lines, point, one << low, ones ^ one, (ones ^ one) << low)
-
-
-def _bits_line(lines: Lines, point: Point, word: int, put: int, result: int) -> None:
-    assert point.bits is not None
-    raw = _signed(point, word >> point.bits[1] & (1 << point.width) - 1)
-    rest = f'"word": {word}, "raw": {raw}, "replaced": {_signed(point, put)}, "result": {result}'
-    lines.add("bits", f"{subject(point.item)}, {rest}")
+    low, ones, head = point.bits[1], (1 << point.width) - 1, subject(point.item)
+    patterns = (0, ones, 1, ones >> 1, ones ^ ones >> 1)
+    tries = [(0, ones), (0xFFFF, 0), (0x5A3C, 0x5555 & ones), (0xA5C3, 0xAAAA & ones)]
+    tries += [(0, put) for put in patterns] + [(pattern << low, ones ^ pattern) for pattern in patterns]
+    for word, put in dict.fromkeys(tries):
+        raw, result = word >> low & ones, word & ~(ones << low) | put << low
+        rest = f'"raw": {_signed(point, raw)}, "replaced": {_signed(point, put)}, "result": {result}'
+        lines.add("bits", f'{head}, "word": {word}, {rest}')
 
 
 def words(lines: Lines, point: Point) -> None:

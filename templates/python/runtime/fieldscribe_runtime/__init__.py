@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: 0BSD
 """What generated devices are made of: points, forms, frames and devices. It needs nothing but Python 3.11."""
 
+from .commands import Command
 from .descriptors import ByVariant, ReadOnly, ReadWrite, WriteOnly, renamed
 from .device import AsyncDevice, AsyncTransport, Device, Transport
 from .errors import (
     AccessError,
     CodecError,
-    ExceptionReply,
+    ExceptionReplyError,
     FieldscribeError,
     FrameError,
     MissingRawError,
@@ -20,10 +21,26 @@ from .errors import (
     WrongLengthError,
     ZeroFactorError,
 )
-from .forms import F32, F64, S8, S16, S32, S64, U8, U16, U32, U64, Bit, Flags, Floating, Integer, Named, OrNone, Scaled
+from .forms import (
+    F32,
+    F64,
+    S8,
+    S16,
+    S32,
+    S64,
+    U8,
+    U16,
+    U32,
+    U64,
+    Bit,
+    Flags,
+    Integer,
+    Named,
+)
 from .modbus import Profile
 from .planner import Block
 from .points import Place, Point, coil, discrete, holding, input_register
+from .quantities import Floating, OrNone, Scaled
 from .rules import Case, Factor, Limit, Rule
 from .session import PointTable, Value
 from .words import Field, Flag
@@ -47,8 +64,9 @@ __all__ = [
     "ByVariant",
     "Case",
     "CodecError",
+    "Command",
     "Device",
-    "ExceptionReply",
+    "ExceptionReplyError",
     "Factor",
     "Field",
     "FieldscribeError",

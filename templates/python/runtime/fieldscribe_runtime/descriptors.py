@@ -5,23 +5,24 @@ from __future__ import annotations
 
 import copy
 import warnings
-from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Generic, Never, TypeVar, Unpack, overload
 
 from .errors import AccessError
-from .forms import Form
-from .handles import (
-    AsyncReadHandle,
-    AsyncReadWriteHandle,
-    AsyncWriteHandle,
-    ReadHandle,
-    ReadWriteHandle,
-    WriteHandle,
-)
 from .points import Decoding, Encoding, FactArguments, Facts, Point
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from .device import AsyncDevice, Device
+    from .forms import Form
+    from .handles import (
+        AsyncReadHandle,
+        AsyncReadWriteHandle,
+        AsyncWriteHandle,
+        ReadHandle,
+        ReadWriteHandle,
+        WriteHandle,
+    )
 
 R = TypeVar("R")
 W = TypeVar("W")

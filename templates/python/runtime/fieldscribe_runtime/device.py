@@ -5,9 +5,9 @@ from __future__ import annotations
 
 import asyncio
 import threading
-from collections.abc import Iterable, Mapping
-from typing import Protocol, TypeVar
+from typing import TYPE_CHECKING, Protocol, TypeVar
 
+from .commands import AsyncCommandHandle, Command, CommandHandle
 from .descriptors import ReadOnly, ReadWrite
 from .handles import (
     AsyncReadHandle,
@@ -20,6 +20,9 @@ from .handles import (
 from .planner import read_function
 from .points import Place, Point
 from .session import Session, Steps, Value
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
 
 T = TypeVar("T")
 
@@ -47,10 +50,10 @@ class AsyncTransport(Protocol):
 
 
 class Device(Session):
-    """A device on a bus. One thread at a time talks to it; devices that share a transport need one that waits its turn."""
+    """A device on a bus. One thread at a time talks to it; a transport that devices share has to do the same."""
 
-    def __init__(self, transport: Transport, unit: int, variants: Mapping[str, str | None]) -> None:
-        super().__init__(transport.framing, unit, variants)
+    def __init__(self, transport: Transport, unit: int, variants: Mapping[str, str | None] | None = None) -> None:
+        super().__init__(transport.framing, unit, variants or {})
         self.transport = transport
         self._lock = threading.Lock()
 
@@ -60,6 +63,10 @@ class Device(Session):
         if isinstance(point, ReadWrite):
             return ReadWriteHandle(point, self)
         return ReadHandle(point, self) if isinstance(point, ReadOnly) else WriteHandle(point, self)
+
+    def command(self, command: Command) -> CommandHandle:
+        """The command, bound to this device."""
+        return CommandHandle(command, self)
 
     def run(self, steps: Steps[T]) -> T:
         """Carry out an operation."""
@@ -88,8 +95,8 @@ class Device(Session):
 class AsyncDevice(Session):
     """A device on a bus, asynchronously. One task at a time talks to it; see `Device` for shared transports."""
 
-    def __init__(self, transport: AsyncTransport, unit: int, variants: Mapping[str, str | None]) -> None:
-        super().__init__(transport.framing, unit, variants)
+    def __init__(self, transport: AsyncTransport, unit: int, variants: Mapping[str, str | None] | None = None) -> None:
+        super().__init__(transport.framing, unit, variants or {})
         self.transport = transport
         self._lock = asyncio.Lock()
 
@@ -99,6 +106,10 @@ class AsyncDevice(Session):
         if isinstance(point, ReadWrite):
             return AsyncReadWriteHandle(point, self)
         return AsyncReadHandle(point, self) if isinstance(point, ReadOnly) else AsyncWriteHandle(point, self)
+
+    def command(self, command: Command) -> AsyncCommandHandle:
+        """The command, bound to this device."""
+        return AsyncCommandHandle(command, self)
 
     async def run(self, steps: Steps[T]) -> T:
         """Carry out an operation."""

@@ -81,7 +81,7 @@ class AccessError(FieldscribeError):
 
 
 class RequestError(FieldscribeError, ValueError):
-    """The request cannot be sent to this device; `status` is bad_unit, bad_function, bad_count, bad_address or bad_value."""
+    """The request cannot be sent to this device; `status` says why (bad_unit, bad_count, ...)."""
 
     def __init__(self, status: str, message: str) -> None:
         super().__init__(message)
@@ -96,7 +96,7 @@ class FrameError(FieldscribeError):
         self.status = status
 
 
-class ExceptionReply(FrameError):
+class ExceptionReplyError(FrameError):
     """The device refused the request with an exception `code`; `name` is the manual's name for it, where known."""
 
     def __init__(self, code: int, name: str | None = None) -> None:

@@ -3,10 +3,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
-from .errors import ExceptionReply, FrameError, RequestError
+from .errors import ExceptionReplyError, FrameError, RequestError
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
 
 READ_COILS, READ_DISCRETE, READ_HOLDING, READ_INPUT = 0x01, 0x02, 0x03, 0x04
 WRITE_COIL, WRITE_REGISTER, DIAGNOSTICS, WRITE_COILS, WRITE_REGISTERS = 0x05, 0x06, 0x08, 0x0F, 0x10
@@ -30,12 +33,11 @@ class Profile:
     broadcast: int | None = 0
     pad_coil_bytes_even: bool = False
     exceptions: Mapping[int, str] = field(default_factory=dict)
-    gaps: Mapping[str, tuple[tuple[int, int], ...]] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)
 class Request:
-    """One request. Reads name `count`, writes `values`; a loop-back test (08h) sends values[0] to sub-function `address`."""
+    """One request. Reads name `count`, writes `values`; a loop-back test (08h) sends values[0] to `address` 0."""
 
     unit: int
     function: int
@@ -52,9 +54,10 @@ class Request:
 def _crc_table() -> tuple[int, ...]:
     table = []
     for byte in range(256):
+        value = byte
         for _ in range(8):
-            byte = byte >> 1 ^ (0xA001 if byte & 1 else 0)
-        table.append(byte)
+            value = value >> 1 ^ (0xA001 if value & 1 else 0)
+        table.append(value)
     return tuple(table)
 
 
@@ -72,16 +75,19 @@ def crc(data: bytes) -> int:
 def check_request(request: Request, profile: Profile) -> None:
     """Raises RequestError if the device does not take such a request."""
     low, high = profile.units
-    broadcast = request.unit == profile.broadcast and request.function in WRITES
-    if not (low <= request.unit <= high or broadcast):
-        raise RequestError("bad_unit", f"unit {request.unit} is outside {low}..{high}")
     most = profile.functions.get(request.function)
     if most is None:
         raise RequestError("bad_function", f"the device has no function {request.function:02X}h")
+    if request.unit == profile.broadcast:
+        if request.function not in WRITES:
+            raise RequestError("bad_unit", f"function {request.function:02X}h cannot be sent to all units")
+    elif not low <= request.unit <= high:
+        raise RequestError("bad_unit", f"unit {request.unit} is outside {low}..{high}")
     if not 1 <= request.items <= most:
         raise RequestError("bad_count", f"function {request.function:02X}h takes 1..{most} items, not {request.items}")
-    if not 0 <= request.address <= 0x10000 - request.items:
-        raise RequestError("bad_address", f"{request.items} items from {request.address} are outside 0..65535")
+    last = 0 if request.function == DIAGNOSTICS else 0x10000 - request.items
+    if not 0 <= request.address <= last:
+        raise RequestError("bad_address", f"{request.items} items from {request.address} on are outside 0..65535")
     largest = 1 if request.function in (WRITE_COIL, WRITE_COILS) else 0xFFFF
     if not all(0 <= value <= largest for value in request.values):
         raise RequestError("bad_value", f"values must be in 0..{largest}")
@@ -133,11 +139,11 @@ def parse(
 ) -> tuple[int, ...]:
     """What a reply to `request` brings: words, bits as 0 or 1, the echoed value, or nothing for a block write.
 
-    Raises FrameError for everything that is no good answer; its subclass ExceptionReply carries the device's code.
+    Raises FrameError for everything that is no good answer; its subclass ExceptionReplyError carries the device's code.
     """
     pdu = _open_tcp(request, reply, transaction & 0xFFFF) if framing == TCP else _open_rtu(request, reply)
     if pdu[0] != request.function:
-        raise ExceptionReply(pdu[1], profile.exceptions.get(pdu[1]))
+        raise ExceptionReplyError(pdu[1], profile.exceptions.get(pdu[1]))
     return _answer(request, pdu, profile)
 
 

@@ -3,11 +3,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from .modbus import READ_COILS, READ_DISCRETE, READ_HOLDING, READ_INPUT, READS, Profile
-from .points import Place
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Iterable
+
+    from .points import Place
 
 _READS = {"coil": READ_COILS, "discrete": READ_DISCRETE, "holding": READ_HOLDING, "input": READ_INPUT}
 

@@ -3,13 +3,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, Generic, NotRequired, TypedDict, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, NotRequired, TypedDict, TypeVar
 
 from .errors import CodecError, WrongLengthError
-from .forms import Allowed, Form, Type
 from .rules import NO_RAWS, Limit, Raws, high_end, low_end
+
+if TYPE_CHECKING:
+    import enum
+    from collections.abc import Mapping, Sequence
+
+    from .forms import Allowed, Form, Type
 
 R_co = TypeVar("R_co", covariant=True)
 W_contra = TypeVar("W_contra", contravariant=True)
@@ -17,7 +21,7 @@ W_contra = TypeVar("W_contra", contravariant=True)
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """Where a point is: its space, its addresses on the wire (the high part first), and a function if not the usual one."""
+    """Where a point is: its space, its addresses (the high part first), and a function if it is not the usual one."""
 
     space: str
     addresses: tuple[int, ...]
@@ -73,7 +77,7 @@ class FactArguments(TypedDict):
 
 @dataclass(slots=True, kw_only=True)
 class Facts:
-    """What a description says of a point. `item` is the attribute's name, `name` the same without a variant's suffix."""
+    """What a description says of a point. `item` is what the attribute is called, `name` leaves out the variant."""
 
     at: Place
     write_at: Place | None = None
@@ -102,14 +106,19 @@ class Point:
         return f"{self.facts.code} {self.facts.item}" if self.facts.code else self.facts.item
 
     @property
-    def type(self) -> Type:
+    def wire(self) -> Type:
         """The wire type."""
         return self._form.wire
 
     @property
     def width(self) -> int:
         """How many bits the raw number has."""
-        return self.type.bits if self.facts.bits is None else self.facts.bits[0] - self.facts.bits[1] + 1
+        return self.wire.bits if self.facts.bits is None else self.facts.bits[0] - self.facts.bits[1] + 1
+
+    @property
+    def names(self) -> type[enum.IntEnum | enum.IntFlag] | None:
+        """The class that names its numbers or its flags, where there is one."""
+        return self._form.names
 
     @property
     def decimals(self) -> int:
@@ -124,7 +133,7 @@ class Point:
     @property
     def allowed(self) -> Allowed:
         """The raw numbers that may be written."""
-        return (self.type.limits(self.width),) if self.facts.allowed is None else self.facts.allowed
+        return (self.wire.limits(self.width),) if self.facts.allowed is None else self.facts.allowed
 
     @property
     def scale_needs(self) -> tuple[str, ...]:
@@ -153,7 +162,7 @@ class Point:
         pattern = 0
         for address in addresses:
             pattern = pattern << 16 | by_address[address] & 0xFFFF
-        return self.type.number(pattern, self.type.bits)
+        return self.wire.number(pattern, self.wire.bits)
 
     def to_words(self, raw: int) -> tuple[int, ...]:
         """The unsigned words of a raw number in ascending order of address."""
@@ -163,7 +172,7 @@ class Point:
 
     def extract(self, word: int) -> int:
         """The raw number of a bit group, from its whole word."""
-        return self.type.number(word >> self._lowest_bit, self.width)
+        return self.wire.number(word >> self._lowest_bit, self.width)
 
     def insert(self, word: int, raw: int) -> int:
         """The whole word with this bit group replaced."""
@@ -228,7 +237,7 @@ class Encoding(Point, Generic[W_contra]):
         return raw
 
     def check(self, raw: int, raws: Raws = NO_RAWS) -> None:
-        """Raises RangeError or UnknownValueError (ZeroFactorError, MissingRawError) if this raw number may not be written."""
+        """Raises RangeError or UnknownValueError (or ZeroFactorError) if this raw number may not be written."""
         try:
             if self._form.checked(raw, self.allowed, raws) is None:
                 raise self._form.refused(f"raw {raw} is {self._form.choices() or self._raw_bounds(raws)}")

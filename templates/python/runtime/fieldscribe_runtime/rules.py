@@ -13,11 +13,10 @@ Raws = Mapping[str, int]
 """Raw numbers of other points by name."""
 
 NO_RAWS: Raws = {}
-_LARGEST_EXPONENT = 400  # 10**400 is beyond every binary64, so no useful result is lost
 
 
 def round_ratio(num: int, den: int) -> int:
-    """num / den to the nearest integer, halves away from zero."""
+    """The integer nearest to num / den, halves away from zero."""
     size = (2 * abs(num) + abs(den)) // (2 * abs(den))
     return size if (num < 0) == (den < 0) else -size
 
@@ -39,17 +38,24 @@ def raw_of(point: str, raws: Raws) -> int:
 
 @dataclass(frozen=True, slots=True)
 class Factor:
-    """raw * slope + intercept of another point, to the power of 1 or -1; with `ten_to`, ten to that number."""
+    """raw * slope + intercept of another point, to the power of 1 or -1.
+
+    With `ten_to` it is ten to that number, and the pair says between which raw numbers of the point this holds.
+    """
 
     point: str
     slope: int = 1
     intercept: int = 0
     power: int = 1
-    ten_to: bool = False
+    ten_to: tuple[int, int] | None = None
 
     def number(self, raws: Raws) -> int:
         """The factor (or exponent) before `power`."""
         return raw_of(self.point, raws) * self.slope + self.intercept
+
+    def exponent_fits(self, raws: Raws) -> bool:
+        """Whether the raw number is one for which ten to it is defined."""
+        return self.ten_to is None or self.ten_to[0] <= raw_of(self.point, raws) <= self.ten_to[1]
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,20 +70,21 @@ class Rule:
     def ratio(self, raws: Raws, *, zero_allowed: bool = False) -> tuple[int, int]:
         """Numerator and denominator with all factors; `zero_allowed` lets the numerator be zero.
 
-        Raises ZeroFactorError, ResultOverflowError (an absurd exponent) and MissingRawError.
+        Raises ZeroFactorError, ResultOverflowError (an exponent beyond its range) and MissingRawError.
         """
         num, den = self.num, self.den
-        for factor in self.factors:
-            number = factor.number(raws)
-            if factor.ten_to:
-                exponent = number * factor.power
-                if abs(exponent) > _LARGEST_EXPONENT:
-                    raise ResultOverflowError(f"10 ** {exponent} (from {factor.point}) is too large")
-                num, den = (num * 10**exponent, den) if exponent >= 0 else (num, den * 10**-exponent)
-            elif number == 0 and not (zero_allowed and factor.power > 0):
+        if not self.factors:
+            return num, den
+        numbers = [(factor, factor.number(raws)) for factor in self.factors]
+        for factor, number in numbers:
+            if number == 0 and factor.ten_to is None and not (zero_allowed and factor.power > 0):
                 raise ZeroFactorError(f"{factor.point} is zero")
-            else:
-                num, den = (num * number, den) if factor.power > 0 else (num, den * number)
+        for factor, number in numbers:
+            if not factor.exponent_fits(raws):
+                raise ResultOverflowError(f"10 ** {number} is too far: {factor.point} is outside {factor.ten_to}")
+            power = factor.power if factor.ten_to is None else factor.power * number
+            size = number if factor.ten_to is None else 10 ** abs(number)
+            num, den = (num * size, den) if power >= 0 else (num, den * size)
         return num, den
 
     def encode(self, value: float, raws: Raws) -> int | None:

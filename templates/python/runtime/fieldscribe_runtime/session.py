@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: 0BSD
 """What a device is asked, in which order: the part of sync and async devices that does no I/O.
 
-Each operation is a generator that yields the bytes of a request, is sent the bytes of the reply, and returns the result.
+Each operation is a generator: it yields the bytes of a request, is sent the bytes of the reply, and returns a result.
 """
 
 from __future__ import annotations
@@ -171,6 +171,7 @@ class Session(PointTable):
     def _listed(self, what: Iterable[str | Point]) -> list[ReadOnly[Any] | ReadWrite[Any, Any]]:
         points = [self.point(one if isinstance(one, str) else one.facts.item) for one in what]
         for point in points:
+            self.require(point)
             if not isinstance(point, Decoding):
                 raise AccessError(f"{point.label} cannot be read")
         return [point for point in points if isinstance(point, ReadOnly | ReadWrite)]
@@ -181,8 +182,11 @@ class Session(PointTable):
             raise AccessError(f"there is no group {group}")
         return [point for point in members if isinstance(point, ReadOnly | ReadWrite)], self.BLOCKS.get(group, ())
 
+    def _readable_here(self, point: Point) -> bool:
+        return isinstance(point, Decoding) and self._has(point)
+
     def _bridges(self) -> frozenset[tuple[str, int]]:
         if self._readable is None:
-            places = [point.facts.at for point in self.POINTS.values() if isinstance(point, Decoding)]
+            places = [point.facts.at for point in self.POINTS.values() if self._readable_here(point)]
             self._readable = frozenset((place.space, address) for place in places for address in place.addresses)
         return self._readable

@@ -65,6 +65,25 @@ pub const fn to_f64(integer: i64) -> f64 {
     integer as f64
 }
 
+/// The binary64 number nearest to an unsigned integer.
+#[must_use]
+#[expect(clippy::cast_precision_loss, reason = "nearest is what is asked for")]
+pub const fn unsigned_to_f64(integer: u64) -> f64 {
+    integer as f64
+}
+
+/// A bit out of a count.
+///
+/// # Errors
+/// [`Error::OutOfRange`] if it is neither 0 nor 1.
+pub const fn bit(count: i32) -> Result<bool, Error> {
+    match count {
+        0 => Ok(false),
+        1 => Ok(true),
+        _ => Err(Error::OutOfRange),
+    }
+}
+
 /// `number`, if it is in `low..=high`.
 ///
 /// # Errors
@@ -143,6 +162,19 @@ pub fn f64_bits(value: f64) -> Result<u64, Error> {
 pub const fn extract(word: u16, shift: u32, mask: u16) -> u16 {
     match (word & mask).checked_shr(shift) {
         Some(bits) => bits,
+        None => 0,
+    }
+}
+
+/// The bits of the group in `word` as a number in two's complement, right-aligned, the sign in all upper bits.
+#[must_use]
+pub const fn extract_signed(word: u16, shift: u32, mask: u16) -> u16 {
+    let above = mask.leading_zeros();
+    let Some(left) = (word & mask).checked_shl(above) else {
+        return 0;
+    };
+    match i16::from_be_bytes(left.to_be_bytes()).checked_shr(above + shift) {
+        Some(bits) => u16::from_be_bytes(bits.to_be_bytes()),
         None => 0,
     }
 }

@@ -8,15 +8,14 @@
 
 pub mod arithmetic;
 pub mod client;
-mod flags;
 pub mod modbus;
 mod point;
 mod raw;
 
-pub use flags::{Flag, Flags};
+pub use arithmetic::Rule;
 pub use point::{
-    allowed, listed, not_special, BitGroup, CountReadable, CountWritable, Decoded, Point, Readable,
-    Space, Whole, Writable,
+    allowed, has_value, listed, BitGroup, CountReadable, CountWritable, Decoded, Point, Readable,
+    Scaled, Space, Whole, Writable,
 };
 pub use raw::Raw;
 

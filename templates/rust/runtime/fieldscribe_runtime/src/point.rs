@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: 0BSD
 //! What a point is. Each point of a device is a type that implements [`Point`] and what its access allows.
 
+use crate::arithmetic::{insert, Rule};
 use crate::{Error, Raw};
 
 /// Where an address counts.
@@ -101,8 +102,20 @@ pub trait BitGroup: Point<Raw: Raw<Words = [u16; 1]>> {
     /// `word` with the group's number replaced; bits that the group does not have are cut off.
     fn insert(word: u16, raw: Self::Raw) -> u16 {
         let [bits] = raw.into_words();
-        crate::arithmetic::insert(word, Self::SHIFT, Self::MASK, bits)
+        insert(word, Self::SHIFT, Self::MASK, bits)
     }
+}
+
+/// A point whose scale needs the raw numbers of other points.
+pub trait Scaled: Point {
+    /// The raw numbers that the scale needs.
+    type Factors: Copy;
+
+    /// The scale that holds now.
+    ///
+    /// # Errors
+    /// [`Error::NoCase`], [`Error::ZeroFactor`], [`Error::Overflow`].
+    fn rule(with: Self::Factors) -> Result<Rule, Error>;
 }
 
 /// What decoding gives: the value where it cannot fail, else a result.
@@ -259,7 +272,7 @@ pub const fn listed(holds: bool) -> Result<(), Error> {
 ///
 /// # Errors
 /// [`Error::NoValue`] if it does not hold.
-pub const fn not_special(holds: bool) -> Result<(), Error> {
+pub const fn has_value(holds: bool) -> Result<(), Error> {
     if holds {
         Ok(())
     } else {

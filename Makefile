@@ -1,0 +1,29 @@
+# Two commands are all a newcomer needs: `make generate` and `make test`. Each sets up what it needs first.
+FIELDSCRIBE = .venv/bin/fieldscribe
+PYTHON = .venv/bin/python
+
+.PHONY: generate test core bench check clean
+
+generate:           ## compile all descriptions into generated/
+	@sh generator/setup.sh compiler
+	$(FIELDSCRIBE) generate descriptions --out generated
+
+test:               ## run every test
+	@sh generator/setup.sh tests
+	$(PYTHON) -m pytest -n auto
+
+core:               ## run the quick tests only
+	@sh generator/setup.sh tests
+	$(PYTHON) -m pytest -n auto -m "not full"
+
+check:              ## validate the descriptions, and say what in generated/ is stale
+	@sh generator/setup.sh compiler
+	$(FIELDSCRIBE) check descriptions
+	$(FIELDSCRIBE) generate descriptions --out generated --check
+
+bench:              ## measure the compiler as whole processes and print a table
+	@sh generator/setup.sh tests
+	$(PYTHON) tests/bench/bench.py
+
+clean:              ## remove the virtual environment and caches
+	rm -rf .venv .cache .mypy_cache .pytest_cache .ruff_cache .hypothesis

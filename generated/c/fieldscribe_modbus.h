@@ -1,0 +1,395 @@
+/*
+ * Modbus frames: builds requests and reads answers, in the caller's buffers, over a serial line (RTU) or TCP.
+ * Functions 01h 02h 03h 04h 05h 06h 08h 0Fh 10h. No heap, no state; any bytes at any length are safe to parse.
+ *
+ * SPDX-License-Identifier: 0BSD
+ */
+#ifndef FIELDSCRIBE_MODBUS_H
+#define FIELDSCRIBE_MODBUS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* The longest frames there are. */
+#define FIELDSCRIBE_MODBUS_RTU_MOST 256U
+#define FIELDSCRIBE_MODBUS_TCP_MOST 260U
+
+/* In a profile: no unit number is a broadcast. */
+#define FIELDSCRIBE_MODBUS_NO_BROADCAST 0xFFFFU
+
+typedef enum fieldscribe_modbus_status {
+    FIELDSCRIBE_MODBUS_OK = 0,
+    /* building */
+    FIELDSCRIBE_MODBUS_BAD_UNIT,         /* not a unit of this device, or a broadcast that nobody may answer */
+    FIELDSCRIBE_MODBUS_BAD_FUNCTION,     /* the device does not know the function */
+    FIELDSCRIBE_MODBUS_BAD_COUNT,        /* no items, too many, or no values for them */
+    FIELDSCRIBE_MODBUS_BAD_ADDRESS,      /* the last item lies beyond FFFFh */
+    FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL, /* the caller's buffer does not hold the result */
+    /* parsing */
+    FIELDSCRIBE_MODBUS_SHORT_FRAME,
+    FIELDSCRIBE_MODBUS_LONG_FRAME,
+    FIELDSCRIBE_MODBUS_BAD_CRC,
+    FIELDSCRIBE_MODBUS_BAD_PROTOCOL,
+    FIELDSCRIBE_MODBUS_WRONG_TRANSACTION,
+    FIELDSCRIBE_MODBUS_WRONG_UNIT,
+    FIELDSCRIBE_MODBUS_WRONG_FUNCTION,
+    FIELDSCRIBE_MODBUS_EXCEPTION,      /* the device refused; the reply holds its code */
+    FIELDSCRIBE_MODBUS_BAD_BYTE_COUNT, /* a read that brings more or less than was asked for */
+    FIELDSCRIBE_MODBUS_ECHO_MISMATCH   /* a write that was answered with something else */
+} fieldscribe_modbus_status;
+
+typedef enum fieldscribe_modbus_framing { FIELDSCRIBE_MODBUS_RTU = 0, FIELDSCRIBE_MODBUS_TCP } fieldscribe_modbus_framing;
+
+/* A function code and how many items one request may carry. */
+typedef struct fieldscribe_modbus_function {
+    uint8_t code;
+    uint16_t most;
+} fieldscribe_modbus_function;
+
+/* What a device understands. */
+typedef struct fieldscribe_modbus_profile {
+    const fieldscribe_modbus_function *functions;
+    size_t function_count;
+    uint8_t first_unit;
+    uint8_t last_unit;
+    uint16_t broadcast;
+    bool pads_coil_bytes; /* 0Fh carries an even number of data bytes */
+} fieldscribe_modbus_profile;
+
+/* Consecutive addresses that one request reads. */
+typedef struct fieldscribe_modbus_block {
+    uint8_t function;
+    uint16_t address;
+    uint16_t count;
+} fieldscribe_modbus_block;
+
+/*
+ * A request. `values` has `count` items for functions that write: words, or 0 and 1 for coils. For 08h `address` is the
+ * sub-function and values[0] the test data. `transaction` is used by TCP alone.
+ */
+typedef struct fieldscribe_modbus_request {
+    uint16_t transaction;
+    uint8_t unit;
+    uint8_t function;
+    uint16_t address;
+    uint16_t count;
+    const uint16_t *values;
+} fieldscribe_modbus_request;
+
+/* What an answer says: `count` values were stored; `exception` is the device's code, 0 when there is none. */
+typedef struct fieldscribe_modbus_reply {
+    uint16_t count;
+    uint8_t exception;
+} fieldscribe_modbus_reply;
+
+static inline fieldscribe_modbus_request fieldscribe_modbus_read(
+    uint8_t unit, uint8_t function, uint16_t address, uint16_t count)
+{
+    const fieldscribe_modbus_request request = {0U, unit, function, address, count, NULL};
+    return request;
+}
+
+static inline fieldscribe_modbus_request fieldscribe_modbus_write(
+    uint8_t unit, uint8_t function, uint16_t address, uint16_t count, const uint16_t *values)
+{
+    const fieldscribe_modbus_request request = {0U, unit, function, address, count, values};
+    return request;
+}
+
+/* The request that reads a block. */
+static inline fieldscribe_modbus_request fieldscribe_modbus_read_block(uint8_t unit, const fieldscribe_modbus_block *block)
+{
+    return fieldscribe_modbus_read(unit, block->function, block->address, block->count);
+}
+
+/* The checksum of RTU frames; its low byte travels first. */
+static inline uint16_t fieldscribe_modbus_crc(const uint8_t *bytes, size_t length)
+{
+    static const uint16_t nibbles[16] = {0x0000U, 0xCC01U, 0xD801U, 0x1400U, 0xF001U, 0x3C00U, 0x2800U, 0xE401U,
+        0xA001U, 0x6C00U, 0x7800U, 0xB401U, 0x5000U, 0x9C01U, 0x8801U, 0x4400U};
+    uint16_t crc = 0xFFFFU;
+    size_t at;
+    for (at = 0U; at < length; ++at) {
+        crc = (uint16_t)(crc ^ bytes[at]);
+        crc = (uint16_t)((uint16_t)(crc >> 4) ^ nibbles[crc & 0xFU]);
+        crc = (uint16_t)((uint16_t)(crc >> 4) ^ nibbles[crc & 0xFU]);
+    }
+    return crc;
+}
+
+static inline uint16_t fieldscribe_modbus_get(const uint8_t *bytes)
+{
+    return (uint16_t)(((uint32_t)bytes[0] << 8) | bytes[1]);
+}
+
+static inline void fieldscribe_modbus_put(uint8_t *bytes, uint16_t number)
+{
+    bytes[0] = (uint8_t)(number >> 8);
+    bytes[1] = (uint8_t)(number & 0xFFU);
+}
+
+static inline bool fieldscribe_modbus_reads(uint8_t function)
+{
+    return function >= 0x01U && function <= 0x04U;
+}
+
+static inline bool fieldscribe_modbus_reads_bits(uint8_t function)
+{
+    return function == 0x01U || function == 0x02U;
+}
+
+/* 05h carries FF00h for on; every other single value travels as it is. */
+static inline uint16_t fieldscribe_modbus_single(const fieldscribe_modbus_request *request)
+{
+    if (request->function == 0x05U) {
+        return request->values[0] != 0U ? 0xFF00U : 0x0000U;
+    }
+    return request->values[0];
+}
+
+/* How many data bytes a request or an answer carries for `count` items. */
+static inline size_t fieldscribe_modbus_data_bytes(uint8_t function, uint16_t count)
+{
+    const bool bits = fieldscribe_modbus_reads_bits(function) || function == 0x0FU;
+    return bits ? ((size_t)count + 7U) / 8U : (size_t)count * 2U;
+}
+
+/* Whether this device takes the request. */
+static inline fieldscribe_modbus_status fieldscribe_modbus_allows(
+    const fieldscribe_modbus_profile *profile, const fieldscribe_modbus_request *request)
+{
+    const uint8_t function = request->function;
+    const bool writes = function == 0x05U || function == 0x06U || function == 0x0FU || function == 0x10U;
+    const bool single = function == 0x05U || function == 0x06U || function == 0x08U;
+    const bool everyone = request->unit == profile->broadcast && writes;
+    size_t at = 0U;
+    if (!everyone && (request->unit == profile->broadcast || request->unit < profile->first_unit ||
+                         request->unit > profile->last_unit)) {
+        return FIELDSCRIBE_MODBUS_BAD_UNIT;
+    }
+    while (at < profile->function_count && profile->functions[at].code != function) {
+        ++at;
+    }
+    if (at == profile->function_count || !(fieldscribe_modbus_reads(function) || writes || single)) {
+        return FIELDSCRIBE_MODBUS_BAD_FUNCTION;
+    }
+    if (request->count == 0U || request->count > profile->functions[at].most || (single && request->count != 1U) ||
+        (!fieldscribe_modbus_reads(function) && request->values == NULL)) {
+        return FIELDSCRIBE_MODBUS_BAD_COUNT;
+    }
+    if ((uint32_t)request->address + request->count > 0x10000U) {
+        return FIELDSCRIBE_MODBUS_BAD_ADDRESS;
+    }
+    return FIELDSCRIBE_MODBUS_OK;
+}
+
+/* Writes the data of 0Fh and 10h behind their byte count. */
+static inline void fieldscribe_modbus_put_values(
+    const fieldscribe_modbus_request *request, uint8_t *data, size_t data_bytes)
+{
+    size_t at;
+    if (request->function == 0x10U) {
+        for (at = 0U; at < request->count; ++at) {
+            fieldscribe_modbus_put(data + 2U * at, request->values[at]);
+        }
+        return;
+    }
+    for (at = 0U; at < data_bytes; ++at) {
+        data[at] = 0U;
+    }
+    for (at = 0U; at < request->count; ++at) {
+        if (request->values[at] != 0U) {
+            data[at / 8U] = (uint8_t)(data[at / 8U] | (1U << (at % 8U)));
+        }
+    }
+}
+
+/* The frame of a request in `buffer`; `length` says how many of its `size` bytes were used, 0 on an error. */
+static inline fieldscribe_modbus_status fieldscribe_modbus_build(const fieldscribe_modbus_profile *profile,
+    fieldscribe_modbus_framing framing, const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size,
+    size_t *length)
+{
+    const fieldscribe_modbus_status status = fieldscribe_modbus_allows(profile, request);
+    const bool several = request->function == 0x0FU || request->function == 0x10U;
+    const size_t head = framing == FIELDSCRIBE_MODBUS_TCP ? 6U : 0U;
+    size_t data_bytes = 0U;
+    size_t used = head + 6U; /* with the unit, up to the checksum */
+    uint8_t *const frame = buffer;
+    *length = 0U;
+    if (status != FIELDSCRIBE_MODBUS_OK) {
+        return status;
+    }
+    if (several) {
+        data_bytes = fieldscribe_modbus_data_bytes(request->function, request->count);
+        if (request->function == 0x0FU && profile->pads_coil_bytes) {
+            data_bytes += data_bytes % 2U;
+        }
+        used += 1U + data_bytes;
+    }
+    if (size < used + (framing == FIELDSCRIBE_MODBUS_TCP ? 0U : 2U) || data_bytes > 0xFFU) {
+        return FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL;
+    }
+    frame[head] = request->unit;
+    frame[head + 1U] = request->function;
+    fieldscribe_modbus_put(frame + head + 2U, request->address);
+    if (several || fieldscribe_modbus_reads(request->function)) {
+        fieldscribe_modbus_put(frame + head + 4U, request->count);
+    } else {
+        fieldscribe_modbus_put(frame + head + 4U, fieldscribe_modbus_single(request));
+    }
+    if (several) {
+        frame[head + 6U] = (uint8_t)data_bytes;
+        fieldscribe_modbus_put_values(request, frame + head + 7U, data_bytes);
+    }
+    if (framing == FIELDSCRIBE_MODBUS_TCP) {
+        fieldscribe_modbus_put(frame, request->transaction);
+        fieldscribe_modbus_put(frame + 2U, 0U);
+        fieldscribe_modbus_put(frame + 4U, (uint16_t)(used - head));
+    } else {
+        const uint16_t crc = fieldscribe_modbus_crc(frame, used);
+        frame[used] = (uint8_t)(crc & 0xFFU);
+        frame[used + 1U] = (uint8_t)(crc >> 8);
+        used += 2U;
+    }
+    *length = used;
+    return FIELDSCRIBE_MODBUS_OK;
+}
+
+/* Reads the answer's data: `pdu` starts at the function; its length is already that of the function. */
+static inline fieldscribe_modbus_status fieldscribe_modbus_take(const fieldscribe_modbus_request *request,
+    const uint8_t *pdu, uint16_t *values, size_t room, fieldscribe_modbus_reply *reply)
+{
+    const uint8_t function = request->function;
+    size_t at;
+    if (fieldscribe_modbus_reads(function)) {
+        if (pdu[1] != fieldscribe_modbus_data_bytes(function, request->count)) {
+            return FIELDSCRIBE_MODBUS_BAD_BYTE_COUNT;
+        }
+        if (room < request->count) {
+            return FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL;
+        }
+        for (at = 0U; at < request->count; ++at) {
+            values[at] = fieldscribe_modbus_reads_bits(function) ? (uint16_t)((pdu[2U + at / 8U] >> (at % 8U)) & 1U)
+                                                                 : fieldscribe_modbus_get(pdu + 2U + 2U * at);
+        }
+        reply->count = request->count;
+        return FIELDSCRIBE_MODBUS_OK;
+    }
+    if (fieldscribe_modbus_get(pdu + 1) != request->address) {
+        return FIELDSCRIBE_MODBUS_ECHO_MISMATCH;
+    }
+    if (function == 0x0FU || function == 0x10U) {
+        return fieldscribe_modbus_get(pdu + 3) == request->count ? FIELDSCRIBE_MODBUS_OK
+                                                                 : FIELDSCRIBE_MODBUS_ECHO_MISMATCH;
+    }
+    if (request->values == NULL || fieldscribe_modbus_get(pdu + 3) != fieldscribe_modbus_single(request)) {
+        return FIELDSCRIBE_MODBUS_ECHO_MISMATCH;
+    }
+    if (room < 1U) {
+        return FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL;
+    }
+    values[0] = request->values[0];
+    reply->count = 1U;
+    return FIELDSCRIBE_MODBUS_OK;
+}
+
+static inline fieldscribe_modbus_status fieldscribe_modbus_parse_rtu(const fieldscribe_modbus_request *request,
+    const uint8_t *bytes, size_t length, uint16_t *values, size_t room, fieldscribe_modbus_reply *reply)
+{
+    size_t expected = length;
+    bool known = true;
+    bool refused = false;
+    if (length < 5U) {
+        return FIELDSCRIBE_MODBUS_SHORT_FRAME;
+    }
+    if (bytes[1] == (request->function | 0x80U)) {
+        refused = true;
+        expected = 5U;
+    } else if (bytes[1] != request->function) {
+        known = false; /* nobody knows how long it ought to be */
+    } else {
+        expected = fieldscribe_modbus_reads(request->function) ? 5U + (size_t)bytes[2] : 8U;
+    }
+    if (length != expected) {
+        return length < expected ? FIELDSCRIBE_MODBUS_SHORT_FRAME : FIELDSCRIBE_MODBUS_LONG_FRAME;
+    }
+    if (fieldscribe_modbus_crc(bytes, length - 2U) != (uint16_t)(((uint32_t)bytes[length - 1U] << 8) | bytes[length - 2U])) {
+        return FIELDSCRIBE_MODBUS_BAD_CRC;
+    }
+    if (bytes[0] != request->unit) {
+        return FIELDSCRIBE_MODBUS_WRONG_UNIT;
+    }
+    if (!known) {
+        return FIELDSCRIBE_MODBUS_WRONG_FUNCTION;
+    }
+    if (refused) {
+        reply->exception = bytes[2];
+        return FIELDSCRIBE_MODBUS_EXCEPTION;
+    }
+    return fieldscribe_modbus_take(request, bytes + 1, values, room, reply);
+}
+
+static inline fieldscribe_modbus_status fieldscribe_modbus_parse_tcp(const fieldscribe_modbus_request *request,
+    const uint8_t *bytes, size_t length, uint16_t *values, size_t room, fieldscribe_modbus_reply *reply)
+{
+    size_t expected;
+    size_t pdu;
+    if (length < 9U) {
+        return FIELDSCRIBE_MODBUS_SHORT_FRAME;
+    }
+    if (fieldscribe_modbus_get(bytes + 2) != 0U) {
+        return FIELDSCRIBE_MODBUS_BAD_PROTOCOL;
+    }
+    expected = 6U + (size_t)fieldscribe_modbus_get(bytes + 4);
+    if (length != expected) {
+        return length < expected ? FIELDSCRIBE_MODBUS_SHORT_FRAME : FIELDSCRIBE_MODBUS_LONG_FRAME;
+    }
+    if (fieldscribe_modbus_get(bytes) != request->transaction) {
+        return FIELDSCRIBE_MODBUS_WRONG_TRANSACTION;
+    }
+    if (bytes[6] != request->unit) {
+        return FIELDSCRIBE_MODBUS_WRONG_UNIT;
+    }
+    if (bytes[7] == (request->function | 0x80U)) {
+        reply->exception = bytes[8];
+        return FIELDSCRIBE_MODBUS_EXCEPTION;
+    }
+    if (bytes[7] != request->function) {
+        return FIELDSCRIBE_MODBUS_WRONG_FUNCTION;
+    }
+    pdu = length - 7U;
+    if (fieldscribe_modbus_reads(request->function)) {
+        if (pdu != 2U + (size_t)bytes[8]) {
+            return FIELDSCRIBE_MODBUS_BAD_BYTE_COUNT;
+        }
+    } else if (pdu != 5U) {
+        return pdu < 5U ? FIELDSCRIBE_MODBUS_SHORT_FRAME : FIELDSCRIBE_MODBUS_LONG_FRAME;
+    }
+    return fieldscribe_modbus_take(request, bytes + 7, values, room, reply);
+}
+
+/*
+ * Reads the answer to `request`. What was read is stored in `values`, which has `room` items: words, or 0 and 1; for
+ * 05h, 06h and 08h the value that was echoed.
+ */
+static inline fieldscribe_modbus_status fieldscribe_modbus_parse(fieldscribe_modbus_framing framing,
+    const fieldscribe_modbus_request *request, const uint8_t *bytes, size_t length, uint16_t *values, size_t room,
+    fieldscribe_modbus_reply *reply)
+{
+    reply->count = 0U;
+    reply->exception = 0U;
+    return framing == FIELDSCRIBE_MODBUS_TCP
+        ? fieldscribe_modbus_parse_tcp(request, bytes, length, values, room, reply)
+        : fieldscribe_modbus_parse_rtu(request, bytes, length, values, room, reply);
+}
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: 0BSD
+"""What `device.point` gives: the point's pure functions, and reading and writing through the device."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Generic, TypeVar
+
+from .points import Decoding, Encoding, Point
+
+if TYPE_CHECKING:
+    from .device import AsyncDevice, Device
+
+R_co = TypeVar("R_co", covariant=True)
+W_contra = TypeVar("W_contra", contravariant=True)
+
+
+class _Handle(Point):
+    def __init__(self, point: Point, device: Device) -> None:
+        self._form = point._form
+        self.facts = point.facts
+        self._device = device
+
+
+class _AsyncHandle(Point):
+    def __init__(self, point: Point, device: AsyncDevice) -> None:
+        self._form = point._form
+        self.facts = point.facts
+        self._device = device
+
+
+class ReadHandle(_Handle, Decoding[R_co]):
+    """A point of a device, to be read."""
+
+    def read(self) -> R_co:
+        """Ask the device for the value (and for other points that its scale needs)."""
+        return self._device.run(self._device.read_steps(self))
+
+    def read_raw(self) -> int:
+        """Ask the device for the raw number."""
+        return self._device.run(self._device.read_raw_steps(self))
+
+
+class WriteHandle(_Handle, Encoding[W_contra]):
+    """A point of a device, to be written."""
+
+    def write(self, value: W_contra) -> None:
+        """Write a value that the range allows; bits of other points in the same word stay as they are."""
+        self._device.run(self._device.write_steps(self, value))
+
+    def write_raw(self, raw: int) -> None:
+        """Write a raw number that the range allows."""
+        self._device.run(self._device.write_raw_steps(self, raw))
+
+
+class ReadWriteHandle(ReadHandle[R_co], WriteHandle[W_contra], Generic[R_co, W_contra]):
+    """A point of a device, to be read and written."""
+
+
+class AsyncReadHandle(_AsyncHandle, Decoding[R_co]):
+    """A point of an async device, to be read."""
+
+    async def read(self) -> R_co:
+        """Ask the device for the value (and for other points that its scale needs)."""
+        return await self._device.run(self._device.read_steps(self))
+
+    async def read_raw(self) -> int:
+        """Ask the device for the raw number."""
+        return await self._device.run(self._device.read_raw_steps(self))
+
+
+class AsyncWriteHandle(_AsyncHandle, Encoding[W_contra]):
+    """A point of an async device, to be written."""
+
+    async def write(self, value: W_contra) -> None:
+        """Write a value that the range allows; bits of other points in the same word stay as they are."""
+        await self._device.run(self._device.write_steps(self, value))
+
+    async def write_raw(self, raw: int) -> None:
+        """Write a raw number that the range allows."""
+        await self._device.run(self._device.write_raw_steps(self, raw))
+
+
+class AsyncReadWriteHandle(AsyncReadHandle[R_co], AsyncWriteHandle[W_contra], Generic[R_co, W_contra]):
+    """A point of an async device, to be read and written."""

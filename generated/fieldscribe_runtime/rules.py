@@ -1,0 +1,176 @@
+# SPDX-License-Identifier: 0BSD
+"""Exact linear rules between values and raw numbers, with rounding to nearest, halves away from zero."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from .errors import MissingRawError, NoCaseError, ResultOverflowError, ZeroFactorError
+
+Raws = Mapping[str, int]
+"""Raw numbers of other points by name."""
+
+NO_RAWS: Raws = {}
+
+
+def round_ratio(num: int, den: int) -> int:
+    """The integer nearest to num / den, halves away from zero."""
+    size = (2 * abs(num) + abs(den)) // (2 * abs(den))
+    return size if (num < 0) == (den < 0) else -size
+
+
+def round_float(value: float) -> int:
+    """A finite float to the nearest integer, halves away from zero."""
+    whole = math.trunc(value)
+    rest = value - whole  # exact: both lie within a factor of two, or whole is zero
+    return whole + (rest >= 0.5) - (rest <= -0.5)
+
+
+def raw_of(point: str, raws: Raws) -> int:
+    """The raw number of another point, or an error that says that it is needed."""
+    try:
+        return raws[point]
+    except KeyError:
+        raise MissingRawError(f"needs the raw number of {point}: pass raws={{{point!r}: ...}}") from None
+
+
+@dataclass(frozen=True, slots=True)
+class Factor:
+    """raw * slope + intercept of another point, to the power of 1 or -1.
+
+    With `ten_to` it is ten to that number, and the pair says between which raw numbers of the point this holds.
+    """
+
+    point: str
+    slope: int = 1
+    intercept: int = 0
+    power: int = 1
+    ten_to: tuple[int, int] | None = None
+
+    def number(self, raws: Raws) -> int:
+        """The factor (or exponent) before `power`."""
+        return raw_of(self.point, raws) * self.slope + self.intercept
+
+    def exponent_fits(self, raws: Raws) -> bool:
+        """Whether the raw number is one for which ten to it is defined."""
+        return self.ten_to is None or self.ten_to[0] <= raw_of(self.point, raws) <= self.ten_to[1]
+
+
+@dataclass(frozen=True, slots=True)
+class Rule:
+    """raw = value * num / den * product(factors) + offset; the offset is a pair, numerator and denominator."""
+
+    num: int = 1
+    den: int = 1
+    offset: tuple[int, int] = (0, 1)
+    factors: tuple[Factor, ...] = ()
+
+    def ratio(self, raws: Raws, *, zero_allowed: bool = False) -> tuple[int, int]:
+        """Numerator and denominator with all factors; `zero_allowed` lets the numerator be zero.
+
+        Raises ZeroFactorError, ResultOverflowError (an exponent beyond its range) and MissingRawError.
+        """
+        num, den = self.num, self.den
+        if not self.factors:
+            return num, den
+        numbers = [(factor, factor.number(raws)) for factor in self.factors]
+        for factor, number in numbers:
+            if number == 0 and factor.ten_to is None and not (zero_allowed and factor.power > 0):
+                raise ZeroFactorError(f"{factor.point} is zero")
+        for factor, number in numbers:
+            if not factor.exponent_fits(raws):
+                raise ResultOverflowError(f"10 ** {number} is too far: {factor.point} is outside {factor.ten_to}")
+            power = factor.power if factor.ten_to is None else factor.power * number
+            size = number if factor.ten_to is None else 10 ** abs(number)
+            num, den = (num * size, den) if power >= 0 else (num, den * size)
+        return num, den
+
+    def encode(self, value: float, raws: Raws) -> int | None:
+        """The raw number by steps in binary64 (times num, divided by den, plus offset); None beyond every integer."""
+        num, den = self.ratio(raws)
+        try:
+            result = float(value) * num / den + self.offset[0] / self.offset[1]
+        except OverflowError:
+            return None
+        return round_float(result) if math.isfinite(result) else None
+
+    def decode(self, raw: int, raws: Raws) -> float:
+        """The binary64 nearest to the exact value."""
+        num, den = self.ratio(raws)
+        over, under = self.offset
+        top, bottom = (raw * under - over) * den, num * under
+        try:
+            return -top / -bottom if bottom < 0 else top / bottom  # int / int is correctly rounded
+        except OverflowError:
+            raise ResultOverflowError(f"raw {raw} gives no binary64") from None
+
+    def encode_count(self, count: int, decimals: int, raws: Raws, *, zero_allowed: bool = False) -> int:
+        """The raw number of `count` units of 10^-decimals, by integers alone."""
+        num, den = self.ratio(raws, zero_allowed=zero_allowed)
+        over, under = self.offset
+        scale = den * 10**decimals
+        return round_ratio(count * num * under + over * scale, scale * under)
+
+    def decode_count(self, raw: int, decimals: int, raws: Raws) -> int:
+        """The count of 10^-decimals units, by integers alone; raises ResultOverflowError beyond 64 bits."""
+        num, den = self.ratio(raws)
+        over, under = self.offset
+        count = round_ratio((raw * under - over) * den * 10**decimals, num * under)
+        if not -(1 << 63) <= count < 1 << 63:
+            raise ResultOverflowError(f"raw {raw} gives a count beyond 64 bits")
+        return count
+
+
+@dataclass(frozen=True, slots=True)
+class Case:
+    """`rule` holds when the raw number of `point` equals `raw`; without a point it always holds."""
+
+    point: str | None
+    raw: int | None
+    rule: Rule
+
+
+def chosen(cases: tuple[Case, ...], raws: Raws) -> Rule:
+    """The first rule whose case fits; raises NoCaseError."""
+    for case in cases:
+        if case.point is None or raw_of(case.point, raws) == case.raw:
+            return case.rule
+    points = ", ".join(dict.fromkeys(case.point for case in cases if case.point))
+    raise NoCaseError(f"no scale for these raw numbers of {points}")
+
+
+@dataclass(frozen=True, slots=True)
+class Limit:
+    """A limit that other points set: `rule` applied to 1. It does not hold while a point has a number of `unless`."""
+
+    rule: Rule
+    least: int
+    greatest: int
+    unless: Mapping[str, tuple[int, ...]]
+
+    def raw(self, raws: Raws) -> int | None:
+        """The limit as a raw number; None while it does not hold."""
+        if any(raw_of(point, raws) in codes for point, codes in self.unless.items()):
+            return None
+        return self.rule.encode_count(1, 0, raws, zero_allowed=True)
+
+
+Bound = int | Limit
+
+
+def low_end(bound: Bound, raws: Raws) -> int:
+    """The lower end of an interval as a raw number."""
+    if isinstance(bound, int):
+        return bound
+    raw = bound.raw(raws)
+    return bound.least if raw is None else max(raw, bound.least)
+
+
+def high_end(bound: Bound, raws: Raws) -> int:
+    """The upper end of an interval as a raw number."""
+    if isinstance(bound, int):
+        return bound
+    raw = bound.raw(raws)
+    return bound.greatest if raw is None else min(raw, bound.greatest)

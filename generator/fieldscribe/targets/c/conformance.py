@@ -1,0 +1,120 @@
+"""The view of the conformance program: which function answers which kind of vector, point by point."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from fieldscribe.model import Device, Point
+from fieldscribe.names import upper
+from fieldscribe.targets.c.literals import raw_type
+from fieldscribe.targets.c.points import special_defines, value_type
+from fieldscribe.targets.c.scope import Scope
+from fieldscribe.targets.c.views import DeviceView, PointView
+
+
+@dataclass(frozen=True, slots=True)
+class AdapterView:
+    """One point: `cases` are the macros that answer a kind; flags and specials are answered by name."""
+
+    item: str
+    arguments: tuple[str, ...]
+    cases: tuple[str, ...]
+    flags: tuple[tuple[str, str], ...]
+    specials: tuple[tuple[str, str, str], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class SuiteView:
+    """The conformance program of a device."""
+
+    adapters: tuple[AdapterView, ...]
+    spaces: tuple[str, ...]
+    statuses: tuple[tuple[str, str], ...]
+    modbus: bool
+    groups: tuple[tuple[str, str, str], ...]
+
+
+_STATUSES = ("ok", "out_of_range", "not_a_number", "unknown_value", "zero_factor", "no_case", "overflow", "no_value")
+
+
+def conformance_view(device: Device, view: DeviceView, scope: Scope) -> SuiteView:
+    """The view of `<device>_conformance.c`."""
+    views = {entry.item: entry for group in view.groups for entry, _ in group.entries if entry is not None}
+    points = [point for point in device.points if point.generated]
+    modbus = device.family == "modbus"
+    groups = (
+        (group, f"{scope.prefix}_{group}_blocks", f"{scope.upper}_{upper(group)}_BLOCKS_COUNT")
+        for group, blocks in device.blocks.items()
+        if blocks
+    )
+    return SuiteView(
+        adapters=tuple(_adapter(point, views[point.item], scope) for point in points),
+        spaces=tuple(dict.fromkeys(point.space for point in points)),
+        statuses=tuple((f"{scope.upper}_{upper(status)}", status) for status in _STATUSES),
+        modbus=modbus,
+        groups=tuple(groups) if modbus else (),
+    )
+
+
+def _adapter(point: Point, view: PointView, scope: Scope) -> AdapterView:
+    function, kind = view.function, view.raw_type
+    cases = [f"ADDRESS({view.macro})"] if point.address is not None else []
+    if view.writable and view.shape != "float":
+        cases.append(f"CHECK({function}_check, {kind}, {_with(point, point.limit_arguments, scope)})")
+    cases += _conversions(point, view, scope)
+    if point.enum is not None:
+        cases.append(f"NAME({scope.prefix}_{point.enum.name}_name, {value_type(point)})")
+    if view.bits is not None:
+        cases.append(f"BITS({function}, {kind})")
+    elif view.words is not None:
+        cases.append(f"WORDS({function}, {kind}, {point.words}U)")
+    else:
+        cases.append(f"ONE_WORD({kind})")
+    return AdapterView(
+        point.item,
+        point.arguments,
+        tuple(f"FIELDSCRIBE_{case}" for case in cases),
+        tuple((flag.name, _flag(point, view, flag.name, flag.width)) for flag in point.flags),
+        tuple(
+            (special.name, *(name for name, _ in special_defines(special, view.macro))) for special in point.specials
+        ),
+    )
+
+
+def _conversions(point: Point, view: PointView, scope: Scope) -> list[str]:
+    function, kind, form = view.function, view.raw_type, view.shape
+    everything = _with(point, point.arguments, scope)
+    scale = _with(point, point.scale_arguments, scope)
+    attempt = "TRY_" if view.no_value or form == "ruled" else ""
+    counted = "" if form == "plain" else "_count"
+    number = getattr(view.codec, "count_type", "int64_t") if form != "plain" else value_type(point)
+    if form == "plain" and kind == "bool" and not attempt:
+        number = "int32_t"
+    cases = []
+    if form != "float":
+        if view.writable:
+            cases.append(f"ENCODE_COUNT({function}_encode{counted}, {number}, {kind}, {everything})")
+        if view.readable:
+            cases.append(f"{attempt}DECODE_COUNT({function}_decode{counted}, {number}, {kind}, {scale})")
+    if form != "plain":
+        real = getattr(view.codec, "real", "double")
+        if view.writable:
+            cases.append(f"ENCODE({function}_encode, {real}, {kind}, {everything})")
+        if view.readable:
+            cases.append(f"{attempt}DECODE({function}_decode, {real}, {kind}, {scale})")
+        if view.writable and form == "float":
+            cases.append(f"CHECK_FLOAT({function}_check, {kind})")
+    return cases
+
+
+def _with(point: Point, names: tuple[str, ...], scope: Scope) -> str:
+    order = point.arguments
+    parts = [f"FIELDSCRIBE_WITH({order.index(name)}, {raw_type(scope.points[name])})" for name in names]
+    return " ".join(parts) or "FIELDSCRIBE_ALONE"
+
+
+def _flag(point: Point, view: PointView, name: str, width: int) -> str:
+    raw = f"(({view.raw_type})v->raw.bits)"
+    if width > 1:
+        return f"{view.function}_{name}{raw}"
+    return f"({raw} & {view.macro}_{upper(name)}_MASK) != 0U"

@@ -1,0 +1,99 @@
+"""The view of the enums module: names for numbers, and words of flags."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from fieldscribe.names import upper
+from fieldscribe.targets.python.identifiers import Identifiers, word_attribute
+from fieldscribe.text import python_doc
+
+if TYPE_CHECKING:
+    from fieldscribe.model import Device, Entry, Flag, Point, Titles
+
+
+@dataclass(frozen=True, slots=True)
+class Member:
+    """One assignment in a class, with its docstring (empty where the name says it all)."""
+
+    name: str
+    value: str
+    doc: str
+
+
+@dataclass(frozen=True, slots=True)
+class EnumClass:
+    """One class: its head in parentheses, its docstring, its members, and for words what reads each flag."""
+
+    name: str
+    base: str
+    doc: str
+    members: tuple[Member, ...]
+    readers: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class EnumsView:
+    """The enums module."""
+
+    classes: tuple[EnumClass, ...]
+    runtime: tuple[str, ...]
+
+
+def enums_view(device: Device, names: Identifiers) -> EnumsView:
+    """All enums of the device, then the words of flags in the order of the points."""
+    classes = [_enum(names.enum_class(one.name), one.title, one.entries) for one in device.enums]
+    used: set[str] = set()
+    for point in device.points:
+        if point.form == "flags" and point.generated:
+            classes += _word(point, names, used)
+    return EnumsView(tuple(classes), tuple(sorted(used)))
+
+
+def _enum(name: str, title: Titles, entries: tuple[Entry, ...]) -> EnumClass:
+    members = tuple(Member(upper(entry.name), str(entry.raw), _entry_doc(entry)) for entry in entries)
+    return EnumClass(name, "enum.IntEnum", _sentence(title["en"]), members, ())
+
+
+def _word(point: Point, names: Identifiers, used: set[str]) -> list[EnumClass]:
+    classes, bits, readers = [], [], []
+    for flag in point.flags:
+        if named := names.field_class(point, flag.name):
+            classes.append(_enum(named, flag.title, flag.values))
+        mask = (1 << flag.width) - 1 << flag.low
+        bits.append(Member(upper(flag.name), f"0x{mask:04X}", _flag_doc(flag)))
+        readers.append(f"{word_attribute(flag.name)} = {_reader(point, flag, names)}")
+        used.add("Flag" if flag.width == 1 else "Field")
+    base, doc = "enum.IntFlag, boundary=enum.KEEP", _sentence(point.title["en"])
+    return [*classes, EnumClass(names.word_class(point), base, doc, tuple(bits), tuple(readers))]
+
+
+def _reader(point: Point, flag: Flag, names: Identifiers) -> str:
+    if flag.width == 1:
+        return f"Flag({flag.low})" if flag.active else f"Flag({flag.low}, active=0)"
+    named = names.field_class(point, flag.name)
+    return f"Field({flag.low}, {flag.width}, {named})" if named else f"Field({flag.low}, {flag.width})"
+
+
+def _entry_doc(entry: Entry) -> str:
+    quantity = f" ({entry.quantity})" if entry.quantity else ""
+    return "" if not quantity and _says_the_same(entry.title, entry.name) else _sentence(entry.title["en"] + quantity)
+
+
+def _flag_doc(flag: Flag) -> str:
+    named = "; ".join(f"{value.raw}: {value.title['en']}" for value in flag.values) if flag.width == 1 else ""
+    meaning = named or ("" if flag.active else "true when the bit is 0")
+    if not meaning and _says_the_same(flag.title, flag.name):
+        return ""
+    return _sentence(f"{flag.title['en']} ({meaning})" if meaning else flag.title["en"])
+
+
+def _says_the_same(title: Titles, name: str) -> bool:
+    return title["en"].casefold() == name.replace("_", " ")
+
+
+def _sentence(text: str) -> str:
+    """Docstring text that ends with a full stop."""
+    clean = python_doc(text)
+    return clean if clean.endswith(".") else f"{clean}."

@@ -1,0 +1,177 @@
+"""Expressions for what raw numbers mean: forms, rules, limits and places."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from fieldscribe.model import Bound, Factor, Interval, Limit, Linear, Place, Point, ScaleCase, Special
+from fieldscribe.targets.python.layout import Group, Node, call
+from fieldscribe.text import python_string
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+    from fractions import Fraction
+
+    from fieldscribe.targets.python.identifiers import Identifiers
+
+
+@dataclass(frozen=True, slots=True)
+class Scope:
+    """What expressions refer to: final names, points by name, and (filled on the way) names of the runtime."""
+
+    names: Identifiers
+    points: Mapping[str, Point]
+    used: set[str]
+
+
+_PLACES = {"coil": "coil", "discrete": "discrete", "holding": "holding", "input": "input_register"}
+
+
+def form(point: Point, scope: Scope) -> Node:
+    """The form of a point, as `Scaled(U16, Rule(num=10), decimals=1)`."""
+    inner = _plain_form(point, scope)
+    codes = [special for special in point.specials if special.no_value]
+    if not codes:
+        return inner
+    scope.used.add("OrNone")
+    return call("OrNone", (inner, spans("{", codes)))
+
+
+def _plain_form(point: Point, scope: Scope) -> Node:
+    kind = point.form
+    if kind == "bit":
+        scope.used.add("Bit")
+        return "Bit()"
+    wire = point.type.upper()
+    scope.used.add(wire)
+    if kind == "integer":
+        scope.used.add("Integer")
+        return f"Integer({wire})"
+    if kind == "float":
+        scope.used.add("Floating")
+        pairs = tuple(f"({number(low, True)}, {number(high, True)})" for low, high in point.allowed.units)
+        return call("Floating", (wire, Group("units=(", pairs)) if pairs else (wire,))
+    if kind == "scaled":
+        scope.used.update(("Rule", "Scaled"))
+        return call("Scaled", (wire, _scale(point.scale or (), scope), f"decimals={point.decimals}"))
+    scope.used.add("enums")
+    if kind == "flags":
+        scope.used.add("Flags")
+        return call("Flags", (wire, f"enums.{scope.names.word_class(point)}"))
+    scope.used.add("Named")
+    enum = "" if point.enum is None else scope.names.enum_class(point.enum.name)
+    closed = ("closed=True",) if point.enum is not None and point.enum.closed else ()
+    return call("Named", (wire, f"enums.{enum}", *closed))
+
+
+def _only_named(point: Point) -> bool:
+    """Whether exactly the numbers of a closed enum may be written."""
+    if point.enum is None or not point.enum.closed:
+        return False
+    named = {entry.raw for entry in point.enum.entries}
+    count = 0
+    for one in point.allowed.intervals:
+        if isinstance(one.low, Limit) or isinstance(one.high, Limit) or one.high - one.low >= len(named):
+            return False
+        count += one.high - one.low + 1
+        if not named.issuperset(range(one.low, one.high + 1)):
+            return False
+    return count == len(named)
+
+
+def _scale(cases: tuple[ScaleCase, ...], scope: Scope) -> Node:
+    if len(cases) == 1 and cases[0].point is None:
+        return rule(cases[0].rule, scope)
+    scope.used.add("Case")
+    made = [
+        call("Case", ("None" if one.point is None else python_string(one.point), str(one.raw), rule(one.rule, scope)))
+        for one in cases
+    ]
+    return Group("(", tuple(made))
+
+
+def rule(linear: Linear, scope: Scope) -> Node:
+    """A linear rule as integers."""
+    ratio, offset = linear.ratio, linear.offset
+    arguments: list[Node] = []
+    if ratio.numerator != 1:
+        arguments.append(f"num={ratio.numerator}")
+    if ratio.denominator != 1:
+        arguments.append(f"den={ratio.denominator}")
+    if offset:
+        arguments.append(f"offset=({offset.numerator}, {offset.denominator})")
+    if linear.factors:
+        scope.used.add("Factor")
+        arguments.append(Group("factors=(", tuple(_factor(one, scope) for one in linear.factors)))
+    return call("Rule", arguments)
+
+
+def _factor(factor: Factor, scope: Scope) -> Node:
+    arguments = [python_string(factor.point)]
+    if factor.slope != 1:
+        arguments.append(f"slope={factor.slope}")
+    if factor.intercept:
+        arguments.append(f"intercept={factor.intercept}")
+    if factor.power != 1:
+        arguments.append(f"power={factor.power}")
+    if factor.ten_to:
+        arguments.append("ten_to=({}, {})".format(*_outer(scope.points[factor.point])))
+    return call("Factor", arguments)
+
+
+def _outer(point: Point) -> tuple[int, int]:
+    """The least and the greatest raw number that a point may ever hold."""
+    ends = [(one.low, one.high) for one in point.allowed.intervals]
+    lows = [low.least if isinstance(low, Limit) else low for low, _ in ends]
+    highs = [high.greatest if isinstance(high, Limit) else high for _, high in ends]
+    return min(lows, default=point.least), max(highs, default=point.greatest)
+
+
+def allowed(point: Point, scope: Scope) -> Node | None:
+    """The raw numbers that may be written; None where the type or the enum's names say it."""
+    intervals = point.allowed.intervals
+    if point.form == "float" or intervals == (Interval(point.least, point.greatest),) or _only_named(point):
+        return None
+    return Group("allowed=(", tuple(Group("(", (_bound(one.low, scope), _bound(one.high, scope))) for one in intervals))
+
+
+def _bound(bound: Bound, scope: Scope) -> Node:
+    if isinstance(bound, int):
+        return str(bound)
+    scope.used.update(("Limit", "Rule"))
+    unless = [
+        Group(f"{python_string(name)}: (", tuple([str(code) for code in codes]))
+        for name, codes in bound.unless
+        if codes
+    ]
+    return call(
+        "Limit",
+        (
+            rule(bound.rule, scope),
+            f"least={bound.least}",
+            f"greatest={bound.greatest}",
+            Group("unless={", tuple(unless), "}"),
+        ),
+    )
+
+
+def place(keyword: str, where: Place, scope: Scope) -> Node:
+    """Where a point is, as `at=holding(0x1028)`."""
+    addresses = [f"0x{address:04X}" for address in where.addresses]
+    function = [] if where.function is None else [f"function=0x{where.function:02X}"]
+    if (maker := _PLACES.get(where.space)) is not None:
+        scope.used.add(maker)
+        return call(f"{keyword}={maker}", (*addresses, *function))
+    scope.used.add("Place")
+    return call(f"{keyword}=Place", (python_string(where.space), Group("(", tuple(addresses)), *function))
+
+
+def spans(head: str, specials: Iterable[Special]) -> Group:
+    """Raw numbers by name, first and last."""
+    return Group(head, tuple(f"{python_string(one.name)}: ({one.low}, {one.high})" for one in specials), "}")
+
+
+def number(value: Fraction, binary: bool = False) -> str:
+    """A number as a literal; `binary` makes whole numbers floats too."""
+    return str(value.numerator) if value.denominator == 1 and not binary else repr(float(value))

@@ -1,0 +1,144 @@
+"""All Python identifiers of a device, made final once."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+from fieldscribe.names import PYTHON_RESERVED, pascal
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    from fieldscribe.model import Device, Point
+
+DEVICE_MEMBERS = frozenset(
+    {
+        "ask",
+        "command",
+        "forget",
+        "handle",
+        "point",
+        "put_steps",
+        "raws_steps",
+        "read_at",
+        "read_many",
+        "read_many_steps",
+        "read_raw_steps",
+        "read_steps",
+        "require",
+        "run",
+        "transport",
+        "unit",
+        "variants",
+        "write_at",
+        "write_raw_steps",
+        "write_steps",
+    }
+)
+"""Public members of the runtime's devices, which no point may hide (the tests hold this against the runtime)."""
+
+HELPERS = frozenset({"coil", "discrete", "enums", "holding", "input_register", "renamed"})
+"""What the body of the generated class refers to by a lower-case name."""
+
+WORD_MEMBERS = frozenset(
+    {
+        "as_integer_ratio",
+        "bit_count",
+        "bit_length",
+        "conjugate",
+        "denominator",
+        "from_bytes",
+        "imag",
+        "is_integer",
+        "mro",
+        "name",
+        "numerator",
+        "real",
+        "to_bytes",
+        "value",
+    }
+)
+"""Public members of IntFlag, which no flag may hide."""
+
+_ATTRIBUTE_TAKEN = PYTHON_RESERVED | DEVICE_MEMBERS | HELPERS
+_WORD_TAKEN = PYTHON_RESERVED | WORD_MEMBERS
+_PARAMETER_TAKEN = PYTHON_RESERVED | {"self", "transport", "unit", "variants"}
+_DIGITS = re.compile(r"([0-9]+)")
+
+
+def attribute(name: str) -> str:
+    """The attribute of a point on the device class. A description's names never end with an underscore."""
+    return f"{name}_" if name in _ATTRIBUTE_TAKEN else name
+
+
+def word_attribute(name: str) -> str:
+    """The attribute of a flag on its word's class."""
+    return f"{name}_" if name in _WORD_TAKEN else name
+
+
+def parameter(name: str) -> str:
+    """The constructor's parameter for a variant's axis."""
+    return f"{name}_" if name in _PARAMETER_TAKEN else name
+
+
+def sorted_imports(names: Iterable[str]) -> list[str]:
+    """Names in the order of import sorters: constants, classes, functions; numbers by value."""
+    return sorted(names, key=_import_key)
+
+
+def _import_key(name: str) -> tuple[int, list[tuple[int, int, str]], str]:
+    kind = 0 if name.isupper() and len(name) > 1 else 1 if name[0].isupper() else 2
+    parts = [(0, int(part), "") if part.isdigit() else (1, 0, part) for part in _DIGITS.split(name.lower()) if part]
+    return kind, parts, name
+
+
+class Identifiers:
+    """The final names of one device: its package, its classes, and a class for each enum and each word of flags."""
+
+    def __init__(self, device: Device) -> None:
+        self.package = attribute(device.id) if device.id in PYTHON_RESERVED else device.id
+        self.device_class = pascal(device.id)
+        self.async_class = f"{self.device_class}Async"
+        self._taken = {self.device_class, self.async_class}
+        self._enums = {one.name: self._class(pascal(one.name), "Enum") for one in device.enums}
+        self._words: dict[str, str] = {}
+        self._fields: dict[tuple[str, str], str] = {}
+        for point in device.points:
+            if point.form == "flags" and point.generated:
+                self._name_flags(point)
+
+    def enum_class(self, enum: str) -> str:
+        """The class of an enum."""
+        return self._enums[enum]
+
+    def word_class(self, point: Point) -> str:
+        """The class of a point's flags."""
+        return self._words[point.item]
+
+    def field_class(self, point: Point, flag: str) -> str | None:
+        """The class that names the numbers of a flag of several bits; None where they have no names."""
+        return self._fields.get((point.item, flag))
+
+    @property
+    def imports(self) -> Sequence[str]:
+        """The classes of the enums module, as an import lists them."""
+        return sorted_imports([*self._enums.values(), *self._words.values(), *self._fields.values()])
+
+    @property
+    def exports(self) -> Sequence[str]:
+        """All names of the package, as `__all__` lists them."""
+        return sorted_imports([self.device_class, self.async_class, *self.imports])
+
+    def _name_flags(self, point: Point) -> None:
+        name = self._class(pascal(point.item), "Flags")
+        self._words[point.item] = name
+        for flag in point.flags:
+            if flag.width > 1 and flag.values:
+                self._fields[point.item, flag.name] = self._class(f"{name}{pascal(flag.name)}", "Field")
+
+    def _class(self, wanted: str, kind: str) -> str:
+        while wanted in self._taken:
+            wanted += kind
+        self._taken.add(wanted)
+        return wanted

@@ -1,0 +1,50 @@
+"""Python expressions laid out as a formatter would: on one line if they fit, else one item a line."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+WIDTH = 88
+"""The narrowest common line length; what is laid out for it stays as it is under any wider one."""
+
+
+@dataclass(frozen=True, slots=True)
+class Group:
+    """A call, tuple or dict: what opens it (`Rule(`, `allowed=(`), its items, and what closes it."""
+
+    head: str
+    items: tuple[Node, ...]
+    close: str = ")"
+
+
+Node = str | Group
+
+
+def call(head: str, items: Iterable[Node]) -> Group:
+    """A call of `head`."""
+    return Group(f"{head}(", tuple(items))
+
+
+def laid_out(node: Node, indent: int) -> str:
+    """The expression at that indentation, with a comma expected behind it."""
+    if isinstance(node, str):
+        return node
+    line = flat(node)
+    if indent + len(line) < WIDTH:
+        return line
+    inner = " " * (indent + 4)
+    items = "".join(f"{inner}{laid_out(item, indent + 4)},\n" for item in node.items)
+    return f"{node.head}\n{items}{' ' * indent}{node.close}"
+
+
+def flat(node: Node) -> str:
+    """The expression on one line."""
+    if isinstance(node, str):
+        return node
+    is_tuple = node.head == "(" or node.head.endswith("=(") or node.head.endswith(": (")
+    comma = "," if is_tuple and len(node.items) == 1 else ""
+    return f"{node.head}{', '.join([flat(item) for item in node.items])}{comma}{node.close}"

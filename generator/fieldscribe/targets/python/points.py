@@ -1,0 +1,157 @@
+"""The view of the points module: one attribute per point, as data."""
+
+from __future__ import annotations
+
+import textwrap
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from fieldscribe.targets.python.bus import blocks, commands, profile
+from fieldscribe.targets.python.forms import Scope, allowed, form, number, place, spans
+from fieldscribe.targets.python.identifiers import Identifiers, attribute, sorted_imports
+from fieldscribe.targets.python.layout import WIDTH, Group, Node, laid_out
+from fieldscribe.text import python_doc, python_string
+from fieldscribe.wording import range_text
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from fieldscribe.model import Device, Erratum, Point
+
+_ACCESS = {"r": "ReadOnly", "w": "WriteOnly", "rw": "ReadWrite"}
+_DOC = WIDTH - 4 - 6  # what an indentation and two triple quotes leave
+_BODY = 8  # the indentation of an attribute's arguments
+
+
+@dataclass(frozen=True, slots=True)
+class PointView:
+    """One attribute: its name, what makes it, the arguments (one a line), its docstring by lines, its old names."""
+
+    name: str
+    maker: str
+    arguments: tuple[str, ...]
+    doc: tuple[str, ...]
+    old_names: tuple[str, ...]
+
+
+@dataclass(slots=True)
+class GroupView:
+    """The points of one group, and comments on those that are only documented."""
+
+    title: str
+    points: list[PointView] = field(default_factory=list)
+    left_out: list[str] = field(default_factory=list)
+
+
+@dataclass(frozen=True, slots=True)
+class PointsView:
+    """The points module."""
+
+    runtime: list[str]
+    uses_enums: bool
+    profile: str
+    blocks: str
+    groups: list[GroupView]
+    commands: tuple[PointView, ...]
+
+
+def points_view(device: Device, names: Identifiers) -> PointsView:
+    """All points, group by group."""
+    used = {"Block", "PointTable", "Profile"} if device.blocks else {"PointTable", "Profile"}
+    scope = Scope(names, {point.name: point for point in device.points}, used)
+    errata = {one.id: one for one in device.errata}
+    groups = {group.name: GroupView(python_doc(f"{group.name}: {group.title['en']}")) for group in device.groups}
+    variants: dict[str, list[Point]] = {}
+    for point in device.points:
+        group = groups.setdefault(point.group, GroupView(point.group))
+        if not point.generated:
+            group.left_out.append(_left_out(point))
+            continue
+        group.points.append(_point(point, scope, errata))
+        if point.variant is not None:
+            variants.setdefault(point.name, []).append(point)
+    for same in variants.values():
+        groups[same[0].group].points.append(_by_variant(same, scope))
+    made = tuple(PointView(*one, ()) for one in commands(device, scope))
+    return PointsView(
+        runtime=sorted_imports(used - {"enums"}),
+        uses_enums="enums" in used,
+        profile=laid_out(profile(device), 4),
+        blocks=laid_out(blocks(device), 4) if device.blocks else "",
+        groups=[group for group in groups.values() if group.points or group.left_out],
+        commands=made,
+    )
+
+
+def _point(point: Point, scope: Scope, errata: Mapping[str, Erratum]) -> PointView:
+    maker = _ACCESS["".join(letter for letter in "rw" if letter in point.access)]
+    scope.used.add(maker)
+    old_names = point.was if point.variant is None else ()
+    if old_names:
+        scope.used.add("renamed")
+    arguments = tuple([laid_out(argument, _BODY) for argument in _arguments(point, scope)])
+    return PointView(attribute(point.item), maker, arguments, _doc(point, errata, scope.points), old_names)
+
+
+def _arguments(point: Point, scope: Scope) -> list[Node]:
+    arguments: list[Node] = [form(point, scope), place("at", point.places[0], scope)]
+    write_place = next((one for one in point.places if one.purpose == "write"), point.places[0])
+    if write_place is not point.places[0] and point.writable:
+        arguments.append(place("write_at", write_place, scope))
+    if point.bits is not None:
+        arguments.append(f"bits=({point.bits[0]}, {point.bits[1]})")
+    arguments.append(f"group={python_string(point.group)}")
+    if point.code:
+        arguments.append(f"code={python_string(point.code)}")
+    if point.unit.symbol:
+        arguments.append(f"unit={python_string(point.unit.symbol)}")
+    if point.writable and (limits := allowed(point, scope)) is not None:
+        arguments.append(limits)
+    if point.default is not None:
+        arguments.append(f"default={number(point.default)}")
+    if specials := [one for one in point.specials if not one.no_value]:
+        arguments.append(spans("specials={", specials))
+    if point.changes in ("never", "rarely"):
+        arguments.append(f"changes={python_string(point.changes)}")
+    if point.variant is not None:
+        axis, _, value = point.variant.partition("=")
+        arguments.append(Group("variant=(", (python_string(axis), python_string(value))))
+        arguments.append(f"name={python_string(point.name)}")
+    return arguments
+
+
+def _by_variant(points: list[Point], scope: Scope) -> PointView:
+    scope.used.add("ByVariant")
+    axis = (points[0].variant or "").partition("=")[0]
+    chosen = [f"{python_string((one.variant or '').partition('=')[2])}: {attribute(one.item)}" for one in points]
+    old_names = tuple(dict.fromkeys(name for point in points for name in point.was))
+    if old_names:
+        scope.used.add("renamed")
+    arguments = (python_string(axis), laid_out(Group("{", tuple(chosen), "}"), _BODY))
+    doc = python_doc(f"{points[0].title['en']}, as the device's {axis} has it.")
+    return PointView(attribute(points[0].name), "ByVariant", arguments, (doc,), old_names)
+
+
+def _doc(point: Point, errata: Mapping[str, Erratum], by_name: Mapping[str, Point]) -> tuple[str, ...]:
+    limits = range_text(point, by_name) if point.writable and point.form in ("scaled", "float", "integer") else ""
+    first = f"{point.title['en']}: {limits}" if limits else point.title["en"]
+    if point.conditions and point.writable:
+        first += f" (when {', '.join(point.conditions)})"
+    lines = _wrapped(python_doc(first if first.endswith(".") else f"{first}."))
+    for one in point.errata:
+        erratum = errata[one]
+        facts = f"printed {erratum.printed}; taken {erratum.taken}"
+        text = f"Erratum {erratum.id} ({erratum.certainty}): {facts}. {erratum.why}"
+        lines += ("", *_wrapped(python_doc(text)))
+    return tuple(lines)
+
+
+def _wrapped(text: str) -> list[str]:
+    """Docstring text in lines that fit below an attribute; most of it does so as it is."""
+    return [text] if len(text) <= _DOC else textwrap.wrap(text, _DOC, break_long_words=False, break_on_hyphens=False)
+
+
+def _left_out(point: Point) -> str:
+    code = f"{point.code} " if point.code else ""
+    # a second number sign could start a directive for a linter
+    return python_doc(f"{code}{point.item} is only documented: {point.reason or 'no reason given'}").replace("#", "")

@@ -1,0 +1,79 @@
+"""Rust types and literals, grouped the way clippy wants them read."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+from fieldscribe.model import Point
+from fieldscribe.names import RUST_RESERVED, pascal
+
+RAW_TYPES = {
+    "bit": "u8",
+    **{f"u{bits}": f"u{bits}" for bits in (8, 16, 32, 64)},
+    **{f"s{bits}": f"i{bits}" for bits in (8, 16, 32, 64)},
+    "f32": "u32",
+    "f64": "u64",
+}
+"""The Rust type of a raw number by wire type; a plain bit is a `bool`."""
+
+_PRELUDE = frozenset({"Err", "None", "Ok", "Option", "Result", "Some", "Self"})
+_NOT_RAW = frozenset({"crate", "self", "super", "Self"})
+_UNGROUPED = 10_000
+
+
+def raw_type(point: Point) -> str:
+    """The Rust type of the point's raw number."""
+    return "bool" if point.form == "bit" else RAW_TYPES[point.type]
+
+
+def type_range(rust_type: str) -> tuple[int, int]:
+    """The least and the greatest number of a Rust integer type or `bool`."""
+    if rust_type == "bool":
+        return 0, 1
+    bits = int(rust_type[1:])
+    return (-(1 << (bits - 1)), (1 << (bits - 1)) - 1) if rust_type[0] == "i" else (0, (1 << bits) - 1)
+
+
+@lru_cache(maxsize=65536)
+def type_name(name: str) -> str:
+    """A type or a variant: `BaseFrequency`; what the prelude means by that name keeps it."""
+    result = pascal(name)
+    return f"{result}_" if result in _PRELUDE else result
+
+
+@lru_cache(maxsize=65536)
+def value_name(name: str) -> str:
+    """A function, a field or a local: as it is, or raw where Rust reserves the word."""
+    if name not in RUST_RESERVED:
+        return name
+    return f"{name}_" if name in _NOT_RAW else f"r#{name}"
+
+
+@lru_cache(maxsize=65536)
+def integer(number: int) -> str:
+    """A decimal literal: `4000`, `-70_000`."""
+    return str(number) if -_UNGROUPED < number < _UNGROUPED else f"{number:_}"
+
+
+def raw_literal(number: int, rust_type: str) -> str:
+    """A raw number as a literal of its type."""
+    return ("true" if number else "false") if rust_type == "bool" else integer(number)
+
+
+@lru_cache(maxsize=4096)
+def mask(number: int, rust_type: str) -> str:
+    """A mask in hexadecimal, as wide as its type: `0x0030`, `0x0000_0001`."""
+    digits = int(rust_type[1:]) // 4
+    text = f"{number:0{digits}X}"
+    return "0x" + "_".join(text[at : at + 4] for at in range(0, digits, 4))
+
+
+@lru_cache(maxsize=4096)
+def float_literal(number: float) -> str:
+    """A binary64 literal that reads back as the same number: `10.0`, `0.1`, `1e20`."""
+    mantissa, _, exponent = repr(float(number)).partition("e")
+    whole, point, fraction = mantissa.partition(".")
+    text = integer(int(whole)) if whole.strip("-") != "0" else whole
+    if point and not (exponent and fraction == "0"):
+        text += "." + "_".join(fraction[at : at + 3] for at in range(0, len(fraction), 3))
+    return f"{text}e{int(exponent)}" if exponent else text

@@ -1,0 +1,181 @@
+"""What the Rust templates see: final identifiers, literals, expressions and comment text."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class FactorView:
+    """One factor of a rule: the raw number it takes, the line and the bounds of an exponent (or empty), the method."""
+
+    raw: str
+    bounds: str
+    line: str
+    method: str
+
+
+@dataclass(frozen=True, slots=True)
+class RuleView:
+    """A rule under a condition (empty: always): its constants and its factors."""
+
+    condition: str
+    constants: str
+    factors: tuple[FactorView, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class LimitView:
+    """A limit that other points set: a local, when it does not apply and what holds then, its rule, its outer bound."""
+
+    local: str
+    unless: str
+    bound: str
+    rule: RuleView
+    clamp: str
+
+
+@dataclass(frozen=True, slots=True)
+class CheckView:
+    """Whether a raw number may be written: conditions of which one has to hold; none if every number may."""
+
+    report: str
+    conditions: tuple[str, ...]
+    limits: tuple[LimitView, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class ReadView:
+    """Decoding: types and expressions; `failing` if it can fail."""
+
+    factors: str
+    uses_with: bool
+    failing: bool
+    no_value: tuple[str, ...]
+    value: str
+    count_type: str
+    count: str
+    function: str
+
+
+@dataclass(frozen=True, slots=True)
+class WriteView:
+    """Encoding: the check, and how a value and a count become a raw number."""
+
+    arguments: str
+    check: CheckView
+    check_uses: bool
+    uses_with: bool
+    passed: str
+    kind: str
+    value: str
+    count_type: str
+    within: str
+    count: str
+    function: str
+    address: str
+
+
+@dataclass(frozen=True, slots=True)
+class SpecialView:
+    """A constant for raw numbers that are no quantity."""
+
+    doc: str
+    name: str
+    label: str
+    type: str
+    literal: str
+    single: bool
+
+
+@dataclass(frozen=True, slots=True)
+class BitsView:
+    """Where a bit group lies in its word."""
+
+    shift: int
+    mask: str
+    extract: str
+
+
+@dataclass(frozen=True, slots=True)
+class PointView:
+    """One point."""
+
+    doc: tuple[str, ...]
+    alias: str
+    name: str
+    item: str
+    raw: str
+    value: str
+    constants: tuple[str, ...]
+    order: tuple[str, str, str, str] | None
+    bits: BitsView | None
+    rules: tuple[RuleView, ...]
+    factors: str
+    last_rule_holds: bool
+    read: ReadView | None
+    write: WriteView | None
+    specials: tuple[SpecialView, ...]
+    was: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class ArgumentsView:
+    """A struct of the raw numbers that a point needs."""
+
+    doc: str
+    name: str
+    fields: tuple[tuple[str, str, str], ...]
+    part: str
+    part_literal: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class EntryView:
+    """A variant of an enum."""
+
+    doc: str
+    name: str
+    literal: str
+    label: str
+
+
+@dataclass(frozen=True, slots=True)
+class EnumView:
+    """An enum; `unknown` is the variant that carries a number without a name."""
+
+    doc: str
+    name: str
+    raw: str
+    entries: tuple[EntryView, ...]
+    unknown: str
+
+
+@dataclass(frozen=True, slots=True)
+class FlagView:
+    """A flag: its mask, how it is read and set, its named numbers (doc, name, literal)."""
+
+    doc: str
+    label: str
+    constant: str
+    getter: str
+    setter: str
+    mask: str
+    single: bool
+    read: str
+    full: bool
+    placed: str
+    active: bool
+    values: tuple[tuple[str, str, str], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class FlagsView:
+    """A word whose bits have names; the bits are held in the unsigned type beside the raw number's."""
+
+    doc: str
+    name: str
+    item: str
+    raw: str
+    bits: str
+    flags: tuple[FlagView, ...]

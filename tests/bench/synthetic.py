@@ -1,0 +1,79 @@
+"""Writes a made-up Modbus device of any size: the mix of points that real maps have."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+HEADER = """fieldscribe: 1
+device: synthetic_{count}
+version: 1.0.0
+vendor: Nobody
+model: Synthetic
+title: {{en: Synthetic device, de: Erfundenes Gerät}}
+family: modbus
+documents: {{manual: {{title: Synthetic, language: en}}}}
+parts: [{parts}]
+bus:
+  framings: [rtu, tcp]
+  units: 1..247
+  broadcast: 0
+  functions:
+    03h: {{name: read_holding_registers, max: 125}}
+    06h: {{name: write_register, max: 1}}
+    10h: {{name: write_registers, max: 123}}
+"""
+
+GROUP = """group: group_{number}
+title: {{en: Group {number}, de: Gruppe {number}}}
+space: holding
+access: rw
+source: {{document: manual, section: "{number}"}}
+numbering: {{modicon: wire + 1, reference: 400000 + modicon}}
+points:
+"""
+
+HEAD = """- code: P{index}
+  name: point_{index}
+  title: {{en: Point number {index}, de: Punkt Nummer {index}}}
+  at: {address}
+  line: {line}
+"""
+
+KINDS = (
+    "  range: 0..4000\n  scale: value = raw * 0.1\n  unit: Hz\n",
+    "  range: 0..1000\n  scale: value = raw * 0.1\n  unit: \"%\"\n",
+    "  range: 0..65535\n  unit: h\n  access: r\n",
+    "  type: s16\n  range: -400..1250\n  scale: value = raw * 0.1\n  unit: °C\n",
+    "  range: 0..3\n  enum: {0: off_mode, 1: slow, 2: fast, 3: automatic}\n",
+    "  type: u32\n  range: 1..300000\n  scale: value = raw * 0.01\n  unit: s\n",
+    "  range: 5..17920\n  scale: raw = value * 256\n  unit: Hz\n",
+    "  access: r\n  flags: {0: ready, 1: running, 2: warning, 3: {name: fault, active: 0}, 7: at_speed}\n",
+    "  range: 0..100\n  unit: s\n",
+    "  range: 0, 1, 2, 5\n",
+)
+PRINTED = "  printed: {{modicon: [{modicon:04X}h, {modicon}], wire: [{address:04X}h, {address}]}}\n"
+GROUP_SIZE = 500
+
+
+def write_device(folder: Path, count: int) -> Path:
+    """A device with `count` points below `folder`; its folder."""
+    place = folder / f"synthetic_{count}"
+    place.mkdir(parents=True, exist_ok=True)
+    numbers = range(1, (count + GROUP_SIZE - 1) // GROUP_SIZE + 1)
+    parts = ", ".join(f"group_{number}.yaml" for number in numbers)
+    (place / "device.yaml").write_text(HEADER.format(count=count, parts=parts), "utf-8")
+    address = 0
+    for number in numbers:
+        text = [GROUP.format(number=number)]
+        for index in range((number - 1) * GROUP_SIZE, min(count, number * GROUP_SIZE)):
+            kind = KINDS[index % len(KINDS)]
+            text.append(HEAD.format(index=index, address=address, line=index + 1) + kind)
+            text.append(PRINTED.format(address=address, modicon=address + 1))
+            address += 2 if "u32" in kind else 1
+        (place / f"group_{number}.yaml").write_text("".join(text), "utf-8")
+    return place
+
+
+if __name__ == "__main__":
+    print(write_device(Path(sys.argv[1]), int(sys.argv[2])))

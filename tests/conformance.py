@@ -1,0 +1,170 @@
+"""Runs the conformance vectors of a device against its generated Python package.
+
+    python tests/conformance.py <folder of the packages> <device> <vectors.json>
+
+Prints one line per kind and a total; ends with 1 if any vector failed. It uses the generated code as users do.
+"""
+
+from __future__ import annotations
+
+import importlib
+import json
+import struct
+import sys
+from collections import Counter
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+Vector = Mapping[str, Any]
+
+
+class Runner:
+    """The generated package of one device, and a check for every kind of vector."""
+
+    def __init__(self, folder: Path, device: str) -> None:
+        sys.path.insert(0, str(folder))
+        package = importlib.import_module(device)
+        runtime = importlib.import_module("fieldscribe_runtime")
+        self.modbus = importlib.import_module("fieldscribe_runtime.modbus")
+        self.device = next(one for one in vars(package).values() if _is_device(one, runtime.Device))
+        self.error: type[Exception] = runtime.FieldscribeError
+
+    def passes(self, vector: Vector) -> bool:
+        """Whether the generated code does what the vector says."""
+        check: Callable[[Vector], bool] = getattr(self, f"_{vector['kind']}")
+        return check(vector)
+
+    def _point(self, vector: Vector) -> Any:
+        return self.device.POINTS[vector["point"]]
+
+    def _outcome(self, function: Callable[..., Any], *arguments: Any) -> tuple[str, Any]:
+        """The status and result of a call; None as a value is the status `no_value`."""
+        try:
+            result = function(*arguments)
+        except self.error as error:
+            return getattr(error, "status", ""), error
+        return "ok", result
+
+    def _decode(self, vector: Vector) -> bool:
+        status, value = self._outcome(self._point(vector).decode, vector["raw"], vector.get("with", {}))
+        if status == "ok" and value is None:
+            status = "no_value"
+        return status == vector["status"] and (status != "ok" or _pattern(value) == vector["float"])
+
+    def _encode(self, vector: Vector) -> bool:
+        value = struct.unpack(">d", bytes.fromhex(vector["float"]))[0]
+        status, raw = self._outcome(self._point(vector).encode, value, vector.get("with", {}))
+        return status == vector["status"] and (status != "ok" or raw == vector["raw"])
+
+    def _decode_count(self, vector: Vector) -> bool:
+        point, raw, raws = self._point(vector), vector["raw"], vector.get("with", {})
+        status, count = self._outcome(point.decode_count, raw, raws)
+        if status == "ok" and point.decimals == 0 and point.scale_needs == () and point.decode(raw) != count:
+            return False  # both functions of a point without a scale say the same
+        return status == vector["status"] and (status != "ok" or count == vector["count"])
+
+    def _encode_count(self, vector: Vector) -> bool:
+        point, count, raws = self._point(vector), vector["count"], vector.get("with", {})
+        status, raw = self._outcome(point.encode_count, count, raws)
+        return status == vector["status"] and (status != "ok" or raw == vector["raw"])
+
+    def _check(self, vector: Vector) -> bool:
+        status, _ = self._outcome(self._point(vector).check, vector["raw"], vector.get("with", {}))
+        return status == vector["status"]
+
+    def _name(self, vector: Vector) -> bool:
+        return bool(self._point(vector).name_of(vector["raw"]) == vector["name"])
+
+    def _special(self, vector: Vector) -> bool:
+        return bool(self._point(vector).specials.get(vector["special"]) == (vector["low"], vector["high"]))
+
+    def _flag(self, vector: Vector) -> bool:
+        word = self._point(vector).names
+        flag = getattr(word, vector["flag"], None)
+        if not hasattr(flag, "number"):
+            flag = getattr(word, f"{vector['flag']}_")  # the plain name is a keyword or one of int's own
+        return bool(flag.number(vector["raw"]) == vector["number"])
+
+    def _bits(self, vector: Vector) -> bool:
+        point, word = self._point(vector), vector["word"]
+        replaced = point.insert(word, vector["replaced"])
+        return bool(point.extract(word) == vector["raw"] and replaced == vector["result"])
+
+    def _words(self, vector: Vector) -> bool:
+        point = self._point(vector)
+        words = tuple(vector["words"])
+        return bool(point.from_words(words) == vector["raw"] and point.to_words(vector["raw"]) == words)
+
+    def _address(self, vector: Vector) -> bool:
+        at = self._point(vector).facts.at
+        return bool((at.space, at.address, len(at.addresses)) == (vector["space"], vector["address"], vector["words"]))
+
+    def _block(self, vector: Vector) -> bool:
+        block = self.device.BLOCKS[vector["group"]][vector["index"]]
+        found = {"space": block.space, "function": block.function, "address": block.address, "count": block.count}
+        return all(vector[key] == value for key, value in found.items())
+
+    def _request(self, vector: Vector) -> Any:
+        values = tuple(vector.get("values", ()))
+        return self.modbus.Request(
+            vector["unit"], vector["function"], vector["address"], vector.get("count", 0), values
+        )
+
+    def _build(self, vector: Vector) -> bool:
+        arguments = self.device.PROFILE, vector["framing"], vector.get("transaction") or 0
+        status, frame = self._outcome(self.modbus.build, self._request(vector), *arguments)
+        return status == vector["status"] and (status != "ok" or frame == bytes.fromhex(vector["bytes"]))
+
+    def _reply(self, vector: Vector) -> bool:
+        arguments = self.device.PROFILE, vector["framing"], vector.get("transaction") or 0
+        reply = bytes.fromhex(vector["bytes"])
+        status, result = self._outcome(self.modbus.parse, self._request(vector), reply, *arguments)
+        if status != vector["status"]:
+            return False
+        if status == "exception":
+            return bool(result.code == vector["exception"])
+        return status != "ok" or result == tuple(vector["values_out"])
+
+    _printed_build = _build
+    _printed_reply = _reply
+
+
+def _is_device(candidate: object, base: type) -> bool:
+    return isinstance(candidate, type) and issubclass(candidate, base)
+
+
+def _pattern(value: float) -> str:
+    return struct.pack(">d", value).hex()
+
+
+def run(folder: Path, device: str, vectors: Path, show: int = 0) -> tuple[Counter[str], Counter[str], list[Vector]]:
+    """How many vectors of each kind passed and failed, and the first `show` that failed."""
+    runner = Runner(folder, device)
+    passed: Counter[str] = Counter()
+    failed: Counter[str] = Counter()
+    shown: list[Vector] = []
+    for vector in json.loads(vectors.read_text(encoding="utf-8"))["vectors"]:
+        good = runner.passes(vector)
+        (passed if good else failed)[vector["kind"]] += 1
+        if not good and len(shown) < show:
+            shown.append(vector)
+    return passed, failed, shown
+
+
+def main(arguments: list[str]) -> int:
+    """The command line."""
+    if len(arguments) != 3:
+        print(__doc__, file=sys.stderr)
+        return 2
+    passed, failed, shown = run(Path(arguments[0]), arguments[1], Path(arguments[2]), show=20)
+    for vector in shown:
+        print(json.dumps(vector), file=sys.stderr)
+    for kind in sorted({*passed, *failed}):
+        print(f"{kind} {passed[kind]} passed, {failed[kind]} failed")
+    print(f"total {passed.total()} passed, {failed.total()} failed")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

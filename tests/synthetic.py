@@ -1,0 +1,74 @@
+"""Synthetic devices of any size, for speed and growth: every tenth point is of another kind, as in real maps."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+POINTS_PER_GROUP = 250
+
+_HEAD = """\
+fieldscribe: 1
+device: {name}
+version: 1.0.0
+vendor: Fieldscribe
+model: Synthetic
+title: {{en: A device of {count} points, de: Ein Gerät mit {count} Punkten}}
+family: modbus
+documents:
+  manual: {{title: Synthetic manual, language: en}}
+bus:
+  framings: [rtu, tcp]
+  units: 1..247
+  broadcast: 0
+  functions: {{03h: {{name: read_holding_registers, max: 125}}, 06h: write_register, 10h: {{name: write_registers, max: 100}}}}
+enums:
+  contact: {{0: normally_open, 1: normally_closed, 2: disabled}}
+formats:
+  percent_tenth: {{range: 0..1000, scale: value = raw * 0.1, unit: "%"}}
+groups:
+"""
+
+_GROUP = """\
+- group: group_{number}
+  title: {{en: Group {number}, de: Gruppe {number}}}
+  space: holding
+  access: rw
+  source: {{document: manual, section: "{number}"}}
+  numbering: {{modicon: wire + 1, reference: 400000 + modicon}}
+  points:
+"""
+
+_KINDS = (
+    "range: 0..4000, scale: value = raw * 0.1, unit: Hz, default: 50.0, printed: {{modicon: [{next:04X}h, {next}], wire: {at:04X}h, resolution: 0.1 Hz}}",
+    "format: percent_tenth, default: 12.5",
+    "enum: contact, default: 1",
+    "type: u32, range: 0..999999, scale: value = raw * 0.01, unit: s",
+    "enum: {{0: stopped, 1: running, 2: tripped}}",
+    "range: 0..{limit}.raw, scale: value = raw * 0.1, unit: A",
+    "access: r, type: s16, scale: raw = value * 256, unit: °C",
+    "flags: {{0: ready, 1: running, 3: {{name: fault, active: 0}}, 5..4: mode}}, access: r",
+    "range: 0..255 | 300..400, note: {{en: A register that holds a plain number}}",
+    "type: s32, range_in_units: -100..100, scale: value = raw * 0.001, unit: Nm",
+)
+"""The facts of a point by its last digit."""
+
+
+def description(count: int, name: str = "synthetic") -> str:
+    """The YAML of a device with so many points."""
+    lines = [_HEAD.format(name=name, count=count)]
+    for index in range(count):
+        if index % POINTS_PER_GROUP == 0:
+            lines.append(_GROUP.format(number=index // POINTS_PER_GROUP + 1))
+        at = index * 3
+        facts = _KINDS[index % len(_KINDS)].format(at=at, next=at + 1, limit=f"point_{index - 5}")
+        title = f"{{en: Point number {index}, de: Punkt Nummer {index}}}"
+        lines.append(f"  - {{code: P{index:05}, name: point_{index}, title: {title}, at: {at:04X}h, {facts}}}\n")
+    return "".join(lines)
+
+
+def write_device(folder: Path, count: int) -> Path:
+    """A device folder with its device.yaml, whose path is returned."""
+    folder.mkdir(parents=True, exist_ok=True)
+    file = folder / "device.yaml"
+    file.write_text(description(count), "utf-8")
+    return file

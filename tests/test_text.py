@@ -1,0 +1,139 @@
+"""The encoders: whatever a description holds, the result stays inside its comment, its quotes or its cell."""
+
+from __future__ import annotations
+
+import ast
+import csv
+import io
+import re
+
+import pytest
+from fieldscribe import text
+
+HOSTILE = [
+    *("*/ int x; /*", "/*/", "**/", "a */", "*", "/", "a*", "// x", "??/", "trigraph ??/", "end \\", "\\\\\\", "\\"),
+    *(
+        '"',
+        '""',
+        '"""',
+        "'''",
+        "'",
+        '\\"',
+        'say "x"\\',
+        '"; import os; "',
+        "\\N{BULLET}",
+        "\\x41",
+        "\\u{41}",
+        "\\u0041",
+    ),
+    *("line\nbreak", "cr\rx", "crlf\r\nx", "\u2028x\u2029y", "\x85x", "\v\f", "nul\0x", "\x1b[31m", "tab\tx"),
+    *("\u202eevil\u202c", "\u2066x\u2069", "\u200bx", "\ufeffx", "\ud800x", "\U000e0041x", "\x7f"),
+    *("{{ 7 * 7 }}", "{% raw %}", "</script><script>alert(1)</script>", "<b>", "&lt;", "&", "<!-- x -->", "]]>"),
+    *("a | b", "\\|", "`code`", "``", "*em*", "_em_", "[x](http://example)", "![x](y)", "~~x~~", "# head", "- item"),
+    *("=1+1", "+1+1", "-1+1", "@SUM(A1)", "a,b", 'a"b', "\t=1+1", "-5", "+3.5", "%s %n", "äöü °C µ", "漢字", "𝄞", ""),
+]
+FORBIDDEN = re.compile("[\x00-\x1f\x7f-\x9f\u200b-\u200f\u2028-\u202e\u2066-\u2069\ufeff\ud800-\udfff]")
+ENCODERS = [
+    *(text.line, text.c_comment, text.c_string, text.python_string, text.python_doc),
+    *(text.rust_doc, text.rust_string, text.markdown, text.csv_cell),
+]
+
+
+@pytest.mark.parametrize("encode", ENCODERS)
+@pytest.mark.parametrize("hostile", HOSTILE)
+def test_no_result_holds_control_or_format_characters(encode: object, hostile: str) -> None:
+    assert callable(encode)
+    result = encode(hostile)
+    assert not FORBIDDEN.search(result)
+    assert result.encode("utf-8").decode("utf-8") == result
+
+
+def test_a_line_keeps_what_people_can_read() -> None:
+    assert text.line("  Größe\r\n in °C\t(µ)  ") == "Größe in °C (µ)"
+    assert text.line("a\u202eb\x00c") == "abc"
+    assert text.line("\u00a0x\u2003y") == "x y"
+
+
+@pytest.mark.parametrize("hostile", HOSTILE)
+def test_a_c_comment_ends_where_it_should(hostile: str) -> None:
+    result = text.c_comment(hostile)
+    for comment in (f"/* {result} */", f"/** {result}. */", f" * {result}\n */"):
+        assert comment.count("*/") == 1
+        assert comment.endswith("*/")
+    assert "/*" not in result
+    assert "??" not in result
+    assert not result.endswith("\\")
+
+
+@pytest.mark.parametrize("hostile", HOSTILE)
+def test_a_c_string_holds_the_bytes_of_its_text(hostile: str) -> None:
+    literal = text.c_string(hostile)
+    assert re.fullmatch(r'"(?:[ -!#-\[\]-~]|\\[0-7]{3})*"', literal)
+    assert "?" not in literal
+    octal = re.sub(r"\\([0-7]{3})", lambda found: chr(int(found[1], 8)), literal[1:-1])
+    assert octal.encode("latin-1").decode("utf-8") == text.line(hostile)
+
+
+@pytest.mark.parametrize("hostile", HOSTILE)
+def test_a_python_string_is_its_text(hostile: str) -> None:
+    assert ast.literal_eval(text.python_string(hostile)) == text.line(hostile)
+
+
+@pytest.mark.parametrize("hostile", HOSTILE)
+def test_a_docstring_is_one_string(hostile: str) -> None:
+    result = text.python_doc(hostile)
+    tree = ast.parse(f'def f() -> None:\n    """{result}"""\n    # {result}\n')
+    assert len(tree.body) == 1
+    function = tree.body[0]
+    assert isinstance(function, ast.FunctionDef)
+    assert len(function.body) == 1
+    shown = ast.get_docstring(function, clean=False)
+    assert shown == text.line(hostile).replace('"', "'")
+
+
+@pytest.mark.parametrize("hostile", HOSTILE)
+def test_a_rust_string_has_no_open_escape(hostile: str) -> None:
+    literal = text.rust_string(hostile)
+    assert re.fullmatch(r'"(?:[^"\\\r\n]|\\["\\]|\\u\{[0-9a-f]+\})*"', literal)
+    assert re.sub(r'\\(["\\])', r"\1", literal[1:-1]) == text.line(hostile)
+
+
+@pytest.mark.parametrize("hostile", HOSTILE)
+def test_a_rust_doc_line_is_one_line_of_plain_text(hostile: str) -> None:
+    result = text.rust_doc(hostile)
+    assert "\n" not in result
+    assert "\r" not in result
+    assert not re.search(r"(?<!\\)(?:\\\\)*[`<>\[\]]", result)
+    assert re.sub(r"\\([\\`*_\[\]<>#|])", r"\1", result) == text.line(hostile)
+
+
+@pytest.mark.parametrize("hostile", HOSTILE)
+def test_a_markdown_cell_is_one_cell(hostile: str) -> None:
+    result = text.markdown(hostile)
+    row = f"| first | {result} | last |"
+    assert len(re.split(r"(?<!\\)(?:\\\\)*\|", row)) == 5
+    assert "<" not in result
+    assert ">" not in result
+    assert not re.search(r"(?<!\\)(?:\\\\)*[`*\[\]]", result)
+
+
+@pytest.mark.parametrize("hostile", HOSTILE)
+def test_a_markdown_cell_shows_its_text(hostile: str) -> None:
+    parser = pytest.importorskip("markdown_it").MarkdownIt("commonmark").enable("table")
+    html = parser.render(f"| a | b |\n| --- | --- |\n| x{text.markdown(hostile)}y | z |\n")
+    assert html.count("<td>") == 2
+    cell = re.search(r"<td>x(.*?)y</td>", html)
+    assert cell is not None
+    plain = cell[1].replace("&lt;", "<").replace("&gt;", ">").replace("&quot;", '"').replace("&amp;", "&")
+    assert plain == text.line(hostile)
+
+
+@pytest.mark.parametrize("hostile", HOSTILE)
+def test_a_csv_cell_is_one_cell_and_no_formula(hostile: str) -> None:
+    row = f"first,{text.csv_cell(hostile)},last"
+    (cells,) = csv.reader(io.StringIO(row))
+    assert len(cells) == 3
+    assert cells[2] == "last"
+    assert cells[1].removeprefix("'") == text.line(hostile).removeprefix("'")
+    assert not cells[1].startswith(("=", "@"))
+    assert cells[1][:1] not in ("+", "-") or re.fullmatch(r"[-+][0-9.]+", cells[1])
