@@ -11,6 +11,8 @@ import pytest
 from fieldscribe import text
 
 HOSTILE = [
+    "???/",
+    "see https://x.y www.z a@b.c $x$",
     *("*/ int x; /*", "/*/", "**/", "a */", "*", "/", "a*", "// x", "??/", "trigraph ??/", "end \\", "\\\\\\", "\\"),
     *(
         '"',

@@ -196,6 +196,9 @@ HAND = [
     ),
     by_hand("check", "lower_limit", **given({"start_frequency": 99, "upper_limit": 1333}), raw=1333, status="ok"),
     by_hand("check", "lower_limit", **given({"start_frequency": 36, "upper_limit": 0}), raw=4000, status="ok"),
+    # start_frequency 0 is outside its own 5..99: the limit is 5 all the same
+    by_hand("check", "lower_limit", **given({"start_frequency": 0, "upper_limit": 1333}), raw=4, status="out_of_range"),
+    by_hand("check", "lower_limit", **given({"start_frequency": 0, "upper_limit": 1333}), raw=5, status="ok"),
     by_hand("check", "dc_level_200v", raw=391, status="out_of_range"),
     by_hand("check", "dc_level_400v", raw=780, status="ok"),
 ]
@@ -352,7 +355,8 @@ class Reading:
         product = bound.rule.ratio
         for factor in bound.rule.factors:
             product *= factor_of(factor, given_, None)
-        return near(product + bound.rule.offset)
+        found = near(product + bound.rule.offset)
+        return max(found, bound.least) if low else min(found, bound.greatest)
 
     def admit(self, subject: Point, raw: int, given_: dict[str, int]) -> None:
         """Refuses what may not be written."""

@@ -11,6 +11,9 @@ from functools import lru_cache
 
 _PLAIN = re.compile(r"[ -~]*")
 _SPACES = re.compile(r"\s+")
+_QUERIES = re.compile(r"\?(?=\?)")
+_NUMBERS = re.compile(r"[-+]?[0-9][-0-9.,| ]*")
+_AUTOLINKS = (("://", "&#58;//"), ("www.", "www&#46;"), ("@", "&#64;"), ("$", "&#36;"))
 _DROPPED_CATEGORIES = frozenset({"Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp"})
 
 
@@ -26,8 +29,8 @@ def line(text: str) -> str:
 @lru_cache(maxsize=65536)
 def c_comment(text: str) -> str:
     """Text for inside a C block comment: no end or start of comment, no trigraph, no line splice."""
-    cleaned = line(text).replace("*/", "* /").replace("/*", "/ *").replace("??", "? ?")
-    return cleaned.rstrip("\\") if cleaned.endswith("\\") else cleaned
+    cleaned = line(text).replace("*/", "* /").replace("/*", "/ *")
+    return _QUERIES.sub("? ", cleaned).rstrip("\\ ")
 
 
 @lru_cache(maxsize=65536)
@@ -85,13 +88,15 @@ def rust_string(text: str) -> str:
 def markdown(text: str) -> str:
     """Text for a Markdown paragraph or table cell: no markup, no HTML, no link, no cell border."""
     cleaned = line(text).replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
-    return re.sub(r"([\\`*_{}\[\]()#+\-!|~])", r"\\\1", cleaned) if _needs_escape(cleaned) else cleaned
+    for sign, entity in _AUTOLINKS:
+        cleaned = cleaned.replace(sign, entity)
+    return re.sub(r"([\\`*_{}\[\]()+\-!|~]|(?<!&)#)", r"\\\1", cleaned) if _needs_escape(cleaned) else cleaned
 
 
 def csv_cell(text: str) -> str:
     """A cell for CSV, quoted where needed; what a spreadsheet would run as a formula starts with an apostrophe."""
     cleaned = line(text)
-    if cleaned[:1] in ("=", "+", "-", "@") and not re.fullmatch(r"[-+]?[0-9][0-9.]*", cleaned):
+    if cleaned[:1] in ("=", "+", "-", "@") and not _NUMBERS.fullmatch(cleaned):
         cleaned = "'" + cleaned
     return '"' + cleaned.replace('"', '""') + '"' if any(char in cleaned for char in ',"') else cleaned
 

@@ -8,69 +8,36 @@ from __future__ import annotations
 
 import re
 from decimal import Decimal
-from typing import Any, NoReturn, TypeAlias
+from typing import Any, NoReturn
 
 import yaml
 
 from fieldscribe.diagnostics import Report, Span
+from fieldscribe.language.nodes import Map, Seq, Value
 from fieldscribe.language.source import SourceFile
 
 MOST_DEPTH = 40
-MOST_NODES = 3_000_000
+MOST_NODES = 2_000_000
 MOST_DIGITS = 64
 
 _INTEGER = re.compile(r"[-+]?[0-9]+")
 _RADIX = re.compile(r"0o[0-7]+|0x[0-9a-fA-F]+")
-_FLOAT = re.compile(r"[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]+)?")
+_FLOAT = re.compile(r"[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]{1,3})?")
 _WORDS: dict[str, bool | str | None] = {
     **dict.fromkeys(("", "~", "null", "Null", "NULL")),
     **dict.fromkeys(("true", "True", "TRUE"), True),
     **dict.fromkeys(("false", "False", "FALSE"), False),
 }
 _NUMBER_STARTS = frozenset("-+.0123456789")
-
-
-class Map(dict[str, Any]):
-    """A YAML mapping. `key_at` and `value_at` give (line, column) by key; `at` is where it starts."""
-
-    __slots__ = ("at", "file", "key_at", "value_at")
-
-    def __init__(self, file: SourceFile, at: tuple[int, int]) -> None:
-        super().__init__()
-        self.file = file
-        self.at = at
-        self.key_at: dict[str, tuple[int, int]] = {}
-        self.value_at: dict[str, tuple[int, int]] = {}
-
-    def span(self, key: str | None = None) -> Span:
-        """Where the value of `key` stands, or the whole mapping."""
-        line, column = self.at if key is None else self.value_at.get(key, self.at)
-        return Span(self.file.name, line, column)
-
-    def key_span(self, key: str) -> Span:
-        """Where `key` itself stands."""
-        line, column = self.key_at.get(key, self.at)
-        return Span(self.file.name, line, column, max(1, len(key)))
-
-
-class Seq(list[Any]):
-    """A YAML sequence. `item_at` gives (line, column) by index."""
-
-    __slots__ = ("at", "file", "item_at")
-
-    def __init__(self, file: SourceFile, at: tuple[int, int]) -> None:
-        super().__init__()
-        self.file = file
-        self.at = at
-        self.item_at: list[tuple[int, int]] = []
-
-    def span(self, index: int | None = None) -> Span:
-        """Where the item stands, or the whole sequence."""
-        line, column = self.at if index is None else self.item_at[index]
-        return Span(self.file.name, line, column)
-
-
-Value: TypeAlias = Map | Seq | int | Decimal | bool | str | None
+_SYNTAX_HINTS = (
+    ("start any token", "tabs cannot indent YAML, and `%`, `@` and a backquote start no plain text: quote it"),
+    ("mapping values are not allowed", "quote a text that holds `: `, or look at the indentation"),
+    ("expected ',' or '", "a bracket is not closed, or a text in it holds a comma, a colon or a brace: quote it"),
+    ("expected key", "this line is indented like a key, but is none: look at the indentation and at open quotes"),
+    ("block end", "look at the indentation: all keys of a mapping start in one column"),
+    ("end of stream", "a quote or a bracket is not closed"),
+    ("anchor", "an anchor or alias is a plain word: quote the text if `&` or `*` is meant"),
+)
 
 
 class _Refused(Exception):
@@ -78,8 +45,7 @@ class _Refused(Exception):
 
 
 def load(source: SourceFile, report: Report) -> Map | None:
-    """The file's mapping, or None with findings: bad syntax, duplicate keys, tags, aliases or nesting out of bounds."""
-    before = len(report.findings)
+    """The file's mapping, or None with findings when it cannot be read to its end. Duplicate keys and tags are left out."""
     try:
         root = _Builder(source, report).build()
     except _Refused:
@@ -88,33 +54,24 @@ def load(source: SourceFile, report: Report) -> Map | None:
         _syntax(source, error, report)
         return None
     except yaml.YAMLError as error:
-        report.error(
-            "yaml-syntax",
-            f"this is not YAML: {error}".splitlines()[0],
-            source.span(1, 1),
-            "save the file as plain UTF-8 text",
-        )
+        message = f"this is not YAML: {error}".splitlines()[0]
+        report.error("yaml-syntax", message, source.span(1, 1), "save the file as plain UTF-8 text")
         return None
-    if not isinstance(root, Map):
-        report.error(
-            "wrong-type",
-            "the file must be a mapping of keys to values",
-            source.span(1, 1),
-            "start with `fieldscribe: 1`",
-        )
-        return None
-    return None if len(report.findings) > before else root
+    if isinstance(root, Map):
+        return root
+    hint = "start with `fieldscribe: 1` and `device: …`"
+    report.error("wrong-type", "the file must be a mapping of keys to values", source.span(1, 1), hint)
+    return None
 
 
 def _syntax(source: SourceFile, error: yaml.MarkedYAMLError, report: Report) -> None:
     mark = error.problem_mark or error.context_mark
-    span = source.span(mark.line + 1, mark.column + 1) if mark else source.span(1, 1)
+    span = source.span(1, 1) if mark is None else source.span(mark.line + 1, mark.column + 1)
     problem = error.problem or "it ends too early"
-    context = f" {error.context}" if error.context else ""
+    context = f" {error.context}," if error.context else ""
     hint = "look at the indentation, at missing quotes and at brackets that are not closed"
-    if "\t" in problem or "cannot start any token" in problem:
-        hint = "tabs cannot indent YAML, and `%`, `@` and a backquote start no plain text: quote it"
-    report.error("yaml-syntax", f"this is not YAML:{context} {problem}".replace(":  ", ": "), span, hint)
+    hint = next((said for words, said in _SYNTAX_HINTS if words in problem), hint)
+    report.error("yaml-syntax", f"this is not YAML:{context} {problem}", span, hint)
 
 
 class _Builder:
@@ -132,19 +89,14 @@ class _Builder:
         self.next_event()  # stream start
         event = self.next_event()
         if type(event) is yaml.StreamEndEvent:
-            self._refuse(
-                "file-empty", "the file holds only comments", event, "a description starts with `fieldscribe: 1`"
-            )
+            hint = "a description starts with `fieldscribe: 1` and `device: …`"
+            self._refuse("file-empty", "the file holds only comments", event, hint)
         root = self._node(self.next_event(), 0)
         self.next_event()  # document end
         event = self.next_event()
         if type(event) is not yaml.StreamEndEvent:
-            self._refuse(
-                "yaml-syntax",
-                "a second YAML document starts here",
-                event,
-                "one file holds one document: remove the `---`",
-            )
+            message = "a second YAML document starts here"
+            self._refuse("yaml-syntax", message, event, "one file holds one document: remove the `---`")
         return root
 
     def _node(self, event: Any, depth: int) -> Value:
@@ -153,23 +105,17 @@ class _Builder:
             return self._alias(event)
         self.nodes += 1
         if event.tag is not None:
-            self._refuse(
-                "yaml-tag",
-                f"the tag {event.tag[:60]!r} is not allowed",
-                event,
-                "remove the tag: types follow from the key",
-            )
+            message = f"the tag `{event.tag[:60]}` is not allowed"
+            self._error("yaml-tag", message, event, "remove the tag: types follow from the key")
         if kind is yaml.ScalarEvent:
-            value: Value = scalar(event.value) if event.implicit[0] else event.value
-            self._remember(event, value, self.nodes - 1)
+            text: str = event.value
+            value: Value = text if event.style else scalar(text)
+            if event.anchor is not None:
+                self._remember(event, value, self.nodes)
             return value
         if depth >= MOST_DEPTH:
-            self._refuse(
-                "yaml-depth",
-                f"nested deeper than {MOST_DEPTH} levels",
-                event,
-                "a description never needs this; check the brackets",
-            )
+            message = f"nested deeper than {MOST_DEPTH} levels"
+            self._refuse("yaml-depth", message, event, "a description never needs this; check the brackets")
         first = self.nodes
         collection = self._mapping(event, depth) if kind is yaml.MappingStartEvent else self._sequence(event, depth)
         self._remember(event, collection, first)
@@ -187,12 +133,12 @@ class _Builder:
             key = self._key(event, result)
             mark = event.start_mark
             event = next_event()
-            value_mark = event.start_mark
+            at = _place(event)
             value = node(event, depth + 1)
             if key is not None:
                 result[key] = value
                 key_at[key] = (mark.line + 1, mark.column + 1)
-                value_at[key] = (value_mark.line + 1, value_mark.column + 1)
+                value_at[key] = at
 
     def _sequence(self, event: Any, depth: int) -> Seq:
         mark = event.start_mark
@@ -201,25 +147,21 @@ class _Builder:
             event = self.next_event()
             if type(event) is yaml.SequenceEndEvent:
                 return result
-            mark = event.start_mark
+            result.item_at.append(_place(event))
             result.append(self._node(event, depth + 1))
-            result.item_at.append((mark.line + 1, mark.column + 1))
 
     def _key(self, event: Any, into: Map) -> str | None:
         if type(event) is not yaml.ScalarEvent:
-            self._refuse(
-                "yaml-key", "a key must be plain text, not a list, a mapping or an alias", event, "quote the key"
-            )
+            self._refuse("yaml-key", "a key must be plain text, not a list, a mapping or an alias", event, "quote the key")
         if event.tag is not None or event.anchor is not None:
-            self._refuse("yaml-tag", "a key takes no tag and no anchor", event, "remove it")
+            self._error("yaml-tag", "a key takes no tag and no anchor", event, "remove it")
         key: str = event.value
         if key in into:
             mark = event.start_mark
             span = self.source.span(mark.line + 1, mark.column + 1, max(1, len(key)))
             first = (into.key_span(key), "first given here")
-            self.report.error(
-                "duplicate-key", f"the key `{key}` is given twice", span, "remove or rename one of them", [first]
-            )
+            message = f"the key `{key[:60]}` is given twice"
+            self.report.error("duplicate-key", message, span, "remove or rename one of them", [first])
             return None
         return key
 
@@ -227,34 +169,40 @@ class _Builder:
         if event.anchor is not None:
             self.anchors[event.anchor] = (value, self.nodes - first + 1)
         if self.nodes > MOST_NODES:
-            self._refuse(
-                "yaml-size", f"more than {MOST_NODES} values", event, "aliases count each time; split the description"
-            )
+            self._refuse("yaml-size", f"more than {MOST_NODES} values", event, "split the description with `parts`")
 
     def _alias(self, event: Any) -> Value:
         if event.anchor not in self.anchors:
-            self._refuse(
-                "yaml-alias",
-                f"the alias *{event.anchor} stands inside what it names, or names nothing",
-                event,
-                "write it out",
-            )
+            message = f"the alias `*{event.anchor[:60]}` stands inside what it names, or names nothing above"
+            self._refuse("yaml-alias", message, event, "write it out")
         value, size = self.anchors[event.anchor]
         self.nodes += size
         if self.nodes > MOST_NODES:
-            self._refuse(
-                "yaml-size", f"more than {MOST_NODES} values", event, "aliases count each time; write out what repeats"
-            )
+            hint = "aliases count each time; write out what repeats, or share it under `formats`"
+            self._refuse("yaml-size", f"more than {MOST_NODES} values", event, hint)
         return value
 
-    def _refuse(self, rule: str, message: str, event: Any, hint: str) -> NoReturn:
+    def _span(self, event: Any) -> Span:
         mark = event.start_mark
-        self.report.error(rule, message, self.source.span(mark.line + 1, mark.column + 1), hint)
+        return self.source.span(mark.line + 1, mark.column + 1)
+
+    def _error(self, rule: str, message: str, event: Any, hint: str) -> None:
+        self.report.error(rule, message, self._span(event), hint)
+
+    def _refuse(self, rule: str, message: str, event: Any, hint: str) -> NoReturn:
+        self._error(rule, message, event, hint)
         raise _Refused
 
 
+def _place(event: Any) -> tuple[int, int]:
+    """Where a value starts; of a quoted text where its first character stands, so that columns in formulas count from there."""
+    mark = event.start_mark
+    quoted = type(event) is yaml.ScalarEvent and event.style in ("'", '"')
+    return mark.line + 1, mark.column + 1 + quoted
+
+
 def scalar(text: str) -> int | Decimal | bool | str | None:
-    """A plain scalar by the rules of the YAML 1.2 core schema; infinities and not-a-numbers stay text."""
+    """A plain scalar by the rules of the YAML 1.2 core schema; infinities, not-a-numbers and endless numbers stay text."""
     if text[:1] not in _NUMBER_STARTS:
         return _WORDS.get(text, text)
     if _INTEGER.fullmatch(text):

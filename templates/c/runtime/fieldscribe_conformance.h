@@ -124,7 +124,7 @@ typedef struct fieldscribe_suite {
 
 #define FIELDSCRIBE_CHECK(function, raw_type, with)                       \
     case FIELDSCRIBE_KIND_CHECK:                                          \
-        out->status = function((raw_type)v->raw.bits with);          \
+        out->status = (int)function((raw_type)v->raw.bits with);          \
         out->untouched = true;                                            \
         out->answered = true;                                             \
         break;
@@ -134,7 +134,7 @@ typedef struct fieldscribe_suite {
         raw_type raw = (raw_type)1;                                                     \
         out->status = 1; /* out of range */                                             \
         if (FIELDSCRIBE_FITS_##count_type(v->count)) {                                  \
-            out->status = function((count_type)v->count.bits with, &raw);          \
+            out->status = (int)function((count_type)v->count.bits with, &raw);          \
         }                                                                               \
         out->untouched = raw == (raw_type)1;                                            \
         out->raw = (uint64_t)raw;                                                       \
@@ -151,7 +151,7 @@ typedef struct fieldscribe_suite {
 #define FIELDSCRIBE_TRY_DECODE_COUNT(function, count_type, raw_type, with)                   \
     case FIELDSCRIBE_KIND_DECODE_COUNT: {                                                    \
         count_type count = (count_type)1;                                                    \
-        out->status = function((raw_type)v->raw.bits with, &count);                     \
+        out->status = (int)function((raw_type)v->raw.bits with, &count);                     \
         out->untouched = count == (count_type)1;                                             \
         out->number = (uint64_t)count;                                                       \
         out->answered = true;                                                                \
@@ -169,7 +169,7 @@ typedef struct fieldscribe_suite {
 #define FIELDSCRIBE_ENCODE(function, real_type, raw_type, with)                              \
     case FIELDSCRIBE_KIND_ENCODE: {                                                          \
         raw_type raw = (raw_type)1;                                                          \
-        out->status = function((real_type)v->value with, &raw);                         \
+        out->status = (int)function((real_type)v->value with, &raw);                         \
         out->untouched = raw == (raw_type)1;                                                 \
         out->raw = (uint64_t)raw;                                                            \
         out->answered = true;                                                                \
@@ -185,7 +185,7 @@ typedef struct fieldscribe_suite {
 #define FIELDSCRIBE_TRY_DECODE(function, real_type, raw_type, with)                          \
     case FIELDSCRIBE_KIND_DECODE: {                                                          \
         real_type value = (real_type)1;                                                      \
-        out->status = function((raw_type)v->raw.bits with, &value);                     \
+        out->status = (int)function((raw_type)v->raw.bits with, &value);                     \
         out->untouched = value >= (real_type)1 && value <= (real_type)1;                     \
         out->value = (double)value;                                                          \
         out->answered = true;                                                                \

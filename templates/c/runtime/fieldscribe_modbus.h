@@ -212,7 +212,7 @@ static inline void fieldscribe_modbus_put_values(
     }
     for (at = 0U; at < request->count; ++at) {
         if (request->values[at] != 0U) {
-            data[at / 8U] = (uint8_t)(data[at / 8U] | (1U << (at % 8U)));
+            data[at / 8U] = (uint8_t)(data[at / 8U] | ((uint32_t)1U << (at % 8U)));
         }
     }
 }
@@ -282,8 +282,11 @@ static inline fieldscribe_modbus_status fieldscribe_modbus_take(const fieldscrib
             return FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL;
         }
         for (at = 0U; at < request->count; ++at) {
-            values[at] = fieldscribe_modbus_reads_bits(function) ? (uint16_t)((pdu[2U + at / 8U] >> (at % 8U)) & 1U)
-                                                                 : fieldscribe_modbus_get(pdu + 2U + 2U * at);
+            if (fieldscribe_modbus_reads_bits(function)) {
+                values[at] = (uint16_t)(((uint32_t)pdu[2U + at / 8U] >> (at % 8U)) & 1U);
+            } else {
+                values[at] = fieldscribe_modbus_get(pdu + 2U + 2U * at);
+            }
         }
         reply->count = request->count;
         return FIELDSCRIBE_MODBUS_OK;

@@ -110,7 +110,7 @@ def _choices(oracle: Oracle, point: Point, name: str) -> list[int]:
     low, high = _bounds(oracle, name)
     cases = [case.raw for case in point.scale or () if case.point == name and case.raw is not None]
     found = [*cases, max(cases) + 1] if cases else [low, high]
-    for factor in _factors_with_a_zero(point):
+    for factor in _factors(point):
         if factor.point != name:
             continue
         if factor.ten_to:
@@ -124,10 +124,10 @@ def _choices(oracle: Oracle, point: Point, name: str) -> list[int]:
     return [raw for raw in dict.fromkeys(found) if source is None or source.least <= raw <= source.greatest]
 
 
-def _factors_with_a_zero(point: Point) -> list[Factor]:
-    """The factors that no rule can be computed with when they are zero: of a scale all, of a limit the divisors."""
-    scales = [factor for case in point.scale or () for factor in case.rule.factors]
-    return scales + [factor for limit in limits_of(point) for factor in limit.rule.factors if factor.power < 0]
+def _factors(point: Point) -> list[Factor]:
+    """All factors of a point's scale and limits."""
+    rules = [case.rule for case in point.scale or ()] + [limit.rule for limit in limits_of(point)]
+    return [factor for rule in rules for factor in rule.factors]
 
 
 def limits_of(point: Point) -> list[Limit]:
