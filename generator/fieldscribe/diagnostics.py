@@ -30,6 +30,10 @@ class Diagnostic:
     severity: Severity = "error"
 
 
+MOST_FINDINGS = 1000
+"""Findings that one report keeps: nobody reads more, and hostile input must not cost more."""
+
+
 class Report:
     """All findings of a run. Stages add to it, drop what is broken and go on."""
 
@@ -42,11 +46,11 @@ class Report:
         self, rule: str, message: str, span: Span, hint: str | None = None, related: Iterable[tuple[Span, str]] = ()
     ) -> None:
         """Add an error; the same finding counts once."""
-        self._findings.setdefault(Diagnostic(rule, message, span, hint, tuple(related)))
+        self._add(Diagnostic(rule, _clean(message), span, hint and _clean(hint), tuple(related)))
 
     def warning(self, rule: str, message: str, span: Span, hint: str | None = None) -> None:
         """Add a warning: worth a look, but it compiles."""
-        self._findings.setdefault(Diagnostic(rule, message, span, hint, (), "warning"))
+        self._add(Diagnostic(rule, _clean(message), span, hint and _clean(hint), (), "warning"))
 
     def extend(self, other: Report) -> None:
         """Add everything that another report found."""
@@ -61,3 +65,21 @@ class Report:
     def has_errors(self) -> bool:
         """Whether anything found forbids to compile."""
         return any(one.severity == "error" for one in self._findings)
+
+    @property
+    def full(self) -> bool:
+        """Whether so much was found that nothing more is taken: checks may stop."""
+        return len(self._findings) >= MOST_FINDINGS
+
+    def _add(self, one: Diagnostic) -> None:
+        if not self.full:
+            self._findings.setdefault(one)
+
+
+def _clean(text: str) -> str:
+    """The text without line breaks, control and bidi characters: it may quote a stranger's file on a terminal."""
+    if text.isprintable():
+        return text
+    from fieldscribe.text import line
+
+    return line(text)

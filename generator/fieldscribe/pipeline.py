@@ -11,7 +11,7 @@ from fieldscribe.language.source import read_source, shown
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-    from fieldscribe.language.load import Map
+    from fieldscribe.language.nodes import Map
     from fieldscribe.model import Device
 
 DEVICE_FILE = "device.yaml"

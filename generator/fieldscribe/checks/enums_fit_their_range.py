@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fieldscribe.checks.subject import Subject
-from fieldscribe.language.load import Map
+from fieldscribe.language.nodes import Map
 from fieldscribe.model import Interval
 from fieldscribe.resolve.points import Resolved
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fieldscribe.checks.subject import Subject
-from fieldscribe.language.load import Map
+from fieldscribe.language.nodes import Map
 
 
 def check(subject: Subject) -> None:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from fieldscribe.checks.subject import Subject
 from fieldscribe.families import modbus
 from fieldscribe.families.modbus import Request
-from fieldscribe.language.load import Map
+from fieldscribe.language.nodes import Map
 from fieldscribe.model import Frame, Point
 from fieldscribe.resolve.frames import OpenFrame
 

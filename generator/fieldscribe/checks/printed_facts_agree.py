@@ -11,7 +11,7 @@ from fieldscribe.checks.subject import Subject, same
 from fieldscribe.diagnostics import Span
 from fieldscribe.exact import number_text
 from fieldscribe.language.formula import FormulaError, evaluate, parse_expression
-from fieldscribe.language.load import Map, Seq
+from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.numbers import NumberError, parse_number
 from fieldscribe.model import Allowed, Point
 from fieldscribe.resolve.allowed import as_text

@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import Any
 
 from fieldscribe.diagnostics import Report, Span
-from fieldscribe.language.load import Map, Seq
+from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.numbers import NumberError, parse_number
 from fieldscribe.model import Bus, Command, Frame
 from fieldscribe.resolve.allowed import Ranges

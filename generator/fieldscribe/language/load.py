@@ -17,12 +17,12 @@ from fieldscribe.language.nodes import Map, Seq, Value
 from fieldscribe.language.source import SourceFile
 
 MOST_DEPTH = 40
-MOST_NODES = 2_000_000
+MOST_NODES = 1_000_000
 MOST_DIGITS = 64
 
 _INTEGER = re.compile(r"[-+]?[0-9]+")
 _RADIX = re.compile(r"0o[0-7]+|0x[0-9a-fA-F]+")
-_FLOAT = re.compile(r"[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]{1,3})?")
+_FLOAT = re.compile(r"[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-3]?[0-9]{1,2})?")
 _WORDS: dict[str, bool | str | None] = {
     **dict.fromkeys(("", "~", "null", "Null", "NULL")),
     **dict.fromkeys(("true", "True", "TRUE"), True),

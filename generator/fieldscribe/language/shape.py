@@ -8,14 +8,15 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from decimal import Decimal
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
 from fieldscribe.diagnostics import Report, Span
-from fieldscribe.language.load import Map, Seq
+from fieldscribe.language.hints import form, form_hint, key_hint, nearest, quoted, shown, type_hint
+from fieldscribe.language.nodes import Map, Seq
 
 Check = Callable[[Any, Span, Report], bool]
 """Value, its place and the report: whether the value has the shape; broken keys and items are dropped from their parent."""
@@ -39,9 +40,11 @@ _WORDS = {
     "null": "~",
 }
 _KNOWN = frozenset(
-    """$ref type enum pattern maxLength minimum maximum properties patternProperties additionalProperties required minProperties items
-    minItems if then else definitions description examples title $schema $id""".split()
+    {"$ref", "type", "enum", "pattern", "maxLength", "minimum", "maximum", "properties", "patternProperties"}
+    | {"additionalProperties", "required", "minProperties", "items", "minItems", "dependencies"}
+    | {"description", "examples"}
 )
+_NAMING = ("name", "code", "id", "group")
 
 
 @lru_cache(maxsize=1)
@@ -89,7 +92,7 @@ class _Compiler:
             for python_type in _PYTHON_TYPES[name]:
                 by_type.setdefault(python_type, self._typed(name, node))
         wanted = " or ".join(_WORDS[name] for name in types)
-        return _any if not types else _by_type(by_type, wanted)
+        return _by_type(by_type, wanted, next(iter(node.get("examples", ())), None)) if types else _any
 
     def _typed(self, name: str, node: Mapping[str, Any]) -> Check:
         if name == "object":
@@ -104,90 +107,62 @@ class _Compiler:
         return _any
 
     def _object(self, node: Mapping[str, Any]) -> Check:
-        properties = {key: self.compile(value) for key, value in node.get("properties", {}).items()}
-        patterns = [(re.compile(key), self.compile(value)) for key, value in node.get("patternProperties", {}).items()]
         more = node.get("additionalProperties", True)
-        additional = self.compile(more) if isinstance(more, dict) else (_any if more else None)
-        return _object(properties, patterns, additional, tuple(node.get("required", ())), node.get("minProperties", 0))
+        return _Object(
+            {key: self.compile(value) for key, value in node.get("properties", {}).items()},
+            [(key, compiled_pattern(key), self.compile(one)) for key, one in node.get("patternProperties", {}).items()],
+            self.compile(more) if isinstance(more, dict) else (_any if more else None),
+            node,
+        )
 
 
-def _any(value: Any, span: Span, report: Report) -> bool:
+@lru_cache(maxsize=256)
+def compiled_pattern(pattern: str) -> re.Pattern[str]:
+    """A pattern of the schema as ECMAScript reads it: `$` is the very end, not the place before a last line break."""
+    return re.compile(pattern[:-1] + r"\Z" if pattern.endswith("$") else pattern)
+
+
+def _any(_value: Any, _span: Span, _report: Report) -> bool:
     return True
 
 
-def _by_type(by_type: Mapping[type, Check], wanted: str) -> Check:
+def _by_type(by_type: Mapping[type, Check], wanted: str, example: Any) -> Check:
     def check(value: Any, span: Span, report: Report) -> bool:
         found = by_type.get(type(value))
         if found is not None:
             return found(value, span, report)
-        report.error("wrong-type", f"{_shown(value)} stands where {wanted} belongs", span, _type_hint(value, by_type))
+        report.error("wrong-type", f"{shown(value)} stands where {wanted} belongs", span, type_hint(value, by_type, example))
         return False
 
     return check
 
 
-def _shown(value: Any) -> str:
-    if isinstance(value, Map | Seq):
-        return "a mapping" if isinstance(value, Map) else "a list"
-    if value is None:
-        return "nothing"
-    if isinstance(value, bool):
-        return f"`{str(value).lower()}` (true or false)"
-    kind = "text" if isinstance(value, str) else "number"
-    return f"the {kind} `{str(value)[:60]}`"
-
-
-def _type_hint(value: Any, by_type: Mapping[type, Check]) -> str:
-    if str in by_type and isinstance(value, int | Decimal | bool):
-        return f'quote it: "{value}"'
-    if isinstance(value, str) and (int in by_type or Decimal in by_type) and re.fullmatch(r"[-+]?[0-9]+,[0-9]+", value):
-        return f"write a decimal point: {value.replace(',', '.')}"
-    return "see the key in descriptions/KEYS.md"
-
-
 def _string(choices: list[str] | None, pattern: str | None, longest: int) -> Check:
-    compiled = re.compile(pattern) if pattern else None
+    compiled = compiled_pattern(pattern) if pattern else None
 
     def check(value: str, span: Span, report: Report) -> bool:
         if choices is not None and value not in choices:
-            report.error(
-                "wrong-choice", f"`{value[:60]}` is none of {', '.join(choices)}", span, _nearest(value, choices)
-            )
+            near = nearest(value, tuple(choices))
+            hint = f"did you mean `{near}`?" if near else f"write one of {', '.join(choices)}"
+            report.error("wrong-choice", f"{quoted(value)} is none of {', '.join(choices)}", span, hint)
             return False
         if longest and len(value) > longest:
-            report.error(
-                "text-too-long",
-                f"the text has {len(value)} characters, at most {longest} are allowed",
-                span,
-                "shorten it",
-            )
+            message = f"the text has {len(value)} characters, at most {longest} are allowed"
+            report.error("text-too-long", message, span, "shorten it")
             return False
-        if compiled is not None and not compiled.search(value):
-            report.error(
-                "wrong-form",
-                f"`{value[:60]}` does not have the form {compiled.pattern}",
-                span,
-                _form_hint(value, compiled.pattern),
-            )
+        if pattern is not None and compiled is not None and not compiled.search(value):
+            report.error("wrong-form", f"{quoted(value)} is not {form(pattern)}", span, form_hint(value, pattern))
             return False
         return True
 
     return check
 
 
-def _form_hint(value: str, pattern: str) -> str:
-    if pattern.startswith("^[a-z][a-z0-9]*"):
-        suggestion = re.sub(r"[^a-z0-9]+", "_", value.lower()).strip("_")
-        return f"names are snake_case: `{suggestion[:60] or 'a_name'}`"
-    return "see the key in descriptions/KEYS.md"
-
-
 def _number(choices: list[int] | None, least: int | None, greatest: int | None) -> Check:
     def check(value: int | Decimal, span: Span, report: Report) -> bool:
         if choices is not None and value not in choices:
-            report.error(
-                "wrong-choice", f"{value} is none of {', '.join(map(str, choices))}", span, f"write {choices[-1]}"
-            )
+            known = ", ".join(map(str, choices))
+            report.error("wrong-choice", f"{value} is none of {known}", span, f"write {' or '.join(map(str, choices))}")
             return False
         if (least is not None and value < least) or (greatest is not None and value > greatest):
             bounds = f"at least {least}" if greatest is None else f"{least} to {greatest}"
@@ -200,62 +175,98 @@ def _number(choices: list[int] | None, least: int | None, greatest: int | None) 
 
 def _array(item: Check, least: int) -> Check:
     def check(value: Seq, span: Span, report: Report) -> bool:
+        if value.verdict is not None and value.verdict[0] is check:
+            return value.verdict[1]
+        if report.full:
+            return False
         if len(value) < least:
             report.error("too-few", "the list is empty", span, "fill it or leave the key out")
             return False
         broken = [index for index, one in enumerate(value) if not item(one, value.span(index), report)]
         for index in reversed(broken):
+            _lose(value[index], value.file.lost)
             del value[index], value.item_at[index]
-        return True
+        value.verdict = (check, len(value) >= least)
+        return len(value) >= least
 
     return check
 
 
-def _object(
-    properties: Mapping[str, Check],
-    patterns: list[tuple[re.Pattern[str], Check]],
-    additional: Check | None,
-    required: tuple[str, ...],
-    least: int,
-) -> Check:
-    def key_check(key: str) -> Check | None:
-        for pattern, found in patterns:
-            if pattern.search(key):
-                return found
-        return additional
+class _Object:
+    """The check of a mapping."""
 
-    def check(value: Map, span: Span, report: Report) -> bool:
+    __slots__ = ("additional", "dependencies", "known", "least", "patterns", "properties", "required")
+
+    def __init__(
+        self,
+        properties: Mapping[str, Check],
+        patterns: list[tuple[str, re.Pattern[str], Check]],
+        additional: Check | None,
+        node: Mapping[str, Any],
+    ) -> None:
+        self.properties = properties
+        self.patterns = patterns
+        self.additional = additional
+        self.required: tuple[str, ...] = tuple(node.get("required", ()))
+        self.dependencies: Mapping[str, list[str]] = node.get("dependencies", {})
+        self.least: int = node.get("minProperties", 0)
+
+    def __call__(self, value: Map, span: Span, report: Report) -> bool:
+        if value.verdict is not None and value.verdict[0] is self:
+            return value.verdict[1]
+        if report.full:
+            return False
         broken = []
         for key, one in value.items():
-            found = properties.get(key) or key_check(key)
+            found = self.properties.get(key) or self._pattern(key)
             if found is None:
-                report.error(
-                    "unknown-key",
-                    f"the key `{key[:60]}` is not known here",
-                    value.key_span(key),
-                    _nearest(key, sorted(properties)),
-                )
+                hint = key_hint(key, self.properties, [text for text, _, _ in self.patterns])
+                report.error("unknown-key", f"the key {quoted(key)} is not known here", value.key_span(key), hint)
                 broken.append(key)
             elif not found(one, value.span(key), report):
                 broken.append(key)
-        missing = [key for key in required if key not in value]
-        for key in missing:
-            report.error("missing-key", f"the key `{key}` is missing", span, f"add `{key}: …`")
-        if len(value) < least:
-            report.error("too-few", "the mapping is empty", span, "fill it or leave the key out")
+        complete = self._complete(value, span, report)
         for key in broken:
-            del value[key]
-        return not any(key in required for key in broken) and not missing and len(value) >= least
+            self._drop(value, key)
+        fine = complete and not any(key in broken for key in self.required) and len(value) >= self.least
+        value.verdict = (self, fine)
+        return fine
 
-    return check
+    def _pattern(self, key: str) -> Check | None:
+        for _, pattern, found in self.patterns:
+            if pattern.search(key):
+                return found
+        return self.additional
+
+    def _complete(self, value: Map, span: Span, report: Report) -> bool:
+        missing = {key: f"the key `{key}` is missing" for key in self.required if key not in value}
+        for key in self.dependencies.keys() & value.keys():
+            for needed in self.dependencies[key]:
+                if needed not in value:
+                    missing.setdefault(needed, f"the key `{needed}` is missing: `{key}` needs it")
+        for key, message in missing.items():
+            report.error("missing-key", message, span, f"add `{key}: …`")
+        if len(value) < self.least:
+            report.error("too-few", "the mapping is empty", span, "fill it or leave the key out")
+        return not missing and len(value) >= self.least
+
+    def _drop(self, value: Map, key: str) -> None:
+        lost = value.file.lost
+        lost.add(f"*{key}" if key in self.properties else key)
+        _lose(value[key], lost)
+        del value[key]
+        value.broken += (key,)
 
 
-def _nearest(word: str, known: list[str]) -> str:
-    import difflib
-
-    near = difflib.get_close_matches(word, known, 1, 0.6)
-    if near:
-        return f"did you mean `{near[0]}`?"
-    if word == "<<":
-        return "merge keys are not part of YAML 1.2: write the keys out or use `formats`"
-    return "known here: " + ", ".join(known[:40]) if known else "remove it"
+def _lose(value: Any, lost: set[str]) -> None:
+    """Remember the names in what is dropped."""
+    waiting: list[Iterable[Any]] = [(value,)]
+    seen: set[int] = set()
+    while waiting:
+        for one in waiting.pop():
+            if not isinstance(one, Map | Seq) or id(one) in seen:
+                continue
+            seen.add(id(one))
+            waiting.append(one.values() if isinstance(one, Map) else one)
+            if isinstance(one, Map):
+                lost.update(one, (one[key] for key in _NAMING if isinstance(one.get(key), str)))

@@ -2,21 +2,28 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import re
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from fieldscribe.diagnostics import Report, Span
 
 MOST_BYTES = 16 * 1024 * 1024
-"""The largest description file that is read: about 50,000 points."""
+"""The largest description file that is read: about 100,000 points."""
+
+_NO_YAML = re.compile("[^\\t\\n\\r -~\\x85\\xa0-\\ud7ff\\ue000-\\ufefe\\uff00-\\ufffd\\U00010000-\\U0010ffff]")
 
 
 @dataclass(frozen=True, slots=True)
 class SourceFile:
-    """A file's text; `name` is its path as shown to people, relative to where they called from if possible."""
+    """A file's text; `name` is its path as shown to people, relative to where they called from if possible.
+
+    `lost` collects the names of what had the wrong shape, so that nobody is told that they are unknown too.
+    """
 
     name: str
     text: str
+    lost: set[str] = field(default_factory=set, compare=False)
 
     def span(self, line: int, column: int, width: int = 1) -> Span:
         """A place in this file."""
@@ -32,38 +39,41 @@ def shown(path: Path) -> str:
 
 
 def read_source(path: Path, report: Report) -> SourceFile | None:
-    """The file's text, or None and a finding when it is missing, too large, empty or not UTF-8."""
+    """The file's text, or None and a finding when it is missing, too large, empty, not UTF-8 or holds control characters."""
     name = shown(path)
     start = Span(name, 1, 1)
     try:
         with path.open("rb") as stream:
             data = stream.read(MOST_BYTES + 1)
     except OSError as error:
-        report.error(
-            "file-unreadable", f"cannot read the file: {error.strerror}", start, "check the path and its permissions"
-        )
+        message = f"cannot read the file: {error.strerror}"
+        report.error("file-unreadable", message, start, "check the path and its permissions")
         return None
     if len(data) > MOST_BYTES:
-        report.error(
-            "file-too-large", f"the file is larger than {MOST_BYTES >> 20} MiB", start, "split it with `parts`"
-        )
+        report.error("file-too-large", f"the file is larger than {MOST_BYTES >> 20} MiB", start, "split it with `parts`")
         return None
     return _decoded(name, data, report)
 
 
 def _decoded(name: str, data: bytes, report: Report) -> SourceFile | None:
-    start = Span(name, 1, 1)
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line = data.count(b"\n", 0, error.start) + 1
         column = error.start - (data.rfind(b"\n", 0, error.start) + 1) + 1
-        hint = "save the file as UTF-8"
-        report.error("file-not-utf8", f"byte {data[error.start]:#04x} is not UTF-8", Span(name, line, column), hint)
+        message = f"byte {data[error.start]:02X}h is not UTF-8"
+        report.error("file-not-utf8", message, Span(name, line, column), "save the file as UTF-8")
         return None
     if not text.strip():
-        report.error(
-            "file-empty", "the file is empty", start, "a description starts with `fieldscribe: 1` and `device: …`"
-        )
+        hint = "a description starts with `fieldscribe: 1` and `device: …`"
+        report.error("file-empty", "the file is empty", Span(name, 1, 1), hint)
         return None
-    return SourceFile(name, text)
+    source = SourceFile(name, text)
+    strange = _NO_YAML.search(text)
+    if strange is None:
+        return source
+    start = strange.start()
+    line, column = text.count("\n", 0, start) + 1, start - (text.rfind("\n", 0, start) + 1) + 1
+    message = f"the control character U+{ord(strange[0]):04X} is not allowed in YAML"
+    report.error("yaml-character", message, source.span(line, column), "remove it: editors show it as a box, or not at all")
+    return None

@@ -9,7 +9,7 @@ from typing import Any
 
 from fieldscribe.diagnostics import Span
 from fieldscribe.language.formula import Affine, Expression, FormulaError, limit_rule, parse_range
-from fieldscribe.language.load import Seq
+from fieldscribe.language.nodes import Seq
 from fieldscribe.model import Allowed, Bound, Enum, Interval, Limit, Linear, Special
 from fieldscribe.resolve.drafts import Draft
 from fieldscribe.resolve.rules import Scales, Unknown

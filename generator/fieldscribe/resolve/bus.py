@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from fieldscribe.language.load import Map, Seq
+from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.model import Bus, Code, Command
 from fieldscribe.resolve.drafts import humanised
 from fieldscribe.resolve.scope import Scope, source_of, titles

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from fieldscribe.diagnostics import Span
-from fieldscribe.language.load import Map
+from fieldscribe.language.nodes import Map
 from fieldscribe.model import Titles
 from fieldscribe.resolve.scope import Scope, titles, unknown_name
 

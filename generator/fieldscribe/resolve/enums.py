@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from fieldscribe.language.load import Map
+from fieldscribe.language.nodes import Map
 from fieldscribe.model import Entry, Enum, Flag, Special
 from fieldscribe.resolve.drafts import Draft, humanised
 from fieldscribe.resolve.scope import Scope, titles, unknown_name

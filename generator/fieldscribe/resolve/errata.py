@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from fieldscribe.language.load import Map, Seq
+from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.model import Erratum
 from fieldscribe.resolve.names import Index
 from fieldscribe.resolve.scope import Scope, source_of

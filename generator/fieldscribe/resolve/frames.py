@@ -8,7 +8,7 @@ from decimal import Decimal
 from fractions import Fraction
 from typing import Any
 
-from fieldscribe.language.load import Map
+from fieldscribe.language.nodes import Map
 from fieldscribe.model import Bus, Frame, Point
 from fieldscribe.resolve.allowed import round_half_away
 from fieldscribe.resolve.drafts import humanised

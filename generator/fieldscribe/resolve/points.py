@@ -8,7 +8,7 @@ from fractions import Fraction
 
 from fieldscribe.families import FAMILIES
 from fieldscribe.language.formula import FormulaError, condition_names, parse_condition
-from fieldscribe.language.load import Map
+from fieldscribe.language.nodes import Map
 from fieldscribe.model import TYPES, Enum, Place, Point, Special, Unit
 from fieldscribe.resolve.allowed import Ranges
 from fieldscribe.resolve.drafts import Draft

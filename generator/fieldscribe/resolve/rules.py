@@ -6,7 +6,7 @@ from fractions import Fraction
 
 from fieldscribe.diagnostics import Span
 from fieldscribe.language.formula import Affine, FormulaError, parse_case, parse_scale, scale_rule
-from fieldscribe.language.load import Map
+from fieldscribe.language.nodes import Map
 from fieldscribe.model import Linear, ScaleCase
 from fieldscribe.resolve.drafts import Draft
 from fieldscribe.resolve.names import Index

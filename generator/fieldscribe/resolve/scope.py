@@ -8,7 +8,8 @@ from functools import lru_cache
 from pathlib import Path
 
 from fieldscribe.diagnostics import Report, Span
-from fieldscribe.language.load import Map, load
+from fieldscribe.language.load import load
+from fieldscribe.language.nodes import Map
 from fieldscribe.language.source import SourceFile
 from fieldscribe.model import Document, Enum, Source, Titles, Unit
 

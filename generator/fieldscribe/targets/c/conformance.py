@@ -60,7 +60,7 @@ def _adapter(point: Point, view: PointView, scope: Scope) -> AdapterView:
     function, kind = view.function, view.raw_type
     cases = [f"ADDRESS({view.macro})"] if point.address is not None else []
     if view.writable and view.shape != "float":
-        cases.append(f"CHECK({function}_check, {kind}, {_with(point, point.limit_arguments, scope)})")
+        cases.append(f"CHECK({function}_check, {kind}, {_with(point, view.limit_arguments, scope)})")
     cases += _conversions(point, view, scope)
     if point.enum is not None:
         cases.append(f"NAME({scope.prefix}_{point.enum.name}_name, {value_type(point)})")
@@ -71,8 +71,8 @@ def _adapter(point: Point, view: PointView, scope: Scope) -> AdapterView:
     else:
         cases.append(f"ONE_WORD({kind})")
     return AdapterView(
-        point.item,
-        point.arguments,
+        view.item,
+        point.arguments if view.declare_all else (),
         tuple(f"FIELDSCRIBE_{case}" for case in cases),
         tuple((flag.name, _flag(point, view, flag.name, flag.width)) for flag in point.flags),
         tuple(
@@ -83,8 +83,9 @@ def _adapter(point: Point, view: PointView, scope: Scope) -> AdapterView:
 
 def _conversions(point: Point, view: PointView, scope: Scope) -> list[str]:
     function, kind, form = view.function, view.raw_type, view.shape
-    everything = _with(point, point.arguments, scope)
-    scale = _with(point, point.scale_arguments, scope)
+    arguments = point.arguments if view.declare_all else ()
+    everything = _with(point, arguments, scope)
+    scale = _with(point, view.scale_arguments, scope)
     attempt = "TRY_" if view.no_value or form == "ruled" else ""
     counted = "" if form == "plain" else "_count"
     number = getattr(view.codec, "count_type", "int64_t") if form != "plain" else value_type(point)
@@ -108,9 +109,11 @@ def _conversions(point: Point, view: PointView, scope: Scope) -> list[str]:
 
 
 def _with(point: Point, names: tuple[str, ...], scope: Scope) -> str:
+    if not names:
+        return "FIELDSCRIBE_ALONE"
     order = point.arguments
     parts = [f"FIELDSCRIBE_WITH({order.index(name)}, {raw_type(scope.points[name])})" for name in names]
-    return " ".join(parts) or "FIELDSCRIBE_ALONE"
+    return " ".join(parts)
 
 
 def _flag(point: Point, view: PointView, name: str, width: int) -> str:

@@ -19,11 +19,11 @@ def refused_status(point: Point) -> str:
     return "UNKNOWN_VALUE" if point.enum is not None and point.enum.closed else "OUT_OF_RANGE"
 
 
-def check_view(point: Point, scope: Scope) -> CheckView:
-    """The check of a point whose raw number is an integer."""
+def check_view(point: Point, scope: Scope, arguments: tuple[str, ...]) -> CheckView:
+    """The check of a point whose raw number is an integer; `arguments` are the points that its limits need."""
     refused = f"{scope.upper}_{refused_status(point)}"
     bounds = raw_bounds(point)
-    if point.limit_arguments or any(not _is_fixed(one) for one in point.allowed.intervals):
+    if arguments or not all(map(_is_fixed, point.allowed.intervals)):
         return _moving(point, scope, refused)
     literal = signed if point.info.signed else unsigned
     tests = [_test("raw", one.low, one.high, bounds, literal) for one in point.allowed.intervals]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import textwrap
 
+from fieldscribe.exact import number_text
 from fieldscribe.model import Enum, Flag, Point, Special
 from fieldscribe.names import upper
 from fieldscribe.targets.c.limits import check_view
@@ -20,9 +21,9 @@ from fieldscribe.targets.c.places import bits_view, words_view
 from fieldscribe.targets.c.rules import ruled_view
 from fieldscribe.targets.c.scales import scaled_view
 from fieldscribe.targets.c.scope import Scope
-from fieldscribe.targets.c.views import CheckView, Codec, Define, EnumView, FlagView, FloatView, PlainView, PointView
+from fieldscribe.targets.c.views import Codec, Define, EnumView, FlagView, FloatView, PlainView, PointView
 from fieldscribe.text import c_comment, c_string
-from fieldscribe.wording import access_text, exact, range_text, raw_range_text, resolution_text, with_unit
+from fieldscribe.wording import access_text, range_text, raw_range_text, resolution_text, with_unit
 
 _COMMENT_WIDTH = 114
 
@@ -31,9 +32,11 @@ def point_view(point: Point, scope: Scope) -> PointView:
     """The view of a generated point."""
     macro = f"{scope.upper}_{upper(point.item)}"
     low, high = (0, 0) if point.info.floating else outer_limits(point)
-    shape, codec = _codec(point, scope, low, high)
-    check = check_view(point, scope) if point.writable and shape != "float" else None
+    scale, limits = point.scale_arguments, point.limit_arguments
+    shape, codec = _codec(point, scope, low, high, scale)
+    check = check_view(point, scope, limits) if point.writable and shape != "float" else None
     kind = raw_type(point)
+    declare_scale, declare_limits = scope.declare(scale), scope.declare(limits)
     return PointView(
         function=f"{scope.prefix}_{point.item}",
         macro=macro,
@@ -45,16 +48,18 @@ def point_view(point: Point, scope: Scope) -> PointView:
         codec=codec,
         raw_type=kind,
         from_whole="whole != 0" if kind == "bool" else f"({kind})whole",
-        from_value="value != 0" if kind == "bool" else "value" if kind == value_type(point) else f"({kind})value",
+        from_value="value != 0" if kind == "bool" else "value" if kind == "uint64_t" else f"({kind})value",
         readable=point.readable,
         writable=point.writable,
         check=check,
         recheck=check is not None and (len(point.allowed.intervals) > 1 or bool(check.limits)),
-        no_value=_no_value(point),
-        declare_all=scope.declare(point.arguments),
-        declare_scale=scope.declare(point.scale_arguments),
-        declare_limits=scope.declare(point.limit_arguments),
-        pass_limits=scope.place(point.limit_arguments),
+        no_value=_no_value(point) if point.specials else "",
+        scale_arguments=scale,
+        limit_arguments=limits,
+        declare_all=scope.declare(point.arguments) if scale and limits else declare_scale or declare_limits,
+        declare_scale=declare_scale,
+        declare_limits=declare_limits,
+        pass_limits=scope.place(limits),
         words=words_view(point, scope),
         bits=bits_view(point, scope),
         flags=tuple(_flag_view(flag, point, scope) for flag in point.flags if flag.width > 1) if point.flags else (),
@@ -73,8 +78,7 @@ def comment_lines(point: Point, scope: Scope) -> tuple[str, ...]:
     head = f"{point.code}: {point.title['en']}" if point.code else point.title["en"]
     facts = [_range(point), access_text(point.access)]
     if point.default is not None:
-        default = exact(point.default.numerator, point.default.denominator)
-        facts.append(f"default {with_unit(default, point)}")
+        facts.append(f"default {with_unit(number_text(point.default), point)}")
     lines = [*_wrapped(head), *_wrapped("; ".join(fact for fact in facts if fact) + ".")]
     for flag in point.flags:
         if flag.width == 1 and flag.active == 0:
@@ -109,10 +113,10 @@ def _wrapped(text: str) -> list[str]:
     return [cleaned] if len(cleaned) <= _COMMENT_WIDTH else textwrap.wrap(cleaned, _COMMENT_WIDTH, break_long_words=False)
 
 
-def _codec(point: Point, scope: Scope, low: int, high: int) -> tuple[str, Codec]:
+def _codec(point: Point, scope: Scope, low: int, high: int, arguments: tuple[str, ...]) -> tuple[str, Codec]:
     form = point.form
     if form == "scaled":
-        if point.scale_arguments:
+        if arguments:
             return "ruled", ruled_view(point, scope, low, high)
         return "scaled", scaled_view(point, scope, low, high)
     if form == "float":
@@ -209,5 +213,3 @@ def _no_value(point: Point) -> str:
             tests.append(f"(raw >= {literal(special.low)} && raw <= {literal(special.high)})")
     return " || ".join(tests)
 
-
-__all__ = ["CheckView", "comment_lines", "enum_prefix", "point_view", "special_defines", "value_type"]

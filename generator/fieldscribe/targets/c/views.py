@@ -168,6 +168,8 @@ class PointView:
     check: CheckView | None
     recheck: bool
     no_value: str
+    scale_arguments: tuple[str, ...]
+    limit_arguments: tuple[str, ...]
     declare_all: str
     declare_scale: str
     declare_limits: str

@@ -83,14 +83,21 @@ def parameter(name: str) -> str:
 
 
 def sorted_imports(names: Iterable[str]) -> list[str]:
-    """Names in the order of import sorters: constants, classes, functions; numbers by value."""
-    return sorted(names, key=_import_key)
+    """Names in the order of import sorters: constants, classes, functions; numbers by value, case ignored."""
+    return sorted(names, key=lambda name: (_kind(name), _natural(name.lower()), _natural(name)))
 
 
-def _import_key(name: str) -> tuple[int, list[tuple[int, int, str]], str]:
-    kind = 0 if name.isupper() and len(name) > 1 else 1 if name[0].isupper() else 2
-    parts = [(0, int(part), "") if part.isdigit() else (1, 0, part) for part in _DIGITS.split(name.lower()) if part]
-    return kind, parts, name
+def sorted_exports(names: Iterable[str]) -> list[str]:
+    """Names in the order that linters want for `__all__`: as imports, but capitals before small letters."""
+    return sorted(names, key=lambda name: (_kind(name), _natural(name)))
+
+
+def _kind(name: str) -> int:
+    return 0 if name.isupper() and len(name) > 1 else 1 if name[0].isupper() else 2
+
+
+def _natural(name: str) -> list[tuple[int, int, str]]:
+    return [(0, int(part), "") if part.isdigit() else (1, 0, part) for part in _DIGITS.split(name) if part]
 
 
 class Identifiers:
@@ -128,7 +135,7 @@ class Identifiers:
     @property
     def exports(self) -> Sequence[str]:
         """All names of the package, as `__all__` lists them."""
-        return sorted_imports([self.device_class, self.async_class, *self.imports])
+        return sorted_exports([self.device_class, self.async_class, *self.imports])
 
     def _name_flags(self, point: Point) -> None:
         name = self._class(pascal(point.item), "Flags")

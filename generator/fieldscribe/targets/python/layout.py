@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from fieldscribe.text import python_doc
+
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
@@ -22,6 +24,11 @@ class Group:
 
 
 Node = str | Group
+
+
+def comment(text: str) -> str:
+    """Text for a `#` comment; a second number sign in it could start a directive for some tool."""
+    return python_doc(text).replace("#", "")
 
 
 def call(head: str, items: Iterable[Node]) -> Group:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from fieldscribe.targets.python.bus import blocks, commands, profile
 from fieldscribe.targets.python.forms import Scope, allowed, form, number, place, spans
 from fieldscribe.targets.python.identifiers import Identifiers, attribute, sorted_imports
-from fieldscribe.targets.python.layout import WIDTH, Group, Node, laid_out
+from fieldscribe.targets.python.layout import WIDTH, Group, Node, comment, laid_out
 from fieldscribe.text import python_doc, python_string
 from fieldscribe.wording import range_text
 
@@ -60,10 +60,10 @@ def points_view(device: Device, names: Identifiers) -> PointsView:
     used = {"Block", "PointTable", "Profile"} if device.blocks else {"PointTable", "Profile"}
     scope = Scope(names, {point.name: point for point in device.points}, used)
     errata = {one.id: one for one in device.errata}
-    groups = {group.name: GroupView(python_doc(f"{group.name}: {group.title['en']}")) for group in device.groups}
+    groups = {group.name: GroupView(comment(f"{group.name}: {group.title['en']}")) for group in device.groups}
     variants: dict[str, list[Point]] = {}
     for point in device.points:
-        group = groups.setdefault(point.group, GroupView(point.group))
+        group = groups.setdefault(point.group, GroupView(comment(point.group)))
         if not point.generated:
             group.left_out.append(_left_out(point))
             continue
@@ -153,5 +153,4 @@ def _wrapped(text: str) -> list[str]:
 
 def _left_out(point: Point) -> str:
     code = f"{point.code} " if point.code else ""
-    # a second number sign could start a directive for a linter
-    return python_doc(f"{code}{point.item} is only documented: {point.reason or 'no reason given'}").replace("#", "")
+    return comment(f"{code}{point.item} is only documented: {point.reason or 'no reason given'}")

@@ -69,7 +69,7 @@ def point_view(point: Point, scope: Scope) -> PointView:
     factors = _struct(point, point.scale_arguments, "Factors" if point.scale_arguments != point.arguments else "")
     low, high = bounds(point)
     return PointView(
-        doc=point_doc(point, scope.errata),
+        doc=tuple(f" {line}" if line else "" for line in point_doc(point, scope.errata)),
         alias=rust_string(point.code) if point.code and point.code != name and _ALIAS.fullmatch(point.code) else "",
         name=name,
         item=point.item,
@@ -157,7 +157,7 @@ def _bits(point: Point) -> BitsView | None:
     high, low = point.bits
     bits = mask(((1 << (high - low + 1)) - 1) << low, "u16")
     signed = "_signed" if point.info.signed else ""
-    return BitsView(low, bits, f"runtime::arithmetic::extract{signed}(word, {low}, {bits})")
+    return BitsView(low, bits, f"arithmetic::extract{signed}(word, {low}, {bits})")
 
 
 def _struct(point: Point, names: tuple[str, ...], suffix: str) -> str:
@@ -168,94 +168,108 @@ def _read(point: Point, raw: str, factors: str, scope: Scope) -> ReadView:
     unreal = [(one.low, one.high) for one in point.specials if one.no_value]
     no_value = patterns(unreal, raw) if unreal else ()
     rule = fixed(point)
-    failing, count_type, count = False, _plain_count(point, raw), ""
+    failing, narrows, count_type, scaled, count = False, False, _plain_count(raw), "", ""
     if point.form == "float":
         value, count_type = f"f{point.width}::from_bits(raw)", ""
         value = f"f64::from({value})" if point.width == 32 else value
     elif point.form == "scaled" and rule is not None:
         path = count_path(rule, point.decimals, raw, *bounds(point))
-        value, count_type, count, failing = decode_float(rule, raw), path.type, path.decode, path.overflows
+        value, count_type, (scaled, count) = decode_float(rule, raw), path.type, path.decode
+        failing = narrows = path.overflows
     elif point.form == "scaled":
         value, count_type, failing = "", "i64", True
         count = f"decode_count::<{integer(10**point.decimals)}>"
     else:
         value, count = _plain_value(point, raw, scope), "raw" if count_type == raw else f"{count_type}::from(raw)"
     function = _function(point, point.places[0].function, {"coil": 1, "discrete": 2, "holding": 3, "input": 4})
-    return ReadView(factors, factors != "()", failing or bool(no_value), no_value, value, count_type, count, function)
+    parameter = _parameter(factors, "Factors", used=point.form == "scaled" and rule is None)
+    failing = failing or bool(no_value)
+    return ReadView(factors, parameter, failing, narrows, no_value, value, count_type, scaled, count, function)
 
 
-def _plain_count(point: Point, raw: str) -> str:
+def _plain_count(raw: str) -> str:
     """The integer that holds any raw number of a point without a scale, and numbers beyond."""
     return {"i32": "i64", "u32": "i64", "i64": "i64", "u64": "i128"}.get(raw, "i32")
 
 
+def _parameter(type_: str, name: str, *, used: bool) -> str:
+    return "(): ()" if type_ == "()" else f"{'with' if used else '_'}: Self::{name}"
+
+
 def _plain_value(point: Point, raw: str, scope: Scope) -> str:
-    if point.form == "enum" and point.enum is not None:
+    if point.enum is not None and point.form == "enum":
         carried = scope.enums[point.enum.name]
         return f"{_value_type(point, raw)}::from({'raw' if carried == raw else f'{carried}::from(raw)'})"
-    return f"{_value_type(point, raw)}(raw)" if point.form == "flags" else "raw"
+    return f"{_value_type(point, raw)}::from(raw)" if point.form == "flags" else "raw"
+
+
+def _plain_raw(point: Point, raw: str, scope: Scope) -> str:
+    """A value as the raw number; an enum that several raw types share may carry what this one cannot hold."""
+    if point.enum is not None and point.form == "enum":
+        carried = scope.enums[point.enum.name]
+        return f"{raw}::from(value)" if carried == raw else _held(f"{carried}::from(value)", closed=point.enum.closed)
+    return f"{raw}::from(value)" if point.form == "flags" else "value"
+
+
+def _held(number: str, *, closed: bool) -> str:
+    return f"arithmetic::held::<Self>({number}, runtime::Error::{'UnknownValue' if closed else 'OutOfRange'})?"
 
 
 def _write(point: Point, raw: str, low: int, high: int, scope: Scope) -> WriteView:
-    check = _check(point, raw, scope)
     arguments = _struct(point, point.arguments, "")
     rule = fixed(point)
-    kind, value, within, count, count_type = "plain", _plain_raw(point, raw, scope), "", "count", _plain_count(point, raw)
+    kind, count_type, within, scaled, ranges = "plain", _plain_count(raw), "", "", ()
     if point.form == "float":
-        kind, value, count_type = "float", _float_range(point), ""
+        kind, value, count_type, count, ranges = "float", f"f{point.width}_bits", "", "", _float_ranges(point)
     elif point.form == "scaled" and rule is not None:
         path = count_path(rule, point.decimals, raw, low, high)
-        kind, value, count_type, count = "scaled", encode_float(rule), path.type, path.encode
+        kind, value, count_type, (scaled, count) = "scaled", encode_float(rule), path.type, path.encode
         within = f"{path.low}, {path.high}"
     elif point.form == "scaled":
         kind, count_type, count = "run_time", "i64", f"encode_count::<{integer(10**point.decimals)}>"
         value = "with.factors()" if point.scale_arguments != point.arguments else "with"
-    elif raw == "bool":
-        count = "runtime::arithmetic::bit(count)?"
+    else:
+        closed = point.enum is not None and point.form == "enum" and point.enum.closed
+        value = _plain_raw(point, raw, scope)
+        count = "arithmetic::bit(count)?" if raw == "bool" else _held("count", closed=closed)
     place = next((one for one in point.places if one.purpose == "write"), point.places[0])
+    elsewhere = place is not point.places[0] and place.addresses
     return WriteView(
         arguments=arguments,
-        check=check,
-        check_uses=bool(check.limits),
-        uses_with=arguments != "()",
+        parameter=_parameter(arguments, "With", used=True),
         passed="with" if arguments != "()" else "()",
+        check=_check(point, raw, arguments, scope),
         kind=kind,
         value=value,
+        ranges=ranges,
         count_type=count_type,
         within=within,
+        scaled=scaled,
         count=count,
         function=_write_function(point, place.function if place.purpose == "write" else None, scope),
-        address=f"0x{min(place.addresses):04X}" if place is not point.places[0] and place.addresses else "",
+        address=f"0x{min(place.addresses):04X}" if elsewhere else "",
     )
 
 
-def _float_range(point: Point) -> str:
-    """The condition that a value is within the limits; empty if there are none."""
-    return " || ".join(
-        f"({float_literal(float(low))}..={float_literal(float(high))}).contains(&value)" for low, high in point.allowed.units
-    )
+def _float_ranges(point: Point) -> tuple[str, ...]:
+    """Conditions of which one holds if a value is within the limits; none if there are none."""
+    ends = [(float_literal(float(low)), float_literal(float(high))) for low, high in point.allowed.units]
+    return tuple(f"({low}..={high}).contains(&value)" for low, high in ends)
 
 
-def _plain_raw(point: Point, raw: str, scope: Scope) -> str:
-    """A value as the raw number; empty where that can fail, so that the template converts with an error."""
-    if point.form == "enum" and point.enum is not None:
-        return f"{raw}::from(value)" if scope.enums[point.enum.name] == raw else ""
-    return "value.0" if point.form == "flags" else "value"
-
-
-def _check(point: Point, raw: str, scope: Scope) -> CheckView:
-    closed = point.form == "enum" and point.enum is not None and point.enum.closed
+def _check(point: Point, raw: str, arguments: str, scope: Scope) -> CheckView:
+    closed = point.enum is not None and point.form == "enum" and point.enum.closed
     report = "listed" if closed else "allowed"
     if point.limit_arguments:
         limits, conditions = limit_views(point, scope.points)
-        return CheckView(report, conditions, limits)
+        return CheckView(report, "raw", _parameter(arguments, "With", used=True), conditions, limits)
+    parameter = _parameter(arguments, "With", used=False)
     numbers = [(one.low, one.high) for one in point.allowed.intervals if isinstance(one.low, int) and isinstance(one.high, int)]
+    numbers = numbers or [(point.least, point.greatest)]
     least, greatest = type_range(raw)
-    if not numbers:
-        numbers = [(point.least, point.greatest)]
-    if any(low <= least and greatest <= high for low, high in numbers) or point.form == "float":
-        return CheckView(report, (), ())
-    return CheckView(report, patterns(numbers, raw), ())
+    if point.form == "float" or any(low <= least and greatest <= high for low, high in _merged(numbers)):
+        return CheckView(report, "_", parameter, (), ())
+    return CheckView(report, "raw", parameter, patterns(numbers, raw), ())
 
 
 def _specials(point: Point, raw: str) -> tuple[SpecialView, ...]:

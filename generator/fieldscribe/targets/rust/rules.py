@@ -20,12 +20,15 @@ _SOURCES = {"u32": 64, "i64": 64, "u64": 128}
 
 @dataclass(frozen=True, slots=True)
 class CountPath:
-    """The integer path of a fixed scale: the count's type, expressions, whether decoding can overflow, counts in bounds."""
+    """The integer path of a fixed scale: the count's type, expressions, whether decoding can overflow, counts in bounds.
+
+    Each way is an expression for `scaled` (empty if nothing is divided), and one for the result.
+    """
 
     type: str
-    decode: str
+    decode: tuple[str, str]
     overflows: bool
-    encode: str
+    encode: tuple[str, str]
     low: str
     high: str
 
@@ -73,7 +76,7 @@ def decode_float(rule: Linear, raw: str) -> str:
     elif wide == 32:
         text = f"f64::from({_linear(_cast('raw', raw, 'i32'), multiply, add)})"
     elif wide == 64 and max(abs(end * multiply) + abs(add) for end in ends) <= _EXACT:
-        text = f"runtime::arithmetic::to_f64({_linear(_cast('raw', raw, 'i64'), multiply, add)})"
+        text = f"arithmetic::to_f64({_linear(_cast('raw', raw, 'i64'), multiply, add)})"
     else:
         text = _decode_wide(raw, multiply, add, divide)
     return text if divide == 1 else f"{text} / {float_literal(float(divide))}"
@@ -81,7 +84,7 @@ def decode_float(rule: Linear, raw: str) -> str:
 
 def _decode_wide(raw: str, multiply: int, add: int, divide: int) -> str:
     """As `decode_float`, in floating point from the start: 64-bit numbers whose multiples no integer holds."""
-    text = "runtime::arithmetic::unsigned_to_f64(raw)" if raw == "u64" else f"runtime::arithmetic::to_f64({_cast('raw', raw, 'i64')})"
+    text = "arithmetic::unsigned_to_f64(raw)" if raw == "u64" else f"arithmetic::to_f64({_cast('raw', raw, 'i64')})"
     text += f" * {float_literal(float(multiply))}" if multiply != 1 else ""
     text += f" {'-' if add < 0 else '+'} {float_literal(float(abs(add)))}" if add else ""
     return f"({text})" if add and divide != 1 else text
@@ -154,8 +157,8 @@ def outer(bound: Bound, *, lower: bool) -> int:
 
 def _limit(local: str, limit: Limit, points: Mapping[str, Point], arguments: frozenset[str]) -> LimitView:
     lower = local.startswith("low")
-    unless = " || ".join(
-        f"matches!({_raw_of(name)}, {' | '.join(map(integer, codes))})" for name, codes in limit.unless if name in arguments
+    unless = tuple(
+        (_raw_of(name), " | ".join(map(integer, codes))) for name, codes in limit.unless if name in arguments
     )
     rule = _rule(limit.rule, _ALWAYS, [_factor(one, points, limit=True) for one in limit.rule.factors])
     bound = integer(outer(limit, lower=lower))
@@ -227,11 +230,11 @@ def _wide(type_: str, rule: tuple[int, int, int], ends: tuple[int, int]) -> int:
     return max(fitting, _SOURCES.get(type_, 32))
 
 
-def _division(name: str, type_: str, wide: int, rule: tuple[int, int, int]) -> str:
-    """`name` times, plus, divided and rounded, in a type of `wide` bits."""
+def _division(name: str, type_: str, wide: int, rule: tuple[int, int, int]) -> tuple[str, str]:
+    """`name` times and plus in a type of `wide` bits, and that divided and rounded."""
     multiply, add, divide = rule
-    text = _linear(_cast(name, type_, f"i{wide}"), multiply, add)
-    return text if divide == 1 else f"runtime::arithmetic::div_round_i{wide}::<{integer(divide)}>({text})"
+    scaled = _linear(_cast(name, type_, f"i{wide}"), multiply, add)
+    return ("", scaled) if divide == 1 else (scaled, f"arithmetic::div_round_i{wide}::<{integer(divide)}>(scaled)")
 
 
 def _cast(name: str, type_: str, wanted: str) -> str:

@@ -26,10 +26,10 @@ class RuleView:
 
 @dataclass(frozen=True, slots=True)
 class LimitView:
-    """A limit that other points set: a local, when it does not apply and what holds then, its rule, its outer bound."""
+    """A limit that other points set: a local, what skips it (raw number, codes) and holds then, its rule, its outer bound."""
 
     local: str
-    unless: str
+    unless: tuple[tuple[str, str], ...]
     bound: str
     rule: RuleView
     clamp: str
@@ -40,37 +40,42 @@ class CheckView:
     """Whether a raw number may be written: conditions of which one has to hold; none if every number may."""
 
     report: str
+    raw: str
+    parameter: str
     conditions: tuple[str, ...]
     limits: tuple[LimitView, ...]
 
 
 @dataclass(frozen=True, slots=True)
 class ReadView:
-    """Decoding: types and expressions; `failing` if it can fail."""
+    """Decoding: types and expressions; `failing` if it can fail, `narrows` if a count has to become an `i64`."""
 
     factors: str
-    uses_with: bool
+    parameter: str
     failing: bool
+    narrows: bool
     no_value: tuple[str, ...]
     value: str
     count_type: str
+    scaled: str
     count: str
     function: str
 
 
 @dataclass(frozen=True, slots=True)
 class WriteView:
-    """Encoding: the check, and how a value and a count become a raw number."""
+    """Encoding: the check, and how a value (`kind` says by which steps) and a count become a raw number."""
 
     arguments: str
-    check: CheckView
-    check_uses: bool
-    uses_with: bool
+    parameter: str
     passed: str
+    check: CheckView
     kind: str
     value: str
+    ranges: tuple[str, ...]
     count_type: str
     within: str
+    scaled: str
     count: str
     function: str
     address: str

@@ -26,9 +26,9 @@ def flags_views(device: Device) -> Iterator[FlagsView]:
     """The words with named bits."""
     for point in device.points:
         if point.generated and point.form == "flags":
-            raw = raw_type(point).replace("i", "u")
-            flags = tuple(_flag(flag, raw) for flag in point.flags)
-            yield FlagsView(sentence(point.title), type_name(point.item), point.item, raw_type(point), raw, flags)
+            bits = raw_type(point).replace("i", "u")
+            flags = tuple(_flag(flag, bits) for flag in point.flags)
+            yield FlagsView(sentence(point.title), type_name(point.item), point.item, raw_type(point), bits, flags)
 
 
 def arguments_views(device: Device, scope: Scope) -> Iterator[ArgumentsView]:

@@ -22,6 +22,7 @@ from .errors import (
     ZeroFactorError,
 )
 from .forms import (
+    BIT,
     F32,
     F64,
     S8,
@@ -46,6 +47,7 @@ from .session import PointTable, Value
 from .words import Field, Flag
 
 __all__ = [
+    "BIT",
     "F32",
     "F64",
     "S8",

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: 0BSD
 //! Exact arithmetic: rounding to nearest with halves away from zero, and scales whose factors are read at run time.
 
-use crate::{Error, Raw, Writable};
+use crate::{Error, Point, Raw, Writable};
 
 macro_rules! round {
     ($name:ident, $integer:ty, $limit:literal) => {
@@ -114,6 +114,30 @@ pub fn number(number: f64) -> Result<f64, Error> {
 /// What [`Writable::check_with`] says; [`Error::NotANumber`]; [`Error::OutOfRange`] if the type cannot hold the number.
 pub fn nearest<P: Writable>(scaled: f64, with: P::With) -> Result<P::Raw, Error> {
     let raw = P::Raw::round(number(scaled)?).ok_or(Error::OutOfRange)?;
+    checked::<P>(raw, with)
+}
+
+/// A number of the point's raw type.
+///
+/// # Errors
+/// `otherwise`, if the type cannot hold the number.
+pub fn held<P: Point>(number: impl TryInto<P::Raw>, otherwise: Error) -> Result<P::Raw, Error> {
+    number.try_into().map_err(|_| otherwise)
+}
+
+/// A count as an `i64`.
+///
+/// # Errors
+/// [`Error::Overflow`] if it does not fit.
+pub fn narrow(count: i128) -> Result<i64, Error> {
+    i64::try_from(count).map_err(|_| Error::Overflow)
+}
+
+/// A raw number, if it may be written.
+///
+/// # Errors
+/// What [`Writable::check_with`] says.
+pub fn checked<P: Writable>(raw: P::Raw, with: P::With) -> Result<P::Raw, Error> {
     P::check_with(raw, with)?;
     Ok(raw)
 }
@@ -123,9 +147,7 @@ pub fn nearest<P: Writable>(scaled: f64, with: P::With) -> Result<P::Raw, Error>
 /// # Errors
 /// What [`Writable::check_with`] says; [`Error::OutOfRange`] if the type cannot hold the number.
 pub fn store<P: Writable>(raw: impl TryInto<P::Raw>, with: P::With) -> Result<P::Raw, Error> {
-    let raw = raw.try_into().map_err(|_| Error::OutOfRange)?;
-    P::check_with(raw, with)?;
-    Ok(raw)
+    checked::<P>(held::<P>(raw, Error::OutOfRange)?, with)
 }
 
 /// The bits of the binary32 number nearest to `value`, ties to even.

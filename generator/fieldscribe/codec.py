@@ -1,0 +1,214 @@
+"""The exact arithmetic of one point: values to raw numbers and back, in rationals, with run-time factors put in.
+
+It knows no words and no buses. `Settings` are raw numbers of other points by name; what is not there is missing and said so.
+"""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from math import isfinite
+
+from fieldscribe.model import Bound, Factor, Interval, Limit, Linear, Point
+
+Settings = Mapping[str, int]
+"""Raw numbers of points by name."""
+
+MOST_EXPONENT = 400
+"""The largest power of ten that a run-time exponent may ask for."""
+
+_PATTERNS = {"f32": ("<f", "<I"), "f64": ("<d", "<Q")}
+
+
+class CodecError(Exception):
+    """Why there is no value or no raw number.
+
+    `status` is the one that generated code gives (`out_of_range`, `zero_factor`, ...) or `missing`; `missing` names the
+    points whose raw numbers are needed and not given, or the point that is to blame.
+    """
+
+    def __init__(self, status: str, missing: Iterable[str] = ()) -> None:
+        super().__init__(status)
+        self.status = status
+        self.missing = tuple(dict.fromkeys(missing))
+
+
+@dataclass(frozen=True, slots=True)
+class Window:
+    """Raw numbers low..high that may be written now; while points are `missing`, the widest that it can be."""
+
+    low: int
+    high: int
+    missing: tuple[str, ...] = ()
+
+
+def half_away(number: Fraction) -> int:
+    """The nearest integer, halves away from zero."""
+    whole = (2 * abs(number.numerator) + number.denominator) // (2 * number.denominator)
+    return whole if number >= 0 else -whole
+
+
+def rule_in_force(point: Point, settings: Settings) -> tuple[Fraction, Fraction]:
+    """(ratio, offset) with raw = value * ratio + offset. Raises CodecError."""
+    if point.scale is None:
+        return Fraction(1), Fraction(0)
+    for case in point.scale:
+        if case.point is None or _needed(case.point, settings) == case.raw:
+            return _with_factors(case.rule, settings), case.rule.offset
+    raise CodecError("no_case", point.scale_arguments)
+
+
+def decode(point: Point, raw: int, settings: Settings) -> Fraction:
+    """The exact value of a raw number (of a bit pattern that is no number: `not_a_number`). Raises CodecError."""
+    if point.info.floating:
+        number = float_of(point, raw)
+        if not isfinite(number):
+            raise CodecError("not_a_number")
+        return Fraction(number)
+    if any(special.no_value and special.low <= raw <= special.high for special in point.specials):
+        raise CodecError("no_value")
+    ratio, offset = rule_in_force(point, settings)
+    return (raw - offset) / ratio
+
+
+def encode(point: Point, value: Fraction, settings: Settings) -> int:
+    """The raw number nearest to a value, halves away from zero; not yet held against the range. Raises CodecError."""
+    if point.info.floating:
+        return _pattern_of(point, value)
+    ratio, offset = rule_in_force(point, settings)
+    return half_away(value * ratio + offset)
+
+
+def encode_checked(point: Point, value: Fraction, settings: Settings) -> int:
+    """The raw number to write for a value. Raises CodecError."""
+    if point.info.floating:
+        _check_units(point, value)
+        return _pattern_of(point, value)
+    raw = encode(point, value, settings)
+    check(point, raw, settings)
+    return raw
+
+
+def check(point: Point, raw: int, settings: Settings) -> None:
+    """Whether a raw number may be written. Raises CodecError: `out_of_range`, `unknown_value`, `missing`, ..."""
+    if point.info.floating:
+        number = float_of(point, raw)
+        if not isfinite(number):
+            raise CodecError("out_of_range")
+        _check_units(point, Fraction(number))
+        return
+    closed = point.enum is not None and point.enum.closed
+    if point.least <= raw <= point.greatest:
+        hits = [one for one in windows(point, settings) if one.low <= raw <= one.high]
+        if any(not one.missing for one in hits):
+            return
+        if hits:
+            raise CodecError("missing", (name for one in hits for name in one.missing))
+    raise CodecError("unknown_value" if closed else "out_of_range")
+
+
+def windows(point: Point, settings: Settings) -> tuple[Window, ...]:
+    """The intervals in force; all that the bits can hold where the point says none. Raises CodecError: `zero_factor`."""
+    found = tuple(_window(one, settings) for one in point.allowed.intervals)
+    return found or (Window(point.least, point.greatest),)
+
+
+def nearest_allowed(point: Point, raw: int, settings: Settings) -> int | None:
+    """The raw number closest to `raw` that may surely be written; None where nobody knows."""
+    ends = [
+        min(max(raw, one.low), one.high)
+        for one in windows(point, settings)
+        if not one.missing and one.low <= one.high
+    ]
+    return min(ends, key=lambda end: (abs(end - raw), end), default=None)
+
+
+def float_of(point: Point, pattern: int) -> float:
+    """The number that the bit pattern of an f32 or f64 point is."""
+    kind = _PATTERNS[point.type]
+    number: float = struct.unpack(kind[0], struct.pack(kind[1], pattern))[0]
+    return number
+
+
+def _needed(name: str, settings: Settings) -> int:
+    if name not in settings:
+        raise CodecError("missing", (name,))
+    return settings[name]
+
+
+def _with_factors(rule: Linear, settings: Settings) -> Fraction:
+    missing = [factor.point for factor in rule.factors if factor.point not in settings]
+    if missing:
+        raise CodecError("missing", missing)
+    ratio = rule.ratio
+    for factor in rule.factors:
+        number = _factor(factor, settings)
+        if number == 0:
+            raise CodecError("zero_factor", (factor.point,))
+        ratio *= number**factor.power
+    return ratio
+
+
+def _factor(factor: Factor, settings: Settings) -> Fraction:
+    number = factor.slope * settings[factor.point] + factor.intercept
+    if not factor.ten_to:
+        return Fraction(number)
+    if abs(number) > MOST_EXPONENT:
+        raise CodecError("overflow", (factor.point,))
+    return Fraction(10) ** number
+
+
+def _window(interval: Interval, settings: Settings) -> Window:
+    low, low_missing = _bound(interval.low, settings, lower=True)
+    high, high_missing = _bound(interval.high, settings, lower=False)
+    return Window(low, high, tuple(dict.fromkeys((*low_missing, *high_missing))))
+
+
+def _bound(bound: Bound, settings: Settings, *, lower: bool) -> tuple[int, tuple[str, ...]]:
+    """The bound, and the points without which it is only the outermost one."""
+    if isinstance(bound, int):
+        return bound, ()
+    outermost = bound.least if lower else bound.greatest
+    if any(settings.get(name) in codes for name, codes in bound.unless):
+        return outermost, ()
+    needed = [*(factor.point for factor in bound.rule.factors), *(name for name, _ in bound.unless)]
+    missing = tuple(name for name in dict.fromkeys(needed) if name not in settings)
+    if missing:
+        return outermost, missing
+    number = _limit(bound, settings)
+    return (max(outermost, number) if lower else min(outermost, number)), ()
+
+
+def _limit(limit: Limit, settings: Settings) -> int:
+    product = limit.rule.ratio
+    for factor in limit.rule.factors:
+        number = _factor(factor, settings)
+        if number == 0 and factor.power < 0:
+            raise CodecError("zero_factor", (factor.point,))
+        product *= number**factor.power
+    return half_away(product + limit.rule.offset)
+
+
+def _pattern_of(point: Point, value: Fraction) -> int:
+    kind = _PATTERNS[point.type]
+    try:
+        packed = struct.pack(kind[0], float(value))
+    except OverflowError as error:
+        raise CodecError("out_of_range") from error
+    pattern: int = struct.unpack(kind[1], packed)[0]
+    return pattern
+
+
+def _check_units(point: Point, value: Fraction) -> None:
+    """Limits of floating points hold in the unit, before the conversion, and compare as binary64."""
+    spans = point.allowed.units
+    if not spans:
+        return
+    try:
+        number = float(value)
+    except OverflowError as error:
+        raise CodecError("out_of_range") from error
+    if not any(float(low) <= number <= float(high) for low, high in spans):
+        raise CodecError("out_of_range")

@@ -1,0 +1,121 @@
+"""What the findings about a file's shape say: what stands there, what belongs there, what may have been meant."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Iterable
+from decimal import Decimal
+from functools import lru_cache
+from typing import Any
+
+from fieldscribe.language.nodes import Map, Seq
+
+KEYS_PAGE = "see the key in descriptions/KEYS.md"
+_MOST_COMPARED = 500
+_LONGEST_COMPARED = 80
+_NAME = "^[a-z][a-z0-9]*(_[a-z0-9]+)*$"
+
+_FORMS = {
+    _NAME: ("a name in snake_case", "names are English words such as `base_frequency`: a to z, digits, single _"),
+    "^[-+0-9H].*$": ("a number", "keys here are numbers such as 3, -1, 1Fh or 0FFh (with a digit first)"),
+    "^[0-9]+$": ("the number of a set", "keys here are the numbers of the further sets, such as 2"),
+    "^[0-9]+(\\.\\.[0-9]+)?$": ("a bit or bits", "bits are written 3, several bits 5..4"),
+    "^[a-z]{2}$": ("a language", "languages have two letters: en, de, fr"),
+    "^x-": ("a private key", "keys of your own start with x-"),
+    "^[0-9]+\\.[0-9]+\\.[0-9]+$": ("a version", "write three numbers: 1.0.0"),
+    "^[0-9A-Fa-f\\s]+$": ("bytes in hexadecimal", "write two digits for each byte: 05 06 10 28"),
+    "^[0-9a-f]{64}$": ("a SHA-256 checksum", "64 hexadecimal digits in small letters, as sha256sum prints them"),
+    "^(high|low) first$": ("an order of words", "write `high first` or `low first`"),
+    "^[A-Za-z0-9]+(_[A-Za-z0-9]+)*$": ("the name of a variant", "letters, digits and single _: 400V, model_b"),
+    "^[a-z][a-z0-9_]*=[A-Za-z0-9_]+$": ("a variant", "keys here are written axis=value, such as voltage_class=400V"),
+    "^[a-z][a-z0-9_]*$": ("an id", "ids are written a to z, digits and _"),
+    "^[A-Za-z0-9][A-Za-z0-9_.-]*\\.ya?ml$": (
+        "the name of a part",
+        "parts stand beside device.yaml and end with .yaml; a part has no folder in its name",
+    ),
+}
+"""What the patterns of the schema mean, in words."""
+
+
+def quoted(text: str) -> str:
+    """A stranger's text as messages repeat it: short."""
+    return f"`{text}`" if len(text) <= 60 else f"`{text[:57]}…`"
+
+
+def shown(value: Any) -> str:
+    """What stands there, in words."""
+    if isinstance(value, Map | Seq):
+        return "a mapping" if isinstance(value, Map) else "a list"
+    if value is None:
+        return "nothing"
+    if isinstance(value, bool):
+        return f"`{str(value).lower()}` (true or false)"
+    return f"the {'text' if isinstance(value, str) else 'number'} {quoted(str(value))}"
+
+
+def type_hint(value: Any, accepted: Collection[type], example: Any) -> str:
+    """What to do about a value of the wrong type."""
+    if str in accepted and isinstance(value, int | Decimal | bool):
+        return f'quote it: "{str(value).lower() if isinstance(value, bool) else value}"'
+    if isinstance(value, str) and (int in accepted or Decimal in accepted):
+        return _number_hint(value, Decimal in accepted)
+    if Seq in accepted and not isinstance(value, Map):
+        return f"write a list: [{value if value is not None else '…'}]" if len(str(value)) < 40 else "write a list: […]"
+    if bool in accepted:
+        return "write true or false"
+    return f"for example {_example(example)}" if example is not None else KEYS_PAGE
+
+
+def _number_hint(value: str, fractions: bool) -> str:
+    if re.fullmatch(r"[-+]?[0-9]+,[0-9]+", value) and fractions:
+        return f"write a decimal point: {value.replace(',', '.')}"
+    if re.fullmatch(r"[-+]?[0-9]{1,18}", value):
+        return f"leave out the quotes: {value}"
+    return "write a plain decimal number"
+
+
+def _example(example: Any) -> str:
+    if isinstance(example, dict):
+        return "{" + ", ".join(f"{key}: {_example(one)}" for key, one in example.items()) + "}"
+    if isinstance(example, list):
+        return "[" + ", ".join(map(_example, example)) + "]"
+    return {True: "true", False: "false"}.get(example, str(example)) if isinstance(example, bool) else str(example)
+
+
+def form(pattern: str) -> str:
+    """What a text of this pattern is, in words."""
+    return _FORMS[pattern][0] if pattern in _FORMS else f"of the form {pattern}"
+
+
+def form_hint(value: str, pattern: str) -> str:
+    """How a text of this pattern is written."""
+    hint = _FORMS[pattern][1] if pattern in _FORMS else KEYS_PAGE
+    if pattern != _NAME:
+        return hint
+    suggestion = re.sub(r"[^a-z0-9]+", "_", re.sub(r"([a-z0-9])([A-Z])", r"\1_\2", value[:60]).lower()).strip("_")
+    return f"write `{suggestion}`" if re.fullmatch(_NAME, suggestion) else hint
+
+
+def key_hint(key: str, known: Collection[str], patterns: Iterable[str]) -> str:
+    """What an unknown key may have meant."""
+    if key == "<<":
+        return "merge keys are not part of YAML 1.2: write the keys out, or share them under `formats`"
+    forms = [pattern for pattern in patterns if pattern != "^x-"]
+    near = nearest(key, tuple(known))
+    if near is not None:
+        return f"did you mean `{near}`?"
+    said = [form_hint(key, pattern) for pattern in forms]
+    if known:
+        said.append("known here: " + ", ".join(sorted(known)))
+    return "; ".join(said) or "remove it"
+
+
+@lru_cache(maxsize=4096)
+def nearest(word: str, known: tuple[str, ...]) -> str | None:
+    """The known word that is most like this one, or None."""
+    import difflib
+
+    if len(word) > _LONGEST_COMPARED:
+        return None
+    near = difflib.get_close_matches(word.lower(), known[:_MOST_COMPARED], 1, 0.6)
+    return near[0] if near else None

@@ -1,0 +1,94 @@
+"""What a person chose of a device: variants, one point, and raw numbers of other points. Raises UnclearError with a hint."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+from difflib import get_close_matches
+
+from fieldscribe.lookup import find, near
+from fieldscribe.model import Device, Point
+from fieldscribe.text import line
+
+
+class UnclearError(Exception):
+    """Something asked for that the device does not have, or has more than once; `hint` says what to do (may be empty)."""
+
+    def __init__(self, message: str, hint: str = "") -> None:
+        super().__init__(message)
+        self.message = message
+        self.hint = hint
+
+
+def choose_variants(device: Device, chosen: Iterable[str]) -> Device:
+    """The device with only the points of the chosen variants, each given as `axis=value`."""
+    wanted = dict(_variant(device, one) for one in chosen)
+    if not wanted:
+        return device
+    points = tuple(point for point in device.points if _stays(point, wanted))
+    return replace(device, points=points)
+
+
+def choose_point(device: Device, asked: str) -> Point:
+    """The one point that a code, name or address means."""
+    matches = find(device, asked)
+    points = list({match.point.item: match.point for match in matches}.values())
+    if len(points) == 1:
+        return points[0]
+    if not points:
+        raise UnclearError(f"{device.id} has no point `{quoted(asked)}`", did_you_mean(near(device, asked)))
+    if len({point.name for point in points}) == 1:
+        variants = [point.variant for point in points if point.variant]
+        raise UnclearError(
+            f"`{quoted(asked)}` differs between variants", "give " + " or ".join(f"--variant {one}" for one in variants)
+        )
+    readings = ", ".join(f"{match.reading}: {label(match.point)}" for match in matches[:8])
+    raise UnclearError(
+        f"`{quoted(asked)}` means several points: {readings}", "name one, or force one reading: wire:, modicon:, code:"
+    )
+
+
+def did_you_mean(names: list[str]) -> str:
+    """A hint that offers near names; empty when there are none."""
+    return f"did you mean {' or '.join(f'`{line(name)}`' for name in names)}?" if names else ""
+
+
+def label(point: Point) -> str:
+    """How a point is called in answers: code and name."""
+    return f"{line(point.code)} {point.item}" if point.code else point.item
+
+
+def quoted(text: str) -> str:
+    """What a person typed, as messages repeat it: clean and short."""
+    cleaned = line(text[:200])
+    return cleaned if len(cleaned) <= 60 else f"{cleaned[:57]}..."
+
+
+def points_by_name(device: Device) -> Mapping[str, Point]:
+    """The points as rules and limits refer to them."""
+    return {point.name: point for point in device.points}
+
+
+def _variant(device: Device, text: str) -> tuple[str, str]:
+    axis, equals, value = text.partition("=")
+    if not equals:
+        raise UnclearError(f"`{quoted(text)}` is no variant", "write --variant axis=value" + _axes(device))
+    if axis not in device.variants:
+        raise UnclearError(f"{device.id} has no variant axis `{quoted(axis)}`", _axes(device).removeprefix("; "))
+    values = device.variants[axis]
+    if value not in values:
+        near_values = get_close_matches(value, values, 1, 0.4) or list(values)
+        raise UnclearError(f"`{axis}` has no value `{quoted(value)}`", did_you_mean(near_values))
+    return axis, value
+
+
+def _axes(device: Device) -> str:
+    known = [f"{axis}={'|'.join(values)}" for axis, values in device.variants.items()]
+    return f"; {device.id} has {', '.join(map(line, known))}" if known else f"; {device.id} has no variants"
+
+
+def _stays(point: Point, wanted: Mapping[str, str]) -> bool:
+    if point.variant is None:
+        return True
+    axis, _, value = point.variant.partition("=")
+    return wanted.get(axis, value) == value

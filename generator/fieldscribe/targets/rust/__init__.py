@@ -1,0 +1,45 @@
+"""The Rust target: a `no_std` crate per device, with a conformance test, on top of one small runtime crate."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from fieldscribe.model import Device
+from fieldscribe.render import Render
+from fieldscribe.targets.rust.conformance import conformance_tables
+from fieldscribe.targets.rust.device import device_context
+
+_SOURCES = ("lib", "points", "enums", "flags", "with")
+_RUNTIME = (
+    "Cargo.toml",
+    "src/arithmetic.rs",
+    "src/client.rs",
+    "src/lib.rs",
+    "src/modbus/error.rs",
+    "src/modbus/function.rs",
+    "src/modbus/mod.rs",
+    "src/modbus/profile.rs",
+    "src/modbus/reply.rs",
+    "src/modbus/request.rs",
+    "src/point.rs",
+    "src/raw.rs",
+)
+
+
+def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
+    """The generated files: path relative to the output folder, and text."""
+    context = device_context(device)
+    folder = f"rust/{device.id}"
+    yield f"{folder}/Cargo.toml", render("rust/Cargo.toml.j2", context)
+    for name in _SOURCES:
+        yield f"{folder}/src/{name}.rs", render(f"rust/{name}.rs.j2", context)
+    suite = {**context, "tables": conformance_tables(device)}
+    yield f"{folder}/tests/conformance.rs", render("rust/conformance.rs.j2", suite)
+
+
+def runtime(device: Device) -> Iterator[tuple[str, str]]:
+    """The real source files beside the output: output path, and path under the templates."""
+    for name in _RUNTIME:
+        yield f"rust/fieldscribe_runtime/{name}", f"rust/runtime/fieldscribe_runtime/{name}"
+    yield f"rust/{device.id}/tests/runner/mod.rs", "rust/runtime/runner/mod.rs"
+    yield f"rust/{device.id}/tests/runner/frames.rs", "rust/runtime/runner/frames.rs"

@@ -1,0 +1,182 @@
+"""What a person types as a value, turned into a raw number: a number with or without its unit, a name, on or off, flags."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from difflib import get_close_matches
+from fractions import Fraction
+
+from fieldscribe import codec
+from fieldscribe.codec import CodecError, Settings
+from fieldscribe.language.numbers import NumberError, parse_number
+from fieldscribe.model import Device, Flag, Point
+from fieldscribe.refusals import refusal
+from fieldscribe.selection import UnclearError, choose_point, did_you_mean, label, quoted
+
+_MEASURE = re.compile(r"([+-]?[0-9.,]+(?:[eE][+-]?[0-9]+)?)\s*([^\s0-9.,].{0,30})")
+_HOURS = re.compile(r"[0-9][0-9A-Fa-f]*h")
+_SWITCH = {"on": 1, "off": 0, "true": 1, "false": 0, "yes": 1, "no": 0}
+
+
+@dataclass(frozen=True, slots=True)
+class Typed:
+    """What was typed: a quantity to be encoded, or (`value` is None) directly a raw number."""
+
+    value: Fraction | None
+    raw: int
+
+
+def read_value(point: Point, text: str) -> Typed:
+    """What the text means for the point. Raises UnclearError."""
+    text = text.strip()
+    raw = _flags(point, text) if point.flags else _named(point, text)
+    if raw is not None:
+        return Typed(None, raw)
+    try:
+        number = _number(point, text)
+    except NumberError as error:
+        names = [name for name, _ in _names(point)]
+        if names and not text[:1].isdigit():
+            raise _unknown_name(point, text, names) from error
+        raise UnclearError(error.message, error.hint) from error
+    if point.form not in ("enum", "flags", "bit"):
+        return Typed(number, 0)
+    if number.denominator != 1:
+        raise UnclearError(f"`{quoted(text)}` is not a whole number", f"{label(point)} takes names or raw numbers")
+    return Typed(None, int(number))
+
+
+def encode_typed(device: Device, point: Point, typed: Typed, settings: Settings) -> int:
+    """The raw number to write. Raises RefusedError, which says why not in words."""
+    try:
+        if typed.value is not None:
+            return codec.encode_checked(point, typed.value, settings)
+        codec.check(point, typed.raw, settings)
+    except CodecError as error:
+        raise refusal(device, point, typed.value, typed.raw, (error, settings)) from error
+    return typed.raw
+
+
+def read_settings(device: Device, pairs: list[str]) -> dict[str, int]:
+    """Raw numbers by point name from texts such as `A004=50 Hz` or `A004.raw=50`. Raises UnclearError, RefusedError."""
+    settings: dict[str, int] = {}
+    for pair in pairs:
+        name, equals, text = pair.partition("=")
+        if not equals or not text.strip():
+            raise UnclearError(f"`{quoted(pair)}` gives no value", "write --with POINT=VALUE")
+        name = name.strip()
+        point = choose_point(device, name.removesuffix(".raw"))
+        settings[point.name] = _raw_of(device, point, text, settings, as_raw=name.endswith(".raw"))
+    return settings
+
+
+def _raw_of(device: Device, point: Point, text: str, settings: Mapping[str, int], *, as_raw: bool) -> int:
+    """The raw number that another point holds: only the bits limit it, for the device may hold what nobody may write."""
+    typed = Typed(None, _whole(text)) if as_raw else read_value(point, text)
+    try:
+        raw = typed.raw if typed.value is None else codec.encode(point, typed.value, settings)
+        if not point.least <= raw <= point.greatest:
+            raise CodecError("out_of_range")
+    except CodecError as error:
+        raise refusal(device, point, typed.value, typed.raw, (error, settings)) from error
+    return raw
+
+
+def _whole(text: str) -> int:
+    try:
+        number = parse_number(text)
+    except NumberError as error:
+        raise UnclearError(error.message, error.hint) from error
+    if number.denominator != 1:
+        raise UnclearError(f"`{quoted(text)}` is not a whole number", "a raw number has no decimals")
+    return int(number)
+
+
+def _number(point: Point, text: str) -> Fraction:
+    """A number with or without the point's unit. Raises NumberError, UnclearError."""
+    if point.unit.symbol == "h" and _HOURS.fullmatch(text):
+        raise UnclearError(f"`{text}` could be hours or hexadecimal", f"write `{text[:-1]} h`, or 0x{text[:-1]}")
+    try:
+        return parse_number(text)
+    except NumberError:
+        found = _MEASURE.fullmatch(text)
+        if found is None:
+            raise
+    number = parse_number(found[1])
+    if not _is_unit(point, found[2].strip()):
+        has = f"is in {point.unit.symbol}" if point.unit.symbol else "has no unit"
+        raise UnclearError(f"{label(point)} {has}, not in `{quoted(found[2])}`", "give the number in that unit, or alone")
+    return number
+
+
+def _is_unit(point: Point, typed: str) -> bool:
+    """Whether the text means the point's unit. Case may differ, but not of a prefix: mW is not MW."""
+    symbol = point.unit.symbol
+    if not symbol:
+        return False
+    if typed.casefold() in (point.unit.name.casefold(), f"{point.unit.name}s".casefold()):
+        return True
+    typed, symbol = (text.replace("\u00b5", "u").replace("\u03bc", "u").replace("\u00b0", "") for text in (typed, symbol))
+    if typed == symbol:
+        return True
+    return typed.casefold() == symbol.casefold() and (typed[:1] == symbol[:1] or symbol[:1] not in "mMpP")
+
+
+def _names(point: Point) -> Iterator[tuple[str, int]]:
+    """Everything that names a raw number of the point, the plain names first."""
+    entries = point.enum.entries if point.enum else ()
+    yield from ((special.name, special.low) for special in point.specials)
+    yield from ((entry.name, entry.raw) for entry in entries)
+    for entry in entries:
+        yield from ((title, entry.raw) for title in entry.title.values())
+    yield from ((entry.quantity, entry.raw) for entry in entries if entry.quantity)
+
+
+def _named(point: Point, text: str) -> int | None:
+    wanted = " ".join(text.casefold().split())
+    for name, raw in _names(point):
+        if " ".join(name.casefold().split()) == wanted:
+            return raw
+    return _SWITCH.get(wanted) if point.width == 1 else None
+
+
+def _unknown_name(point: Point, text: str, names: list[str]) -> UnclearError:
+    close = get_close_matches(text.casefold(), names, 3)
+    known = dict.fromkeys([entry.name for entry in point.enum.entries] if point.enum else names)
+    hint = did_you_mean(close) or f"it has {', '.join(list(known)[:30])}"
+    return UnclearError(f"{label(point)} has no name `{quoted(text)}`", hint)
+
+
+def _flags(point: Point, text: str) -> int | None:
+    """Names joined by `|`, or `none`: these flags are true, all others are not; None for a number."""
+    wanted = [part.strip().casefold() for part in text.split("|")]
+    if len(wanted) == 1 and wanted[0][:1].isdigit():
+        return None
+    raw = sum(1 << flag.low for flag in point.flags if flag.width == 1 and flag.active == 0)
+    for part in wanted:
+        if part in ("none", ""):
+            continue
+        flag, number = _flag(point, part)
+        mask = ((1 << flag.width) - 1) << flag.low
+        raw = raw & ~mask | number << flag.low
+    return raw
+
+
+def _flag(point: Point, part: str) -> tuple[Flag, int]:
+    name, equals, value = (one.strip() for one in part.partition("="))
+    flag = next((one for one in point.flags if one.name == name), None)
+    if flag is None:
+        names = [one.name for one in point.flags]
+        hint = did_you_mean(get_close_matches(name, names, 3)) or f"it has {', '.join(names)}"
+        raise UnclearError(f"{label(point)} has no flag `{quoted(name)}`", hint)
+    if not equals:
+        if flag.width > 1:
+            raise UnclearError(f"`{flag.name}` has {flag.width} bits", f"write {flag.name}=NUMBER or {flag.name}=NAME")
+        return flag, flag.active
+    number = next((entry.raw for entry in flag.values if entry.name == value), None)
+    number = _whole(value) if number is None else number
+    if not 0 <= number < 1 << flag.width:
+        raise UnclearError(f"`{flag.name}` has {flag.width} bits, {number} does not fit", "")
+    return flag, number

@@ -1,0 +1,114 @@
+"""A generated Python package in a temporary folder, and a device that answers from a dict: for the tests of Python."""
+
+from __future__ import annotations
+
+import importlib
+import sys
+from typing import TYPE_CHECKING, Any
+
+from fieldscribe.render import render
+from fieldscribe.resources import templates_dir
+from fieldscribe.targets import python as target
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+
+    from fieldscribe.model import Device
+
+
+def write_package(device: Device, out: Path) -> Path:
+    """Generates the device's package and the runtime; returns the folder to import them from."""
+    texts = dict(target.outputs(device, render))
+    copies = {path: (templates_dir() / source).read_text("utf-8") for path, source in target.runtime(device)}
+    for path, text in {**texts, **copies}.items():
+        (out / path).parent.mkdir(parents=True, exist_ok=True)
+        (out / path).write_text(text, encoding="utf-8")
+    return out / "python"
+
+
+def imported(folder: Path, package: str) -> Iterator[Any]:
+    """The package while a test runs, with its own copy of the runtime; afterwards what was loaded before is back."""
+    before = {name: module for name, module in sys.modules.items() if _is_generated(name, package)}
+    for name in before:
+        del sys.modules[name]
+    sys.path.insert(0, str(folder))
+    importlib.invalidate_caches()
+    yield importlib.import_module(package)
+    sys.path.remove(str(folder))
+    for name in [name for name in sys.modules if _is_generated(name, package)]:
+        del sys.modules[name]
+    sys.modules.update(before)
+
+
+def _is_generated(module: str, package: str) -> bool:
+    return module.partition(".")[0] in (package, "fieldscribe_runtime")
+
+
+class Slave:
+    """A device on an RTU or TCP line, working on plain dicts; what it was asked is in `log` as (function, address, count).
+
+    It is written against the protocol and not with the runtime's own functions.
+    """
+
+    def __init__(self, framing: str = "rtu") -> None:
+        self.framing = framing
+        self.words: dict[int, int] = {}
+        self.coils: dict[int, int] = {}
+        self.log: list[tuple[int, int, int]] = []
+        self.refuses: dict[int, int] = {}
+
+    def exchange(self, request: bytes) -> bytes:
+        """The reply to a request."""
+        if self.framing == "tcp":
+            return self._tcp(request)
+        pdu = self._answer(request[1:-2])
+        frame = request[:1] + pdu
+        return b"" if request[0] == 0 else frame + _crc(frame)
+
+    def _tcp(self, request: bytes) -> bytes:
+        pdu = self._answer(request[7:])
+        return request[:4] + (len(pdu) + 1).to_bytes(2, "big") + request[6:7] + pdu
+
+    def _answer(self, pdu: bytes) -> bytes:
+        function, address, third = pdu[0], int.from_bytes(pdu[1:3], "big"), int.from_bytes(pdu[3:5], "big")
+        count = third if function in (1, 3, 15, 16) else 1
+        self.log.append((function, address, count))
+        if address in self.refuses:
+            return bytes([function | 0x80, self.refuses[address]])
+        if function == 1:
+            bits = sum(self.coils.get(address + place, 0) << place for place in range(count))
+            size = (count + 7) // 8
+            return bytes([1, size]) + bits.to_bytes(size, "little")
+        if function == 3:
+            data = b"".join(self.words.get(address + place, 0).to_bytes(2, "big") for place in range(count))
+            return bytes([3, len(data)]) + data
+        if function == 5:
+            self.coils[address] = int(third == 0xFF00)
+        elif function == 6:
+            self.words[address] = third
+        else:
+            for place in range(count):
+                self.words[address + place] = int.from_bytes(pdu[6 + 2 * place : 8 + 2 * place], "big")
+        return pdu[:5]
+
+
+class AsyncSlave:
+    """The same for async devices."""
+
+    def __init__(self, slave: Slave) -> None:
+        self.slave = slave
+        self.framing = slave.framing
+
+    async def exchange(self, request: bytes) -> bytes:
+        """The reply to a request."""
+        return self.slave.exchange(request)
+
+
+def _crc(data: bytes) -> bytes:
+    value = 0xFFFF
+    for byte in data:
+        value ^= byte
+        for _ in range(8):
+            value = value >> 1 ^ 0xA001 if value & 1 else value >> 1
+    return value.to_bytes(2, "little")

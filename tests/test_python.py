@@ -1,0 +1,373 @@
+"""The generated Python package as its users meet it: codecs on the class, reading and writing on a device."""
+
+from __future__ import annotations
+
+import asyncio
+import math
+import subprocess
+import sys
+from dataclasses import replace
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+import pytest
+from fieldscribe.model import Place
+from fieldscribe.targets.python.identifiers import DEVICE_MEMBERS, HELPERS, WORD_MEMBERS
+from models import STATUS_FLAGS, plain_points, point, sample_device, titles
+from python_package import AsyncSlave, Slave, imported, write_package
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return write_package(sample_device(), tmp_path_factory.mktemp("python"))
+
+
+@pytest.fixture(scope="module")
+def package(folder: Path) -> Iterator[Any]:
+    yield from imported(folder, "sample_drive")
+
+
+@pytest.fixture
+def slave() -> Slave:
+    return Slave()
+
+
+@pytest.fixture
+def drive(package: Any, slave: Slave) -> Any:
+    return package.SampleDrive(slave, unit=5, voltage_class="400V")
+
+
+def status(function: Any, *arguments: Any) -> tuple[str, str]:
+    """The status and message of an error."""
+    with pytest.raises((Exception,)) as caught:
+        function(*arguments)
+    return getattr(caught.value, "status", ""), str(caught.value)
+
+
+def test_class_is_a_codec(package: Any) -> None:
+    point_ = package.SampleDrive.base_frequency
+    assert (point_.encode(50.0), point_.decode(500), point_.encode_count(500), point_.decode_count(500)) == (
+        500,
+        50.0,
+        500,
+        500,
+    )
+    assert (point_.facts.code, point_.facts.unit, point_.facts.at.addresses, point_.facts.default) == (
+        "A020",
+        "Hz",
+        (0x1028,),
+        50,
+    )
+    point_.check(4000)
+
+
+@pytest.mark.parametrize(
+    ("item", "value", "raws", "expected"),
+    [
+        ("base_frequency", 500.0, {}, ("out_of_range", "A020 base_frequency: 500 Hz is outside 0..400 Hz")),
+        ("base_frequency", math.nan, {}, ("not_a_number", "A020 base_frequency: the value is NaN")),
+        ("base_frequency", math.inf, {}, ("out_of_range", "A020 base_frequency: inf Hz is outside 0..400 Hz")),
+        ("power_factor", 0.0, {}, ("out_of_range", "power_factor: 0 is outside -0.99..-0.7 or 0.7..1")),
+        (
+            "frequency_source",
+            7,
+            {},
+            ("unknown_value", "A001 frequency_source: 7 is none of 0 keypad, 1 terminal, 10 logic"),
+        ),
+        ("upper_limit", 5.0, {"lower_limit": 60}, ("out_of_range", "upper_limit: 5 Hz is outside 0 or 6..400 Hz")),
+        (
+            "upper_limit",
+            5.0,
+            {},
+            ("missing_raw", "upper_limit: needs the raw number of lower_limit: pass raws={'lower_limit': ...}"),
+        ),
+        ("voltage_setpoint", 1.0, {"voltage_ratio": 0}, ("zero_factor", "voltage_setpoint: voltage_ratio is zero")),
+        (
+            "setpoint",
+            1.0,
+            {"unit_mode": 3},
+            ("no_case", "setpoint: no scale for these raw numbers of unit_mode"),
+        ),
+        ("float_setpoint", 650.5, {}, ("out_of_range", "float_setpoint: 650.5 Hz is outside 0..650 Hz")),
+    ],
+)
+def test_errors_say_what_is_wrong(
+    package: Any, item: str, value: float, raws: dict[str, int], expected: tuple[str, str]
+) -> None:
+    assert status(package.SampleDrive.POINTS[item].encode, value, raws) == expected
+
+
+def test_unknown_numbers_survive(package: Any) -> None:
+    drive = package.SampleDrive
+    assert drive.frequency_source.decode(10) is package.FrequencySource.LOGIC
+    assert drive.frequency_source.decode(77) == 77
+    assert drive.status_word.decode(0xFF00) == 0xFF00
+    assert drive.running.decode(1) is True
+    assert drive.temperature.decode(0x7FFF) is None
+    assert status(drive.temperature.decode_count, 0x7FFF)[0] == "no_value"
+    assert drive.frequency_source.name_of(1) == "terminal"
+    assert drive.frequency_source.name_of(77) is None
+
+
+def test_flags_read_by_name(package: Any) -> None:
+    word = package.SampleDrive.status_word.decode(0x0031)
+    assert (word.ready, word.fault, word.mode) == (True, True, package.StatusWordMode.RUN)
+    assert package.StatusWord(0x0018).fault is False
+    assert package.StatusWord(0x0010).mode == 1
+    assert package.StatusWord.mode.place(3) == package.StatusWord.MODE
+
+
+def test_read_and_write(drive: Any, slave: Slave) -> None:
+    slave.words[0x1028] = 500
+    assert drive.base_frequency.read() == 50.0
+    drive.base_frequency.write(60.0)
+    drive.run_command.write(True)
+    drive.acceleration_time.write(1000.0)
+    assert (slave.words[0x1028], slave.coils[0]) == (600, 1)
+    assert (slave.words[0x1013], slave.words[0x1014]) == (100000 >> 16, 100000 & 0xFFFF)
+    assert [entry[0] for entry in slave.log] == [3, 6, 5, 16]
+    drive.base_frequency.write_raw(601)
+    assert drive.base_frequency.read_raw() == 601
+    assert status(drive.base_frequency.write_raw, 4001)[0] == "out_of_range"
+    assert status(drive.base_frequency.write, 400.06)[0] == "out_of_range"
+
+
+def test_bit_groups_keep_their_neighbours(drive: Any, slave: Slave) -> None:
+    slave.words[0x2012] = 0xFFFF
+    drive.signed_byte.write(-9)
+    assert slave.words[0x2012] == 0xFDFF
+    assert (drive.signed_byte.read(), drive.delay_class.read()) == (-9, 3)
+
+
+def test_swapped_words_and_floats(drive: Any, slave: Slave) -> None:
+    slave.words.update({0x2000: 0x5678, 0x2001: 0x1234})
+    assert drive.swapped_count.read() == 0x12345678
+    drive.float_setpoint.write(1.5)
+    assert (slave.words[0x2014], slave.words[0x2015]) == (0, 0x3FC0)
+    assert drive.float_setpoint.read() == 1.5
+    assert status(type(drive).swapped_count.from_words, (1,))[0] == "wrong_length"
+
+
+def test_other_points_are_read_as_needed(drive: Any, slave: Slave) -> None:
+    slave.words.update({0x200B: 0, 0x200D: 50, 0x200C: 8192})
+    assert drive.setpoint.read() == 25.0
+    drive.setpoint.write(50.0)
+    assert slave.words[0x200C] == 16384
+    slave.words[0x105A] = 100
+    assert status(drive.upper_limit.write, 5.0)[0] == "out_of_range"
+    slave.words[0x105A] = 0  # "inactive" lifts the limit
+    drive.upper_limit.write(5.0)
+    assert slave.words[0x1059] == 50
+
+
+def test_remembered_until_forgotten(tmp_path: Path) -> None:
+    points = tuple(
+        replace(one, changes="rarely") if one.name == "voltage_ratio" else one for one in sample_device().points
+    )
+    folder = write_package(replace(sample_device(points), id="keeping_drive"), tmp_path)
+    slave = Slave()
+    slave.words.update({0x2007: 400, 0x2008: 230})
+    for package in imported(folder, "keeping_drive"):
+        drive = package.KeepingDrive(slave, unit=1)
+        asked = 0
+        for action, count in (
+            (drive.voltage_setpoint.read, 2),
+            (drive.voltage_setpoint.read, 1),
+            (drive.forget, 0),
+            (drive.voltage_setpoint.read, 2),
+            (partial(drive.voltage_ratio.write, 200), 1),
+            (drive.voltage_setpoint.read, 2),
+        ):
+            action()
+            assert len(slave.log) == asked + count
+            asked = len(slave.log)
+
+
+def test_variants(package: Any, drive: Any, slave: Slave) -> None:
+    assert drive.dc_level.encode(700) == 700
+    assert status(drive.dc_level.encode, 350)[0] == "out_of_range"
+    assert package.SampleDrive.dc_level_200v.encode(350) == 350
+    assert package.SampleDrive.dc_level.points["400V"].encode(700) == 700
+    assert status(lambda: drive.dc_level_200v) == (
+        "no_access",
+        "b131 dc_level_200v exists only for voltage_class 200V",
+    )
+    unsaid = package.SampleDrive(slave, unit=1)
+    assert status(lambda: unsaid.dc_level)[0] == "no_access"
+    unsaid.dc_level_200v.write(350)
+    assert slave.words[0x10F5] == 350
+
+
+def test_read_many(drive: Any, slave: Slave) -> None:
+    slave.words.update({0x2007: 400, 0x2008: 230, 0x200A: 5, 0x2009: 2, 0x2010: 1})
+    values = drive.read_many(["voltage_setpoint", drive.power, type(drive).status_word, "dc_level"])
+    assert values == {"voltage_setpoint": 230.0, "power": 500.0, "status_word": 1, "dc_level": 0}
+    assert slave.log == [(3, 0x10F5, 1), (3, 0x2007, 4), (3, 0x2010, 1)]
+    slave.log.clear()
+    slave.words[0x200D] = 50  # the setpoint is divided by it
+    everything = drive.read_many("main")
+    assert len(everything) == len({one.name for one in sample_device().points if one.generated and one.readable})
+    assert all(count <= (32 if function == 1 else 4) for function, _, count in slave.log)
+    assert status(drive.read_many, "no_such_group")[0] == "no_access"
+
+
+def test_async_twin(package: Any, slave: Slave) -> None:
+    async def work() -> tuple[Any, ...]:
+        drive = package.SampleDriveAsync(AsyncSlave(slave), unit=5, voltage_class="200V")
+        await drive.base_frequency.write(50.0)
+        await drive.signed_byte.write_raw(1)
+        await drive.enter.send()
+        await drive.write_at("holding", 0x3000, 7)
+        both = await asyncio.gather(drive.base_frequency.read(), drive.dc_level.read_raw())
+        many = await drive.read_many(["base_frequency"])
+        return (*both, many, await drive.read_at("holding", 0x3000))
+
+    assert asyncio.run(work()) == (50.0, 0, {"base_frequency": 50.0}, (7,))
+
+
+def test_tcp_commands_and_refusals(package: Any) -> None:
+    slave = Slave("tcp")
+    drive = package.SampleDrive(slave, unit=5)
+    drive.enter.send()
+    assert slave.log == [(6, 0x900, 1)]
+    slave.refuses[0x1028] = 0x21
+    assert status(drive.base_frequency.read) == (
+        "exception",
+        "the device answered exception 21h (value_out_of_range)",
+    )
+    assert status(package.SampleDrive(Slave(), unit=33).base_frequency.read)[0] == "bad_unit"
+    with pytest.raises(AttributeError):
+        drive.base_frequency = 5
+    with pytest.raises(ValueError, match="framing"):
+        package.SampleDrive(Slave("ascii"), unit=5)
+
+
+def test_broadcast_writes_wait_for_nobody(package: Any, slave: Slave) -> None:
+    everyone = package.SampleDrive(slave, unit=0)
+    everyone.base_frequency.write(50.0)
+    assert slave.words[0x1028] == 500
+    assert status(everyone.base_frequency.read)[0] == "bad_unit"
+
+
+def test_old_names_warn(package: Any, drive: Any) -> None:
+    with pytest.warns(DeprecationWarning, match="main_frequency is now called base_frequency") as caught:
+        assert drive.main_frequency.encode(50.0) == 500
+    assert caught[0].filename == __file__
+    assert "main_frequency" not in package.SampleDrive.POINTS
+
+
+def test_names_that_are_taken(tmp_path: Path) -> None:
+    taken = sorted(DEVICE_MEMBERS | HELPERS | {"class", "def", "print_", "match"} - {"print_"})
+    points = [point(name, number) for number, name in enumerate(taken)]
+    word = tuple(replace(STATUS_FLAGS[0], low=low, name=name) for low, name in enumerate(("value", "class", "real")))
+    points.append(point("word", 0x100, flags=word))
+    folder = write_package(replace(sample_device(tuple(points)), errata=(), blocks={}, id="class"), tmp_path)
+    assert not (folder / "class").exists()
+    for package in imported(folder, "class_"):
+        drive = package.Class(Slave(), unit=1)
+        for name in taken:
+            assert getattr(drive, f"{name}_" if name != "match" else name, None) or drive.POINTS[name]
+            assert drive.POINTS[name].facts.name == name
+        assert package.Word(2).class_ is True
+        assert package.Word.value_.number(1) == 1
+
+
+def test_tables_of_taken_names_are_complete(package: Any) -> None:
+    runtime = sys.modules["fieldscribe_runtime"]
+    devices = (runtime.Device(Slave(), 1), runtime.AsyncDevice(AsyncSlave(Slave()), 1))
+    public = {name for device in devices for name in dir(device) if not name.startswith("_") and name.islower()}
+    assert public == DEVICE_MEMBERS
+    assert {name for name in dir(package.StatusWord(1)) if not name.startswith("_") and name.islower()} - {
+        "ready",
+        "fault",
+        "mode",
+    } <= WORD_MEMBERS
+
+
+def test_hostile_text_stays_text(tmp_path: Path) -> None:
+    evil = '"""; import os\n# noqa # type: ignore {{ 7 }} \\'
+    hostile = replace(
+        sample_device(tuple(replace(one, title=titles(evil), note={}, code=evil) for one in sample_device().points)),
+        title=titles(evil),
+        vendor=evil,
+        version=evil,
+    )
+    folder = write_package(hostile, tmp_path)
+    for package in imported(folder, "sample_drive"):
+        assert package.SampleDrive.base_frequency.encode(50.0) == 500
+    ruff("check", folder)
+    ruff("format", "--diff", folder / "sample_drive")
+
+
+def ruff(*arguments: object) -> None:
+    """Runs ruff with its own defaults; the narrow line length is the harder one."""
+    command = [sys.executable, "-m", "ruff", *map(str, arguments), "--isolated", "--no-cache", "--config"]
+    done = subprocess.run([*command, "line-length=88"], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_generated_code_is_formatted(folder: Path) -> None:
+    ruff("check", folder)
+    ruff("format", "--diff", folder / "sample_drive")
+
+
+MISUSE = """
+from sample_drive import FrequencySource, SampleDrive, SampleDriveAsync
+from fieldscribe_runtime import Transport
+
+def use(transport: Transport) -> None:
+    drive = SampleDrive(transport, unit=5, voltage_class="400V")
+    frequency: float = drive.base_frequency.read()
+    drive.base_frequency.write(frequency)
+    source: FrequencySource | int = drive.frequency_source.read()
+    temperature: float | None = drive.temperature.read()
+    level: int = drive.dc_level.read()
+    mode: int = drive.status_word.read().mode
+    ready: bool = SampleDrive.status_word.decode(1).ready
+    drive.running.write(True)  # E: attr-defined
+    SampleDrive.running.encode(True)  # E: attr-defined
+    drive.base_frequency.write("50")  # E: arg-type
+    drive.base_frequency = 5  # E: assignment
+    SampleDrive(transport, unit=5, voltage_class="100V")  # E: arg-type
+    wrong: float = drive.temperature.read()  # E: assignment
+
+async def use_async(drive: SampleDriveAsync) -> None:
+    frequency: float = await drive.base_frequency.read()
+    level: int = await drive.dc_level.read()
+    await drive.running.write(True)  # E: attr-defined
+"""
+
+
+def test_types_are_strict_and_reject_misuse(folder: Path, tmp_path: Path) -> None:
+    (tmp_path / "misuse.py").write_text(MISUSE, encoding="utf-8")
+    options = ("--strict", "--no-error-summary", "--config-file", "", "--cache-dir", "/dev/null")
+    command = [sys.executable, "-m", "mypy", *options, "misuse.py", str(folder / "sample_drive")]
+    environment = {"MYPYPATH": str(folder), "PATH": ""}
+    done = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False)
+    expected = [
+        (number, line.partition("# E: ")[2]) for number, line in enumerate(MISUSE.split("\n"), 1) if "# E: " in line
+    ]
+    found = [line for line in done.stdout.splitlines() if ": error: " in line]
+    seen = [(int(line.split(":")[1]), line.rpartition("[")[2].rstrip("]")) for line in found if line[:6] == "misuse"]
+    assert seen == expected
+    assert len(found) == len(expected)
+
+
+def test_separate_places(tmp_path: Path) -> None:
+    both = (Place("read", "input", (7,), None), Place("write", "holding", (9,), 16))
+    device = sample_device((replace(plain_points()[2], places=both, errata=()), replace(plain_points()[1], access="w")))
+    folder = write_package(replace(device, blocks={}, id="placed"), tmp_path)
+    text = (folder / "placed" / "points.py").read_text("utf-8")
+    assert "at=input_register(0x0007)," in text
+    assert "write_at=holding(0x0009, function=0x10)," in text
+    slave = Slave()
+    for package in imported(folder, "placed"):
+        drive = package.Placed(slave, unit=1)
+        drive.base_frequency.write(1.0)
+        drive.running.write(False)
+        assert slave.log == [(16, 9, 1), (5, 13, 1)]
+        assert not hasattr(drive.running, "read")
