@@ -46,7 +46,7 @@ def _is_generated(module: str, package: str) -> bool:
 
 
 class Slave:
-    """A device on an RTU or TCP line, working on plain dicts; what it was asked is in `log` as (function, address, count).
+    """A device on an RTU or TCP line, working on plain dicts; `log` says what it was asked (function, address, count).
 
     It is written against the protocol and not with the runtime's own functions.
     """

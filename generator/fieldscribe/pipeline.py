@@ -6,16 +6,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from fieldscribe.diagnostics import Report, Span
-from fieldscribe.language.source import read_source, shown
+from fieldscribe.language.source import shown
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-    from fieldscribe.language.nodes import Map
+    from fieldscribe.language.files import Files
     from fieldscribe.model import Device
 
 DEVICE_FILE = "device.yaml"
-_UNSAFE_NAMES = frozenset({"con", "prn", "aux", "nul", *(f"{port}{n}" for port in ("com", "lpt") for n in range(10))})
 
 
 def find_devices(paths: Iterable[Path], report: Report) -> list[Path]:
@@ -42,11 +41,13 @@ def find_devices(paths: Iterable[Path], report: Report) -> list[Path]:
 
 def load_device(device_file: Path, report: Report) -> Device | None:
     """The model of a description: read, validate, interpret, resolve, check. None and findings when it is wrong."""
+    from fieldscribe.language.files import read_files
+
     own = Report()
-    files = _read(device_file, own)
+    files = read_files(device_file, own)
     device = None if files is None else _compile(files, own)
     report.extend(own)
-    return None if own.has_errors else device
+    return device
 
 
 def description_files(device_file: Path) -> list[Path]:
@@ -67,51 +68,7 @@ def outputs(device: Device, target_name: str) -> Iterator[tuple[str, str]]:
         yield path, (templates_dir() / template).read_text("utf-8")
 
 
-def _read(device_file: Path, report: Report) -> tuple[Map, ...] | None:
-    header = _file(device_file, "device_file", report)
-    if header is None:
-        return None
-    _safe_name(header, report)
-    parts = []
-    seen: dict[str, int] = {}
-    for index, name in enumerate(header.get("parts", ())):
-        span = header["parts"].span(index)
-        if name in seen:
-            report.error("duplicate-name", f"the part `{name}` is listed twice", span, "remove one of them")
-        elif not (device_file.parent / name).is_file():
-            report.error(
-                "missing-part",
-                f"there is no file `{name}` beside {device_file.name}",
-                span,
-                "create it or take it off the list",
-            )
-        else:
-            parts.append(_file(device_file.parent / name, "part_file", report))
-        seen[name] = index
-    return (header, *(part for part in parts if part is not None))
-
-
-def _file(path: Path, kind: str, report: Report) -> Map | None:
-    from fieldscribe.language.load import load
-    from fieldscribe.language.shape import check_shape
-
-    source = read_source(path, report)
-    root = None if source is None else load(source, report)
-    return root if root is not None and check_shape(root, kind, report) else None
-
-
-def _safe_name(header: Map, report: Report) -> None:
-    if header["device"] in _UNSAFE_NAMES:
-        hint = "name it after vendor and model, such as `hitachi_l200`"
-        report.error(
-            "unsafe-name",
-            f"`{header['device']}` is no safe name for a folder on every system",
-            header.span("device"),
-            hint,
-        )
-
-
-def _compile(files: tuple[Map, ...], report: Report) -> Device:
+def _compile(files: Files, report: Report) -> Device | None:
     from fieldscribe.checks import run_checks
     from fieldscribe.checks.subject import Subject
     from fieldscribe.resolve.bus import bus_of, commands_of
@@ -126,10 +83,11 @@ def _compile(files: tuple[Map, ...], report: Report) -> Device:
     scope = open_scope(files, report)
     drafts = expand(scope)
     index = index_of(scope, drafts)
-    resolved, ranges = resolve_points(scope, drafts, index)
+    resolved, ranges, places = resolve_points(scope, drafts, index)
     bus = bus_of(scope)
     points = {one.point.item: one.point for one in resolved}
     frames = frames_of(scope, bus, index, points)
-    subject = Subject(scope, index, ranges, resolved, bus, commands_of(scope), frames, errata_of(scope, index))
+    commands, errata = commands_of(scope, bus), errata_of(scope, index, bus)
+    subject = Subject(scope, index, ranges, places, resolved, bus, commands, frames, errata)
     run_checks(subject)
-    return build_device(subject)
+    return None if report.has_errors else build_device(subject)

@@ -1,18 +1,22 @@
-"""What a person chose of a device: variants, one point, and raw numbers of other points. Raises UnclearError with a hint."""
+"""What a person chose of a device: variants and one point. Raises UnclearError with a hint."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from difflib import get_close_matches
+from typing import TYPE_CHECKING
 
 from fieldscribe.lookup import find, near
-from fieldscribe.model import Device, Point
 from fieldscribe.text import line
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+
+    from fieldscribe.model import Device, Point
 
 
 class UnclearError(Exception):
-    """Something asked for that the device does not have, or has more than once; `hint` says what to do (may be empty)."""
+    """Something that the device does not have, or has more than once; `hint` says what to do (may be empty)."""
 
     def __init__(self, message: str, hint: str = "") -> None:
         super().__init__(message)

@@ -46,16 +46,18 @@ def c_string(text: str) -> str:
 
 @lru_cache(maxsize=65536)
 def python_string(text: str) -> str:
-    """A Python string literal in double quotes, printable characters as they are."""
+    """A Python string literal as formatters write it: double quotes, unless single ones need fewer escapes."""
+    cleaned = line(text)
+    quote = "'" if cleaned.count('"') > cleaned.count("'") else '"'
     escaped = []
-    for char in line(text):
-        if char in '"\\':
+    for char in cleaned:
+        if char in ("\\", quote):
             escaped.append("\\" + char)
         elif char.isprintable():
             escaped.append(char)
         else:
             escaped.append(f"\\U{ord(char):08x}")
-    return '"' + "".join(escaped) + '"'
+    return quote + "".join(escaped) + quote
 
 
 @lru_cache(maxsize=65536)

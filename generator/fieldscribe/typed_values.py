@@ -1,19 +1,23 @@
-"""What a person types as a value, turned into a raw number: a number with or without its unit, a name, on or off, flags."""
+"""What a person types as a value: a number with or without its unit, a name, on or off, flags."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
-from fractions import Fraction
+from typing import TYPE_CHECKING
 
 from fieldscribe import codec
 from fieldscribe.codec import CodecError, Settings
 from fieldscribe.language.numbers import NumberError, parse_number
-from fieldscribe.model import Device, Flag, Point
 from fieldscribe.refusals import refusal
 from fieldscribe.selection import UnclearError, choose_point, did_you_mean, label, quoted
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+    from fractions import Fraction
+
+    from fieldscribe.model import Device, Flag, Point
 
 _MEASURE = re.compile(r"([+-]?[0-9.,]+(?:[eE][+-]?[0-9]+)?)\s*([^\s0-9.,].{0,30})")
 _HOURS = re.compile(r"[0-9][0-9A-Fa-f]*h")
@@ -73,7 +77,7 @@ def read_settings(device: Device, pairs: list[str]) -> dict[str, int]:
 
 
 def _raw_of(device: Device, point: Point, text: str, settings: Mapping[str, int], *, as_raw: bool) -> int:
-    """The raw number that another point holds: only the bits limit it, for the device may hold what nobody may write."""
+    """The raw number that another point holds; only the bits limit it: a device may hold what nobody may write."""
     typed = Typed(None, _whole(text)) if as_raw else read_value(point, text)
     try:
         raw = typed.raw if typed.value is None else codec.encode(point, typed.value, settings)
@@ -107,7 +111,9 @@ def _number(point: Point, text: str) -> Fraction:
     number = parse_number(found[1])
     if not _is_unit(point, found[2].strip()):
         has = f"is in {point.unit.symbol}" if point.unit.symbol else "has no unit"
-        raise UnclearError(f"{label(point)} {has}, not in `{quoted(found[2])}`", "give the number in that unit, or alone")
+        raise UnclearError(
+            f"{label(point)} {has}, not in `{quoted(found[2])}`", "give the number in that unit, or alone"
+        )
     return number
 
 
@@ -118,7 +124,9 @@ def _is_unit(point: Point, typed: str) -> bool:
         return False
     if typed.casefold() in (point.unit.name.casefold(), f"{point.unit.name}s".casefold()):
         return True
-    typed, symbol = (text.replace("\u00b5", "u").replace("\u03bc", "u").replace("\u00b0", "") for text in (typed, symbol))
+    typed, symbol = (
+        text.replace("\u00b5", "u").replace("\u03bc", "u").replace("\u00b0", "") for text in (typed, symbol)
+    )
     if typed == symbol:
         return True
     return typed.casefold() == symbol.casefold() and (typed[:1] == symbol[:1] or symbol[:1] not in "mMpP")

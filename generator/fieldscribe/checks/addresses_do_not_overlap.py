@@ -2,81 +2,82 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
+
 from fieldscribe.checks.subject import Subject
-from fieldscribe.families import FAMILIES
+from fieldscribe.model import Point
 from fieldscribe.resolve.points import Resolved
 
 _WHOLE = (15, 0)
+Taken = dict[tuple[str, int], list[Resolved]]
 
 
 def check(subject: Subject) -> None:
     """Overlapping points, points in gaps, commands on points or in gaps."""
-    taken: dict[tuple[str, int], list[Resolved]] = {}
+    taken: Taken = {}
     for resolved in subject.resolved:
+        if "space" in resolved.draft.failed:
+            continue
         for address in resolved.point.addresses:
             others = taken.setdefault((resolved.point.space, address), [])
             for other in others:
                 _compare(subject, resolved, other, address)
-            others.append(resolved)
-    _gaps(subject, taken)
+            if len(others) < 64:  # more than the bits of a word and its variants: compared enough
+                others.append(resolved)
+            _gap(subject, resolved, address)
     _commands(subject, taken)
 
 
 def _compare(subject: Subject, mine: Resolved, other: Resolved, address: int) -> None:
-    if mine.point.variant is not None and other.point.variant is not None and mine.point.variant != other.point.variant:
+    if _never_meet(mine.point, other.point):
         return
     high, low = mine.point.bits or _WHOLE
     other_high, other_low = other.point.bits or _WHOLE
     if low > other_high or other_low > high:
         return
     related = [(other.draft.span("at"), f"`{other.point.name}` stands here")]
+    place = f"{mine.point.space} {address} ({address:04X}h)"
     if mine.point.bits and other.point.bits:
-        message = (
-            f"`{mine.point.name}` and `{other.point.name}` both take bit {max(low, other_low)} of address {address}"
-        )
-        subject.report.error(
-            "bits-overlap", message, mine.draft.span("bits"), "points may share a word, but not its bits", related
-        )
+        message = f"`{mine.point.name}` and `{other.point.name}` both take bit {max(low, other_low)} of {place}"
+        hint = "points may share a word, but not its bits"
+        subject.report.error("bits-overlap", message, mine.draft.span("bits"), hint, related)
     else:
-        message = (
-            f"`{mine.point.name}` and `{other.point.name}` both stand at {mine.point.space} {address} ({address:04X}h)"
-        )
-        subject.report.error(
-            "address-taken",
-            message,
-            mine.draft.span("at"),
-            "correct one `at`, or give both `bits` of the word",
-            related,
-        )
+        message = f"`{mine.point.name}` and `{other.point.name}` both stand at {place}"
+        hint = "correct one `at`, or give both `bits` of the word"
+        if mine.point.words > 1 or other.point.words > 1:
+            hint = "a point of 32 bits takes two addresses, one of 64 bits four: correct one `at` or `type`"
+        subject.report.error("address-taken", message, mine.draft.span("at"), hint, related)
 
 
-def _gaps(subject: Subject, taken: dict[tuple[str, int], list[Resolved]]) -> None:
-    spaces = FAMILIES[subject.scope.family].spaces
-    for space, gaps in subject.bus.gaps.items():
-        if space not in spaces:
-            bus = next(file["bus"] for file in subject.scope.files if "bus" in file)
-            subject.report.error(
-                "unknown-space",
-                f"there is no space `{space}`",
-                bus["gaps"].key_span(space),
-                f"known: {', '.join(spaces)}",
-            )
-        for resolved in (one for (where, _), points in taken.items() if where == space for one in points):
-            if any(low <= address <= high for low, high in gaps for address in resolved.point.addresses):
-                message = f"`{resolved.point.name}` lies in a gap that no request may touch"
-                subject.report.error(
-                    "address-in-gap", message, resolved.draft.span("at"), "correct the gap under `bus`, or the address"
-                )
+def _never_meet(mine: Point, other: Point) -> bool:
+    """Whether the two are never there at once: two values of one variant axis, or two conditions of the author."""
+    if mine.variant is not None and other.variant is not None and mine.variant != other.variant:
+        return mine.variant.partition("=")[0] == other.variant.partition("=")[0]
+    return mine.when is not None and other.when is not None and mine.when != other.when
 
 
-def _commands(subject: Subject, taken: dict[tuple[str, int], list[Resolved]]) -> None:
-    raws = {raw["name"]: raw for raw in subject.scope.listed("commands")}
+def _gap(subject: Subject, resolved: Resolved, address: int) -> None:
+    gap = _gap_at(subject, resolved.point.space, address)
+    if gap is not None:
+        message = f"`{resolved.point.name}` lies in the gap {gap[0]:04X}h..{gap[1]:04X}h, which no request may touch"
+        hint = "correct the gap under `bus`, or the address"
+        subject.report.error("address-in-gap", message, resolved.draft.span("at"), hint)
+
+
+def _gap_at(subject: Subject, space: str, address: int) -> tuple[int, int] | None:
+    gaps = subject.bus.gaps.get(space, ())
+    before = gaps[: bisect_right(gaps, (address, 0xFFFF))]
+    return next((gap for gap in reversed(before) if gap[1] >= address), None)
+
+
+def _commands(subject: Subject, taken: Taken) -> None:
+    raws = {str(raw["name"]): raw for raw in reversed(list(subject.scope.listed("commands")))}
     for command in subject.commands:
         span = raws[command.name].span("at")
         for other in taken.get((command.space, command.address), ()):
             related = [(other.draft.span("at"), f"`{other.point.name}` stands here")]
             message = f"the command `{command.name}` and the point `{other.point.name}` share an address"
             subject.report.error("address-taken", message, span, "a command writes where no point is", related)
-        if any(low <= command.address <= high for low, high in subject.bus.gaps.get(command.space, ())):
+        if _gap_at(subject, command.space, command.address) is not None:
             message = f"the command `{command.name}` lies in a gap that no request may touch"
             subject.report.error("address-in-gap", message, span, "leave its address out of the gap")

@@ -2,35 +2,44 @@
 
 from __future__ import annotations
 
-from fieldscribe.checks.subject import Subject
+from fractions import Fraction
+
+from fieldscribe.checks.subject import Subject, inside
+from fieldscribe.exact import number_text
 from fieldscribe.model import Point
+from fieldscribe.resolve.points import Resolved
 
 
 def check(subject: Subject) -> None:
     """Defaults that the range excludes."""
     for resolved in subject.resolved:
         point = resolved.point
-        if point.default is None or point.info.floating:
+        if point.default is None or resolved.draft.failed & {"scale", "range", "type", "enum"}:
             continue
-        exact = point.default
-        if point.scale is not None:
-            if len(point.scale) > 1 or point.scale[0].rule.factors:
-                continue
-            exact = exact * point.scale[0].rule.ratio + point.scale[0].rule.offset
-        if exact.denominator != 1 or not _allowed(point, exact.numerator):
-            message = f"the default {point.default} is no value that the range allows"
-            subject.report.error(
-                "default-outside-range",
-                message,
-                resolved.draft.span("default"),
-                "defaults are in the unit; correct it or the range",
-            )
+        fault = _fault(point, point.default)
+        if fault is not None:
+            _report(subject, resolved, fault)
 
 
-def _allowed(point: Point, raw: int) -> bool:
-    for one in point.allowed.intervals:
-        low = one.low if isinstance(one.low, int) else one.low.least
-        high = one.high if isinstance(one.high, int) else one.high.greatest
-        if low <= raw <= high:
-            return True
-    return False
+def _fault(point: Point, default: Fraction) -> str | None:
+    if point.info.floating:
+        held = not point.allowed.units or any(low <= default <= high for low, high in point.allowed.units)
+        return None if held else "the range does not allow it"
+    if point.scale is None:
+        raw = default
+    elif len(point.scale) > 1 or point.scale[0].rule.factors:
+        return None  # only other points tell
+    else:
+        raw = default * point.scale[0].rule.ratio + point.scale[0].rule.offset
+    if raw.denominator != 1:
+        return f"it lies between two raw numbers (raw {number_text(raw)})"
+    if any(special.low <= raw <= special.high for special in point.specials):
+        return None
+    return None if inside(raw.numerator, point.allowed) else f"the range does not allow its raw number {raw}"
+
+
+def _report(subject: Subject, resolved: Resolved, fault: str) -> None:
+    unit = f" {resolved.point.unit.symbol}" if resolved.point.unit.symbol else ""
+    message = f"the default {resolved.draft.get('default')}{unit} cannot be written: {fault}"
+    hint = "defaults are in the unit; correct it, the range or the scale"
+    subject.report.error("default-outside-range", message, resolved.draft.span("default"), hint)

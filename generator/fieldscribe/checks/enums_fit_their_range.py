@@ -1,61 +1,72 @@
-"""Named numbers can occur: enum entries lie inside the range and the type, special codes inside the type."""
+"""Named numbers can occur: enum entries lie inside the range and the type, special codes and steps inside the type."""
 
 from __future__ import annotations
 
-from fieldscribe.checks.subject import Subject
+from fieldscribe.checks.subject import Subject, inside
+from fieldscribe.diagnostics import Span
 from fieldscribe.language.nodes import Map
-from fieldscribe.model import Interval
+from fieldscribe.language.numbers import NumberError, parse_integer
+from fieldscribe.model import Point
 from fieldscribe.resolve.points import Resolved
 
 
 def check(subject: Subject) -> None:
     """Entries and special codes that the range or the type excludes, and steps outside the type."""
     for resolved in subject.resolved:
-        point = resolved.point
-        if point.enum is not None:
+        if resolved.draft.failed & {"type", "bits"}:
+            continue
+        if resolved.point.enum is not None:
             _entries(subject, resolved)
-        for special in point.specials:
-            if special.low < point.least or special.high > point.greatest:
-                message = (
-                    f"the special code {special.low} lies outside the type, which holds {point.least}..{point.greatest}"
-                )
-                key = "no_value" if special.no_value else "special"
-                subject.report.error(
-                    "range-outside-type", message, resolved.draft.span(key), "correct the code or the `type`"
-                )
+        if resolved.point.specials:
+            _specials(subject, resolved)
+        for start, _ in resolved.point.steps:
+            if not resolved.point.least <= start <= resolved.point.greatest:
+                message = f"steps from {start} on lie outside the type, which holds {_held(resolved.point)}"
+                hint = "steps are counted in raw numbers"
+                subject.report.error("range-outside-type", message, resolved.draft.span("steps"), hint)
+
+
+def _held(point: Point) -> str:
+    return f"{point.least}..{point.greatest}"
+
+
+def _specials(subject: Subject, resolved: Resolved) -> None:
+    point, draft = resolved.point, resolved.draft
+    for special in point.specials:
+        if point.least <= special.low and special.high <= point.greatest:
+            continue
+        key = "no_value" if special.no_value else "special"
+        message = f"the code {special.low} lies outside the type, which holds {_held(point)}"
+        hint = "correct the code or the `type`"
+        turned = special.low - (1 << point.width)
+        if point.least <= turned < 0:
+            hint = f"{special.low:X}h of a signed number is {turned}: write that, or correct the `type`"
+        subject.report.error("range-outside-type", message, draft.span(key), hint)
 
 
 def _entries(subject: Subject, resolved: Resolved) -> None:
     point, draft = resolved.point, resolved.draft
-    assert point.enum is not None
-    raw = draft.get("enum")
-    ranged = draft.layer("range") is not None
-    for entry in point.enum.entries:
-        key = (
-            next((key for key in raw if isinstance(raw, Map) and _is(key, entry.raw)), None)
-            if isinstance(raw, Map)
-            else None
-        )
-        span = raw.key_span(key) if isinstance(raw, Map) and key is not None else draft.span("enum")
+    ranged = draft.layer("range") is not None and "range" not in draft.failed
+    for entry in point.enum.entries if point.enum is not None else ():
         if not point.least <= entry.raw <= point.greatest:
-            message = f"`{entry.name}` is {entry.raw}, outside the type, which holds {point.least}..{point.greatest}"
-            subject.report.error("enum-outside-range", message, span, "correct the number or the `type`")
-        elif ranged and not any(_inside(entry.raw, one) for one in point.allowed.intervals):
+            message = f"`{entry.name}` is {entry.raw}, outside the type, which holds {_held(point)}"
+            hint = "correct the number or the `type`"
+            subject.report.error("enum-outside-range", message, _place(resolved, entry.raw), hint)
+        elif ranged and not inside(entry.raw, point.allowed):
             related = [(draft.span("range"), "the range")]
             message = f"`{entry.name}` is {entry.raw}, which the range does not allow"
-            subject.report.error("enum-outside-range", message, span, "correct the number or the range", related)
+            hint = "correct the number or the range; a code beside the numbers goes under `special`"
+            subject.report.error("enum-outside-range", message, _place(resolved, entry.raw), hint, related)
+
+
+def _place(resolved: Resolved, number: int) -> Span:
+    raw = resolved.draft.get("enum")
+    key = next((key for key in raw if _is(key, number)), None) if isinstance(raw, Map) else None
+    return resolved.draft.span("enum") if key is None else raw.key_span(key)
 
 
 def _is(key: str, number: int) -> bool:
-    from fieldscribe.language.numbers import NumberError, parse_integer
-
     try:
         return parse_integer(key) == number
     except NumberError:
         return False
-
-
-def _inside(number: int, interval: Interval) -> bool:
-    low = interval.low if isinstance(interval.low, int) else interval.low.least
-    high = interval.high if isinstance(interval.high, int) else interval.high.greatest
-    return low <= number <= high

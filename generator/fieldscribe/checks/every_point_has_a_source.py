@@ -12,8 +12,10 @@ def check(subject: Subject) -> None:
         source, draft = resolved.point.source, resolved.draft
         document = documents.get(source.document)
         if document is None:
-            message = f"`{draft.name}` cites the document `{source.document}`, which device.yaml does not name"
-            subject.report.error("unknown-document", message, draft.span("source"), f"known: {', '.join(documents)}")
+            span = draft.span("source")
+            subject.scope.unknown("unknown-document", "document", source.document, span, documents, "documents")
+        elif {"source", "section", "page", "line"} & draft.failed:
+            continue
         elif source.section is None and source.page is None:
             hint = "give `source: {document: …, section: …}` for the group, or `section` for the point"
             subject.report.error("missing-source", f"`{draft.name}` cites no section and no page", draft.span(), hint)

@@ -9,7 +9,7 @@ _COILS = frozenset({0x01, 0x02, 0x05, 0x0F})
 
 def check(subject: Subject) -> None:
     """Functions whose printed bytes do not follow from their largest count."""
-    bus = next((file["bus"] for file in subject.scope.files if "bus" in file), None)
+    bus = subject.scope.bus
     if bus is None:
         return
     by_name = {code.name: code for code in subject.bus.functions}

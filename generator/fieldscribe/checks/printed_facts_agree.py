@@ -10,14 +10,22 @@ from fieldscribe import wording
 from fieldscribe.checks.subject import Subject, same
 from fieldscribe.diagnostics import Span
 from fieldscribe.exact import number_text
-from fieldscribe.language.formula import FormulaError, evaluate, parse_expression
+from fieldscribe.language.formula import FormulaError
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.numbers import NumberError, parse_number
 from fieldscribe.model import Allowed, Point
-from fieldscribe.resolve.allowed import as_text
+from fieldscribe.resolve.addresses import WIRE
+from fieldscribe.resolve.bounds import as_text, constant_range
 from fieldscribe.resolve.points import Resolved
 
 _LOW = "low_"
+_NEEDS = {
+    "range": {"range", "type"},
+    "range_in_units": {"range", "type", "scale"},
+    "resolution": {"scale", "unit"},
+    "choices": {"enum", "range"},
+}
+"""The facts that a printed one is held against, but for numbers, which are held against the address."""
 
 
 def check(subject: Subject) -> None:
@@ -29,53 +37,48 @@ def check(subject: Subject) -> None:
 
 
 def _printed(subject: Subject, resolved: Resolved, printed: Map) -> None:
-    numbers: Mapping[str, Fraction] | None = None
-    scaled = resolved.draft.layer("scale") is None or resolved.draft.get("scale") is not None
+    numbers: Mapping[str, int] | None = None
+    draft = resolved.draft
+    unknown_scale = draft.layer("scale") is not None and draft.get("scale") is None
     for key, value in printed.items():
         span = printed.span(key)
-        if key in ("range_in_units", "resolution") and not scaled:
-            continue  # nothing to hold it against where the scale is unknown
-        if key == "range":
-            _range(subject, resolved, value, span, in_units=False)
-        elif key == "range_in_units":
-            _range(subject, resolved, value, span, in_units=True)
+        if _NEEDS.get(key, {"at", "space", "type"}) & draft.failed:
+            continue
+        if key in ("range_in_units", "resolution") and unknown_scale:
+            continue  # nothing to hold it against
+        if key in ("range", "range_in_units"):
+            _range(subject, resolved, key, value, span)
         elif key == "resolution":
             _resolution(subject, resolved, value, span)
         elif key == "choices":
             _choices(subject, resolved, value, span)
         else:
-            numbers = _numbers(resolved) if numbers is None else numbers
+            numbers = _numbers(subject, resolved) if numbers is None else numbers
             _number(subject, resolved, key, value, printed, numbers)
 
 
-def _numbers(resolved: Resolved) -> Mapping[str, Fraction]:
+def _numbers(subject: Subject, resolved: Resolved) -> Mapping[str, int]:
     """The point's number in every numbering of its group, and for a pair that of the word with the low part."""
     addresses = resolved.point.addresses
-    numbering = resolved.draft.group.get("numbering", {})
-    known: dict[str, Fraction] = {}
+    known: dict[str, int] = {}
     for prefix, address in (("", addresses[:1]), (_LOW, addresses[1:][-1:])):
-        if not address:
-            continue
-        own = {"wire": Fraction(address[0])}
-        for name, text in numbering.items():
-            try:
-                own[name] = evaluate(parse_expression(text), own)
-            except FormulaError:
-                continue  # reported where the numbering stands
-        known.update({prefix + name: number for name, number in own.items()})
+        if address:
+            known[prefix + WIRE] = address[0]
+            numbered = subject.places.references(resolved.draft, address[0])
+            known.update({prefix + name: number for name, number in numbered.items()})
     return known
 
 
 def _number(
-    subject: Subject, resolved: Resolved, key: str, value: Any, printed: Map, numbers: Mapping[str, Fraction]
+    subject: Subject, resolved: Resolved, key: str, value: Any, printed: Map, numbers: Mapping[str, int]
 ) -> None:
     right = numbers.get(key)
     point = resolved.point
     if right is None:
-        if not point.addresses:
-            return
-        hint = "the keys are wire, what `numbering` names, low_ before them, range, range_in_units, resolution, choices"
-        subject.report.error("unknown-key", f"`{key}` names no numbering of this point", printed.key_span(key), hint)
+        if point.addresses and key not in resolved.draft.group.get("numbering", ()):
+            message = f"`{key}` names no numbering of this point"
+            hint = f"known here: {', '.join((*numbers, *_NEEDS))}"
+            subject.report.error("unknown-key", message, printed.key_span(key), hint)
         return
     for one, span in _each(value, printed.span(key)):
         try:
@@ -84,8 +87,10 @@ def _number(
             subject.report.error("bad-number", error.message, span, error.hint)
             continue
         if given != right:
-            message = f"{key.replace('_', ' ')} {one} is printed for `{point.name}`, the address says {right} ({int(right):04X}h)"
-            subject.disagrees(point.name, key, one, int(right), span, message)
+            message = (
+                f"{key.replace('_', ' ')} {one} is printed for `{point.name}`, the address says {right} ({right:04X}h)"
+            )
+            subject.disagrees(point.name, key, one, right, span, message)
 
 
 def _each(value: Any, span: Span) -> Iterator[tuple[Any, Span]]:
@@ -96,33 +101,45 @@ def _each(value: Any, span: Span) -> Iterator[tuple[Any, Span]]:
         yield value, span
 
 
-def _range(subject: Subject, resolved: Resolved, value: Any, span: Span, *, in_units: bool) -> None:
-    key = "range_in_units" if in_units else "range"
-    point, draft = resolved.point, resolved.draft
+def _range(subject: Subject, resolved: Resolved, key: str, value: Any, span: Span) -> None:
+    point = resolved.point
     if point.info.floating:
+        _units(subject, resolved, value, span)
         return
-    before = len(subject.report.findings)
-    printed = subject.ranges.intervals(draft, value, span, in_units)
-    if printed is None or len(subject.report.findings) > before:
-        return
-    if _same_range(point.allowed, printed):
+    in_units = key == "range_in_units"
+
+    def agrees(given: Any) -> bool | None:
+        found = subject.ranges.intervals(resolved.draft, given, span, in_units, printed=True)
+        return None if found is None else _same_range(point.allowed, found)
+
+    if agrees(value) is not False:
         return
     taken = wording.range_text(point) if in_units else wording.raw_range_text(point)
     message = f"the {key.replace('_', ' ')} {as_text(value)} is printed for `{point.name}`, taken is {taken}"
+    subject.disagrees(point.name, key, value, taken, span, message, lambda said: bool(agrees(said)))
 
-    def right(said: Any) -> bool:
-        found = subject.ranges.intervals(draft, said, span, in_units)
-        return found is not None and _same_range(point.allowed, found)
 
-    subject.disagrees(point.name, key, value, taken, span, message, right)
+def _units(subject: Subject, resolved: Resolved, value: Any, span: Span) -> None:
+    point = resolved.point
+
+    def agrees(given: Any) -> bool:
+        try:
+            return constant_range(as_text(given)) in (None, point.allowed.units)
+        except FormulaError:
+            return False
+
+    if not agrees(value):
+        taken = wording.range_text(point)
+        message = f"the range {as_text(value)} is printed for `{point.name}`, taken is {taken}"
+        subject.disagrees(point.name, "range_in_units", value, taken, span, message, agrees)
 
 
 def _same_range(taken: Allowed, printed: Allowed) -> bool:
     fixed = [one for one in taken.intervals if isinstance(one.low, int) and isinstance(one.high, int)]
     printed_fixed = [one for one in printed.intervals if isinstance(one.low, int) and isinstance(one.high, int)]
-    moving = [one for one in taken.intervals if one not in fixed]
-    printed_moving = [one for one in printed.intervals if one not in printed_fixed]
-    return moving == printed_moving and (fixed == printed_fixed or bool(moving) and not printed_fixed)
+    moving = taken.intervals[len(fixed) :]  # those that other points limit stand behind the fixed ones
+    printed_moving = printed.intervals[len(printed_fixed) :]
+    return moving == printed_moving and (fixed == printed_fixed or (bool(moving) and not printed_fixed))
 
 
 def _resolution(subject: Subject, resolved: Resolved, value: Any, span: Span) -> None:
@@ -154,8 +171,11 @@ def _step(point: Point) -> Fraction | None:
 
 def _choices(subject: Subject, resolved: Resolved, value: int, span: Span) -> None:
     point = resolved.point
-    listed = [one for one in point.allowed.intervals if one.low == one.high] if point.allowed.listed else []
-    right = len(point.enum.entries) if point.enum is not None else len(listed)
+    if point.enum is not None:
+        right = len(point.enum.entries)
+    else:
+        ends = [(one.low, one.high) for one in point.allowed.intervals if point.allowed.listed]
+        right = sum(high - low + 1 for low, high in ends if isinstance(low, int) and isinstance(high, int))
     if value != right:
         message = f"{value} choices are printed for `{point.name}`, taken are {right}"
         subject.disagrees(point.name, "choices", value, right, span, message)

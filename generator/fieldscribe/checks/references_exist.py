@@ -3,21 +3,19 @@
 from __future__ import annotations
 
 from fieldscribe.checks.subject import Subject
-from fieldscribe.resolve.scope import unknown_name
 
 
 def check(subject: Subject) -> None:
     """Names of commands and points that nothing has."""
-    commands = [command.name for command in subject.commands]
+    scope = subject.scope
+    declared = {str(raw["name"]) for raw in scope.listed("commands")}
+    known = ("no", "yes", *sorted(declared))
     for resolved in subject.resolved:
         keeps = resolved.point.keeps
-        if keeps is not None and keeps not in ("no", "yes", *commands):
-            message = f"`keeps: {keeps}` names no command"
-            hint = unknown_name(keeps, ["no", "yes", *commands], "commands")
-            subject.report.error("unknown-command", message, resolved.draft.span("keeps"), hint)
-    for raw in subject.scope.listed("commands"):
+        if keeps is not None and keeps not in known:
+            span = resolved.draft.span("keeps")
+            scope.unknown("unknown-command", "command (nor `yes` or `no`) called", keeps, span, known, "commands")
+    for raw in scope.listed("commands"):
         busy = raw.get("busy")
         if busy is not None and subject.index.find(busy) is None:
-            subject.report.error(
-                "unknown-point", f"there is no point `{busy}`", raw.span("busy"), subject.index.hint(busy)
-            )
+            subject.index.unknown(busy, raw.span("busy"))

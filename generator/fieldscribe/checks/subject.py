@@ -10,7 +10,8 @@ from typing import Any
 from fieldscribe.diagnostics import Report, Span
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.numbers import NumberError, parse_number
-from fieldscribe.model import Bus, Command, Frame
+from fieldscribe.model import Allowed, Bus, Command, Frame
+from fieldscribe.resolve.addresses import Places
 from fieldscribe.resolve.allowed import Ranges
 from fieldscribe.resolve.errata import OpenErratum
 from fieldscribe.resolve.frames import OpenFrame
@@ -26,6 +27,7 @@ class Subject:
     scope: Scope
     index: Index
     ranges: Ranges
+    places: Places
     resolved: list[Resolved]
     bus: Bus
     commands: tuple[Command, ...]
@@ -73,6 +75,16 @@ class Subject:
             return
         hint = f"correct the fact, or explain it: an erratum with `printed: {{{key}: {_shown(printed)}}}`"
         self.report.error("printed-disagrees", message, span, hint)
+
+
+def inside(raw: int, allowed: Allowed) -> bool:
+    """Whether a raw number may be allowed: limits that other points set count with their widest ends."""
+    for one in allowed.intervals:
+        low = one.low if isinstance(one.low, int) else one.low.least
+        high = one.high if isinstance(one.high, int) else one.high.greatest
+        if low <= raw <= high:
+            return True
+    return False
 
 
 def same(left: Any, right: Any) -> bool:

@@ -1,0 +1,142 @@
+"""The command line: the only place that prints or exits. A command is one module here and one line below."""
+
+from __future__ import annotations
+
+import os
+import sys
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+from fieldscribe import __version__
+
+if TYPE_CHECKING:
+    from argparse import ArgumentParser, Namespace
+    from collections.abc import Sequence
+    from typing import Protocol
+
+    class Command(Protocol):
+        """What a command's module offers."""
+
+        HELP: str
+        EXAMPLE: str
+
+        def add_arguments(self, parser: ArgumentParser) -> None:
+            """The command's arguments."""
+
+        def run(self, arguments: Namespace) -> int:
+            """Do it; the exit code."""
+
+
+COMMANDS = {
+    "check": "validate descriptions; say everything that is wrong, and where",
+    "generate": "compile descriptions into C, Python, Rust, documentation and vectors",
+    "export": "print the resolved model of a device as JSON",
+    "explain": "say everything about one address, code or name",
+    "decode": "say what frames from the line mean",
+    "encode": "turn a value into its raw number, or into the whole request frame",
+}
+"""All commands with what they do, in the order in which they are listed. Their modules are imported when chosen."""
+
+FINE, FINDINGS, USAGE = 0, 1, 2
+"""Exit codes: nothing to say; the input is wrong or stale; the command line or the machine is."""
+
+_DIGITS = frozenset(".0123456789")
+_INTERRUPTED, _PIPE_CLOSED = 130, 141
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run one command; its exit code. Nothing but that leaves: every failure is a message on stderr."""
+    for stream in (sys.stdout, sys.stderr):
+        if hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="backslashreplace")
+    try:
+        code = _dispatch(list(sys.argv[1:] if argv is None else argv))
+        sys.stdout.flush()
+    except SystemExit as stop:  # argparse leaves by this
+        return stop.code if isinstance(stop.code, int) else USAGE
+    except KeyboardInterrupt:
+        return _INTERRUPTED
+    except BrokenPipeError:
+        _forget_stdout()
+        return _PIPE_CLOSED
+    except Exception as error:
+        return _failed(error)
+    return code
+
+
+def _dispatch(argv: list[str]) -> int:
+    if not argv or argv[0] not in COMMANDS:
+        return _overview(argv)
+    name = argv[0]
+    command = _command(name)
+    parser = _parser(f"fieldscribe {name}", command.HELP, command.EXAMPLE)
+    command.add_arguments(parser)
+    # a value such as `-5Hz` is no option: none of ours starts with a digit
+    words = [f" {word}" if word[:1] == "-" and word[1:2] in _DIGITS else word for word in argv[1:]]
+    arguments = parser.parse_intermixed_args(words)
+    from fieldscribe.cli.common import StopError
+
+    try:
+        return command.run(arguments)
+    except StopError as stop:
+        return stop.tell()
+
+
+def _overview(argv: list[str]) -> int:
+    """`--help`, `--version`, and what is no command."""
+    width = max(map(len, COMMANDS))
+    listed = "\n".join(f"  {name:<{width}}  {does}" for name, does in COMMANDS.items())
+    parser = _parser(
+        "fieldscribe",
+        "Compiles descriptions of fieldbus devices into code, documentation and tests.",
+        f"commands:\n{listed}\n\n`fieldscribe COMMAND --help` says more, with examples.",
+    )
+    parser.usage = "fieldscribe COMMAND ..."
+    parser.add_argument("--version", action="version", version=f"fieldscribe {__version__}")
+    if argv and not argv[0].startswith("-"):
+        from fieldscribe.cli.common import unknown_command
+
+        return unknown_command(argv[0], COMMANDS)
+    parser.parse_args(argv)
+    parser.print_help(sys.stderr)
+    return USAGE
+
+
+def _command(name: str) -> Command:
+    module: Any = import_module(f"fieldscribe.cli.{name}")
+    command: Command = module
+    return command
+
+
+def _parser(prog: str, description: str, epilog: str) -> ArgumentParser:
+    from argparse import ArgumentParser, RawDescriptionHelpFormatter
+
+    return ArgumentParser(
+        prog=prog,
+        description=description[0].upper() + description[1:].rstrip(".") + ".",
+        epilog=epilog,
+        formatter_class=RawDescriptionHelpFormatter,
+        allow_abbrev=False,
+    )
+
+
+def _forget_stdout() -> None:
+    """The reader is gone: nothing more is written, also not when the interpreter ends."""
+    try:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    except (OSError, ValueError):
+        return
+
+
+def _failed(error: Exception) -> int:
+    if os.environ.get("FIELDSCRIBE_DEBUG"):
+        import traceback
+
+        traceback.print_exc()
+    said = ascii(str(error)[:200])[1:-1]
+    print(
+        f"fieldscribe: internal error: {type(error).__name__}: {said}; this is a bug: please report it to the project "
+        "with the command line and the description (FIELDSCRIBE_DEBUG=1 shows where)",
+        file=sys.stderr,
+    )
+    return USAGE

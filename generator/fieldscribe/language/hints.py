@@ -18,8 +18,8 @@ _NAME = "^[a-z][a-z0-9]*(_[a-z0-9]+)*$"
 _FORMS = {
     _NAME: ("a name in snake_case", "names are English words such as `base_frequency`: a to z, digits, single _"),
     "^[-+0-9H].*$": ("a number", "keys here are numbers such as 3, -1, 1Fh or 0FFh (with a digit first)"),
-    "^[0-9]+$": ("the number of a set", "keys here are the numbers of the further sets, such as 2"),
-    "^[0-9]+(\\.\\.[0-9]+)?$": ("a bit or bits", "bits are written 3, several bits 5..4"),
+    "^([2-9]|[1-9][0-9]{1,2})$": ("the number of a set", "keys here are the numbers of the further sets, from 2 on"),
+    "^[0-9]{1,2}(\\.\\.[0-9]{1,2})?$": ("a bit or bits", "bits are written 3, several bits 5..4"),
     "^[a-z]{2}$": ("a language", "languages have two letters: en, de, fr"),
     "^x-": ("a private key", "keys of your own start with x-"),
     "^[0-9]+\\.[0-9]+\\.[0-9]+$": ("a version", "write three numbers: 1.0.0"),

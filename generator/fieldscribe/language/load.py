@@ -152,13 +152,14 @@ class _Builder:
 
     def _key(self, event: Any, into: Map) -> str | None:
         if type(event) is not yaml.ScalarEvent:
-            self._refuse("yaml-key", "a key must be plain text, not a list, a mapping or an alias", event, "quote the key")
+            self._refuse(
+                "yaml-key", "a key must be plain text, not a list, a mapping or an alias", event, "quote the key"
+            )
         if event.tag is not None or event.anchor is not None:
             self._error("yaml-tag", "a key takes no tag and no anchor", event, "remove it")
         key: str = event.value
         if key in into:
-            mark = event.start_mark
-            span = self.source.span(mark.line + 1, mark.column + 1, max(1, len(key)))
+            span = self._span(event)._replace(width=max(1, len(key)))
             first = (into.key_span(key), "first given here")
             message = f"the key `{key[:60]}` is given twice"
             self.report.error("duplicate-key", message, span, "remove or rename one of them", [first])

@@ -14,12 +14,15 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-from fieldscribe.diagnostics import Report, Span
+from fieldscribe.diagnostics import Report
 from fieldscribe.language.hints import form, form_hint, key_hint, nearest, quoted, shown, type_hint
 from fieldscribe.language.nodes import Map, Seq
 
-Check = Callable[[Any, Span, Report], bool]
-"""Value, its place and the report: whether the value has the shape; broken keys and items are dropped from their parent."""
+Check = Callable[[Any, Map | Seq, Any, Report], bool]
+"""Value, what holds it, its key or index there (None: it is the file itself), and the report: whether it has the shape.
+
+Broken keys and items are dropped from what holds them. Places are made only for findings.
+"""
 
 _PYTHON_TYPES: Mapping[str, tuple[type, ...]] = {
     "object": (Map,),
@@ -61,7 +64,7 @@ def _checks() -> _Compiler:
 
 def check_shape(value: Map, kind: str, report: Report) -> bool:
     """Whether the file has the shape of the definition `kind` (`device_file` or `part_file`); findings go to the report."""
-    return _checks().definition(kind)(value, value.span(), report)
+    return _checks().definition(kind)(value, value, None, report)
 
 
 class _Compiler:
@@ -74,7 +77,7 @@ class _Compiler:
     def definition(self, name: str) -> Check:
         """The check of a definition; recursive definitions look themselves up when they run."""
         if name not in self.compiled:
-            self.compiled[name] = lambda value, span, report: self.compiled[name](value, span, report)
+            self.compiled[name] = lambda value, holder, at, report: self.compiled[name](value, holder, at, report)
             self.compiled[name] = self.compile(self.definitions[name])
         return self.compiled[name]
 
@@ -122,16 +125,21 @@ def compiled_pattern(pattern: str) -> re.Pattern[str]:
     return re.compile(pattern[:-1] + r"\Z" if pattern.endswith("$") else pattern)
 
 
-def _any(_value: Any, _span: Span, _report: Report) -> bool:
+def _any(_value: Any, _holder: Map | Seq, _at: Any, _report: Report) -> bool:
     return True
 
 
 def _by_type(by_type: Mapping[type, Check], wanted: str, example: Any) -> Check:
-    def check(value: Any, span: Span, report: Report) -> bool:
+    def check(value: Any, holder: Map | Seq, at: Any, report: Report) -> bool:
         found = by_type.get(type(value))
         if found is not None:
-            return found(value, span, report)
-        report.error("wrong-type", f"{shown(value)} stands where {wanted} belongs", span, type_hint(value, by_type, example))
+            return found(value, holder, at, report)
+        report.error(
+            "wrong-type",
+            f"{shown(value)} stands where {wanted} belongs",
+            holder.span(at),
+            type_hint(value, by_type, example),
+        )
         return False
 
     return check
@@ -140,18 +148,20 @@ def _by_type(by_type: Mapping[type, Check], wanted: str, example: Any) -> Check:
 def _string(choices: list[str] | None, pattern: str | None, longest: int) -> Check:
     compiled = compiled_pattern(pattern) if pattern else None
 
-    def check(value: str, span: Span, report: Report) -> bool:
+    def check(value: str, holder: Map | Seq, at: Any, report: Report) -> bool:
         if choices is not None and value not in choices:
             near = nearest(value, tuple(choices))
             hint = f"did you mean `{near}`?" if near else f"write one of {', '.join(choices)}"
-            report.error("wrong-choice", f"{quoted(value)} is none of {', '.join(choices)}", span, hint)
+            report.error("wrong-choice", f"{quoted(value)} is none of {', '.join(choices)}", holder.span(at), hint)
             return False
         if longest and len(value) > longest:
             message = f"the text has {len(value)} characters, at most {longest} are allowed"
-            report.error("text-too-long", message, span, "shorten it")
+            report.error("text-too-long", message, holder.span(at), "shorten it")
             return False
         if pattern is not None and compiled is not None and not compiled.search(value):
-            report.error("wrong-form", f"{quoted(value)} is not {form(pattern)}", span, form_hint(value, pattern))
+            report.error(
+                "wrong-form", f"{quoted(value)} is not {form(pattern)}", holder.span(at), form_hint(value, pattern)
+            )
             return False
         return True
 
@@ -159,14 +169,19 @@ def _string(choices: list[str] | None, pattern: str | None, longest: int) -> Che
 
 
 def _number(choices: list[int] | None, least: int | None, greatest: int | None) -> Check:
-    def check(value: int | Decimal, span: Span, report: Report) -> bool:
+    def check(value: int | Decimal, holder: Map | Seq, at: Any, report: Report) -> bool:
         if choices is not None and value not in choices:
             known = ", ".join(map(str, choices))
-            report.error("wrong-choice", f"{value} is none of {known}", span, f"write {' or '.join(map(str, choices))}")
+            report.error(
+                "wrong-choice",
+                f"{value} is none of {known}",
+                holder.span(at),
+                f"write {' or '.join(map(str, choices))}",
+            )
             return False
         if (least is not None and value < least) or (greatest is not None and value > greatest):
             bounds = f"at least {least}" if greatest is None else f"{least} to {greatest}"
-            report.error("wrong-choice", f"{value} is out of bounds: {bounds}", span, "correct the number")
+            report.error("wrong-choice", f"{value} is out of bounds: {bounds}", holder.span(at), "correct the number")
             return False
         return True
 
@@ -174,15 +189,15 @@ def _number(choices: list[int] | None, least: int | None, greatest: int | None) 
 
 
 def _array(item: Check, least: int) -> Check:
-    def check(value: Seq, span: Span, report: Report) -> bool:
+    def check(value: Seq, holder: Map | Seq, at: Any, report: Report) -> bool:
         if value.verdict is not None and value.verdict[0] is check:
             return value.verdict[1]
         if report.full:
             return False
         if len(value) < least:
-            report.error("too-few", "the list is empty", span, "fill it or leave the key out")
+            report.error("too-few", "the list is empty", holder.span(at), "fill it or leave the key out")
             return False
-        broken = [index for index, one in enumerate(value) if not item(one, value.span(index), report)]
+        broken = [index for index, one in enumerate(value) if not item(one, value, index, report)]
         for index in reversed(broken):
             _lose(value[index], value.file.lost)
             del value[index], value.item_at[index]
@@ -211,7 +226,7 @@ class _Object:
         self.dependencies: Mapping[str, list[str]] = node.get("dependencies", {})
         self.least: int = node.get("minProperties", 0)
 
-    def __call__(self, value: Map, span: Span, report: Report) -> bool:
+    def __call__(self, value: Map, holder: Map | Seq, at: Any, report: Report) -> bool:
         if value.verdict is not None and value.verdict[0] is self:
             return value.verdict[1]
         if report.full:
@@ -223,9 +238,9 @@ class _Object:
                 hint = key_hint(key, self.properties, [text for text, _, _ in self.patterns])
                 report.error("unknown-key", f"the key {quoted(key)} is not known here", value.key_span(key), hint)
                 broken.append(key)
-            elif not found(one, value.span(key), report):
+            elif not found(one, value, key, report):
                 broken.append(key)
-        complete = self._complete(value, span, report)
+        complete = self._complete(value, holder, at, report)
         for key in broken:
             self._drop(value, key)
         fine = complete and not any(key in broken for key in self.required) and len(value) >= self.least
@@ -238,16 +253,16 @@ class _Object:
                 return found
         return self.additional
 
-    def _complete(self, value: Map, span: Span, report: Report) -> bool:
+    def _complete(self, value: Map, holder: Map | Seq, at: Any, report: Report) -> bool:
         missing = {key: f"the key `{key}` is missing" for key in self.required if key not in value}
         for key in self.dependencies.keys() & value.keys():
             for needed in self.dependencies[key]:
                 if needed not in value:
                     missing.setdefault(needed, f"the key `{needed}` is missing: `{key}` needs it")
         for key, message in missing.items():
-            report.error("missing-key", message, span, f"add `{key}: …`")
+            report.error("missing-key", message, holder.span(at), f"add `{key}: …`")
         if len(value) < self.least:
-            report.error("too-few", "the mapping is empty", span, "fill it or leave the key out")
+            report.error("too-few", "the mapping is empty", holder.span(at), "fill it or leave the key out")
         return not missing and len(value) >= self.least
 
     def _drop(self, value: Map, key: str) -> None:

@@ -50,7 +50,9 @@ def read_source(path: Path, report: Report) -> SourceFile | None:
         report.error("file-unreadable", message, start, "check the path and its permissions")
         return None
     if len(data) > MOST_BYTES:
-        report.error("file-too-large", f"the file is larger than {MOST_BYTES >> 20} MiB", start, "split it with `parts`")
+        report.error(
+            "file-too-large", f"the file is larger than {MOST_BYTES >> 20} MiB", start, "split it with `parts`"
+        )
         return None
     return _decoded(name, data, report)
 
@@ -75,5 +77,7 @@ def _decoded(name: str, data: bytes, report: Report) -> SourceFile | None:
     start = strange.start()
     line, column = text.count("\n", 0, start) + 1, start - (text.rfind("\n", 0, start) + 1) + 1
     message = f"the control character U+{ord(strange[0]):04X} is not allowed in YAML"
-    report.error("yaml-character", message, source.span(line, column), "remove it: editors show it as a box, or not at all")
+    report.error(
+        "yaml-character", message, source.span(line, column), "remove it: editors show it as a box, or not at all"
+    )
     return None

@@ -24,7 +24,7 @@ def build_device(subject: Subject) -> Device:
         model=str(header["model"]),
         title=titles(header.get("title")),
         note=titles(header.get("note")),
-        family=scope.family,
+        family=str(header["family"]),
         documents=tuple(scope.documents.values()),
         variants={axis: tuple(entry["values"]) for axis, entry in header.get("variants", {}).items()},
         bus=subject.bus,

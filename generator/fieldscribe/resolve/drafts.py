@@ -8,23 +8,35 @@ from typing import Any
 
 from fieldscribe.diagnostics import Span
 from fieldscribe.language.nodes import Map
-from fieldscribe.model import Titles
-from fieldscribe.resolve.scope import Scope, titles, unknown_name
+from fieldscribe.model import TYPES, Titles
+from fieldscribe.resolve.scope import Scope, titles
 
-_INHERITED = frozenset(
-    "space type words unit scale range access keeps changes conditions when since until reserved source".split()
+_INHERITED = (
+    *("space", "type", "words", "unit", "scale", "range", "access", "keeps"),
+    *("changes", "conditions", "when", "since", "until", "reserved", "source"),
 )
 """What a group says for its points."""
 
-_OWN = frozenset("code at printed was name sets members record title".split())
+_OWN = frozenset({"code", "at", "printed", "was", "name", "sets", "members", "record", "title"})
 """What a further set does not take from the point it repeats (the title is extended instead)."""
+
+_OF_RECORDS = ("code", "line", "section", "page", "access", "keeps", "changes", "conditions", "when", "since", "until")
+"""What the use of a record says for all its members."""
+
+_NOT_OF_RECORDS = frozenset({*_OF_RECORDS, "name", "title", "note", "record", "at", "members"})
+
+_OF_FORMATS = ("type", "range", "scale", "unit", "enum", "flags", "special")
+"""What an unknown format leaves open."""
 
 _SET_WORDS = {"en": "set", "de": "Parametersatz"}
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False)
 class Draft:
-    """One expanded point: its layers of facts, own facts first, and the group last. `use` is where its record is used."""
+    """One expanded point: its layers of facts, own facts first, and the group last. `use` is where its record is used.
+
+    `failed` collects the facts that turned out wrong, so that nothing is held against what was taken in their place.
+    """
 
     name: str
     layers: tuple[Map, ...]
@@ -33,26 +45,43 @@ class Draft:
     title: Titles
     variant: str | None = None
     record: str | None = None
-    set: int | None = None
+    set_number: int | None = None
     use: Map | None = None
     enum_name: str = ""
-    hidden: frozenset[str] = field(default_factory=frozenset)
+    hidden: frozenset[str] = frozenset()
+    failed: set[str] = field(default_factory=set)
+    _where: dict[str, Map] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        group, where = self.group, self._where
+        for key in _INHERITED:
+            if key in group:
+                where[key] = group
+        for layer in reversed(self.layers):
+            keys = layer if layer is self.own or not self.hidden else layer.keys() - self.hidden
+            where.update(dict.fromkeys(keys, layer))
+            self.failed.difference_update(keys)
+            self.failed.update(layer.broken)
+        if ("enum" in where or "flags" in where or self.floating) and where.get("scale") is group:
+            del where["scale"]  # a scale for the numbers of a group is none for its names and floats
+
+    @property
+    def floating(self) -> bool:
+        """Whether the point says that it is a floating-point number."""
+        return TYPES[self.get("type", "u16")].floating
 
     def layer(self, key: str) -> Map | None:
         """The layer that says this fact."""
-        for one in self.layers:
-            if key in one and (one is self.own or key not in self.hidden):
-                return one
-        return self.group if key in _INHERITED and key in self.group else None
+        return self._where.get(key)
 
     def get(self, key: str, otherwise: Any = None) -> Any:
         """The fact, or `otherwise`."""
-        found = self.layer(key)
+        found = self._where.get(key)
         return otherwise if found is None else found[key]
 
     def span(self, key: str | None = None) -> Span:
         """Where the fact stands, or the point's name when nobody says it."""
-        found = self.layer(key) if key is not None else None
+        found = self._where.get(key) if key is not None else None
         if found is not None and key is not None:
             return found.span(key)
         return self.own.span("name" if "name" in self.own else None)
@@ -73,7 +102,7 @@ def groups(scope: Scope) -> Iterator[Map]:
     """The mappings that hold points: the entries of `groups` and each part with `group`."""
     for file in scope.files:
         yield from file.get("groups", ())
-        if "group" in file:
+        if "group" in file and "space" in file:
             yield file
 
 
@@ -88,102 +117,109 @@ def _point(scope: Scope, group: Map, point: Map) -> Iterator[Draft]:
     if "record" in point:
         yield from _record(scope, group, point)
         return
+    name = point["name"]
     layers = (point, *_format(scope, point))
-    title = titles(point.get("title"), humanised(point["name"]))
-    first = 1 if "sets" in point else None
-    plain = Draft(point["name"], layers, group, point, title, set=first, enum_name=point["name"])
-    yield from _variants(scope, plain)
-    for number, override in point.get("sets", {}).items():
+    title = titles(point.get("title"), humanised(name))
+    sets: Map | None = point.get("sets")
+    yield from _variants(
+        scope, Draft(name, layers, group, point, title, set_number=1 if sets else None, enum_name=name)
+    )
+    for number, override in sets.items() if sets is not None else ():
         own_title = titles(override.get("title")) or _set_title(title, number)
-        name = f"{point['name']}_set_{int(number)}"
+        own_name = f"{name}_set_{int(number)}"
+        enum_name = own_name if "enum" in override else name
         repeated = Draft(
-            name, (override, *layers), group, override, own_title, set=int(number), enum_name=point["name"], hidden=_OWN
+            own_name,
+            (override, *layers),
+            group,
+            override,
+            own_title,
+            set_number=int(number),
+            enum_name=enum_name,
+            hidden=_OWN,
         )
         yield from _variants(scope, repeated)
 
 
 def _variants(scope: Scope, draft: Draft) -> Iterator[Draft]:
-    overrides = draft.get("variants")
+    overrides: Map | None = draft.get("variants")
     if not overrides:
         yield draft
         return
-    axes = scope.header.get("variants", {})
+    axes = scope.axes
+    first = ""
     for key, override in overrides.items():
         axis, _, value = key.partition("=")
-        if value not in axes.get(axis, {}).get("values", {}):
+        span = overrides.key_span(key)
+        if axis not in axes or value not in axes[axis]["values"]:
             known = [f"{one}={each}" for one, entry in axes.items() for each in entry["values"]]
+            scope.unknown("unknown-variant", "variant", key, span, known, "variants")
+        elif axis != (first := first or axis):
+            message = f"`{draft.name}` differs by `{first}` and by `{axis}`"
             scope.report.error(
-                "unknown-variant",
-                f"device.yaml declares no variant `{key}`",
-                overrides.key_span(key),
-                unknown_name(key, known, "variants"),
+                "two-axes", message, span, "a point can differ by one axis only; make it two points with `when`"
             )
-            continue
-        enum_name = f"{draft.enum_name}_{value.lower()}" if "enum" in override else draft.enum_name
-        yield Draft(
-            draft.name, (override, *draft.layers), draft.group, draft.own, draft.title, key, draft.record, draft.set, draft.use,
-            enum_name, draft.hidden,
-        )  # fmt: skip
+        else:
+            yield _varied(draft, key, value, override)
+
+
+def _varied(draft: Draft, key: str, value: str, override: Map) -> Draft:
+    return Draft(
+        draft.name,
+        (override, *draft.layers),
+        draft.group,
+        draft.own,
+        draft.title,
+        variant=key,
+        record=draft.record,
+        set_number=draft.set_number,
+        use=draft.use,
+        enum_name=f"{draft.enum_name}_{value.lower()}" if "enum" in override else draft.enum_name,
+        hidden=draft.hidden - override.keys(),
+    )
 
 
 def _record(scope: Scope, group: Map, use: Map) -> Iterator[Draft]:
     record = scope.records.get(use["record"])
     if record is None:
-        hint = unknown_name(use["record"], sorted(scope.records), "records")
-        scope.report.error("unknown-record", f"there is no record `{use['record']}`", use.span("record"), hint)
+        scope.unknown("unknown-record", "record", use["record"], use.span("record"), scope.records, "records")
         return
+    for key in use:
+        if key not in _NOT_OF_RECORDS and not key.startswith("x-"):
+            message = f"`{key}` cannot be said for a whole record"
+            scope.report.error("record-key", message, use.key_span(key), "say it for one member under `members`")
     members = {point["name"] for point in record["points"]}
     for name in use.get("members", {}):
         if name not in members:
-            hint = unknown_name(name, sorted(members), "points` of the record, `")
-            scope.report.error(
-                "unknown-member", f"the record has no member `{name}`", use["members"].key_span(name), hint
-            )
+            span = use["members"].key_span(name)
+            scope.unknown("unknown-member", "member of the record", name, span, sorted(members), "records")
     for point in record["points"]:
         if "record" in point:
             message = f"a record cannot contain the record `{point['record']}`"
             scope.report.error("record-cycle", message, point.span("record"), "write its points out")
-            continue
-        yield _member(scope, group, use, point)
+        elif "sets" in point:
+            message = "the points of a record cannot repeat in sets"
+            scope.report.error("record-key", message, point.key_span("sets"), "use the record once for each set")
+        else:
+            yield from _variants(scope, _member(scope, group, use, point))
 
 
 def _member(scope: Scope, group: Map, use: Map, point: Map) -> Draft:
-    override = use.get("members", {}).get(point["name"])
-    shared = tuple(layer for layer in (override, point) if layer is not None)
+    override: Map | None = use.get("members", {}).get(point["name"])
+    shared = (point,) if override is None else (override, point)
     together = titles(use.get("title"), humanised(use["name"]))
     single = titles(point.get("title"), humanised(point["name"]))
-    title = {language: f"{together[language]}: {single.get(language, single['en'])}" for language in together}
+    title = {language: f"{text}: {single.get(language, single['en'])}" for language, text in together.items()}
     layers = (*shared, *_format(scope, point), _whole_record(use))
     name = f"{use['name']}_{point['name']}"
-    enum_name = f"{use['record']}_{point['name']}"
-    return Draft(
-        name,
-        layers,
-        group,
-        override if override is not None else point,
-        title,
-        record=use["name"],
-        use=use,
-        enum_name=enum_name,
-    )
+    enum_name = name if override is not None and "enum" in override else f"{use['record']}_{point['name']}"
+    return Draft(name, layers, group, shared[0], title, record=use["name"], use=use, enum_name=enum_name)
 
 
 def _whole_record(use: Map) -> Map:
     """What the use of a record says for all its members: where it stands in the manual, and the code of the whole."""
     result = Map(use.file, use.at)
-    for key in (
-        "code",
-        "line",
-        "section",
-        "page",
-        "access",
-        "keeps",
-        "changes",
-        "conditions",
-        "when",
-        "since",
-        "until",
-    ):
+    for key in _OF_RECORDS:
         if key in use:
             result[key] = use[key]
             result.value_at[key] = use.value_at[key]
@@ -195,9 +231,10 @@ def _format(scope: Scope, point: Map) -> tuple[Map, ...]:
         return ()
     found = scope.formats.get(point["format"])
     if found is None:
-        hint = unknown_name(point["format"], sorted(scope.formats), "formats")
-        scope.report.error("unknown-format", f"there is no format `{point['format']}`", point.span("format"), hint)
-        return ()
+        scope.unknown("unknown-format", "format", point["format"], point.span("format"), scope.formats, "formats")
+        nothing = Map(point.file, point.at)
+        nothing.broken = _OF_FORMATS
+        return (nothing,)
     return (found,)
 
 

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import Any
 
+from fieldscribe.diagnostics import Span
 from fieldscribe.language.nodes import Map
 from fieldscribe.model import Entry, Enum, Flag, Special
 from fieldscribe.resolve.drafts import Draft, humanised
-from fieldscribe.resolve.scope import Scope, titles, unknown_name
+from fieldscribe.resolve.scope import Scope, titles
 from fieldscribe.resolve.values import integer, interval
 
 
@@ -17,26 +19,14 @@ def enum_of(scope: Scope, draft: Draft, closed: bool) -> Enum | None:
     raw = draft.get("enum")
     if raw is None:
         return None
-    if isinstance(raw, str):
-        return _shared(scope, draft, raw, closed)
-    layer = draft.layer("enum")
-    key = f"{draft.enum_name} {id(layer)} {closed}"
+    name, entries = (raw, scope.named_enums.get(raw)) if isinstance(raw, str) else (draft.enum_name, raw)
+    if entries is None:
+        scope.unknown("unknown-enum", "enum", name, draft.span("enum"), scope.named_enums, "enums")
+        draft.failed.add("enum")
+        return None
+    key = (name, id(entries), closed)
     if key not in scope.enums:
-        scope.enums[key] = Enum(draft.enum_name, {"en": humanised(draft.enum_name)}, entries_of(scope, raw), closed)
-    return scope.enums[key]
-
-
-def _shared(scope: Scope, draft: Draft, name: str, closed: bool) -> Enum | None:
-    key = f"{name} {closed}"
-    if key not in scope.enums:
-        found = next((value for known, value, _ in scope.declared("enums") if known == name), None)
-        if found is None:
-            known = [one for one, _, _ in scope.declared("enums")]
-            scope.report.error(
-                "unknown-enum", f"there is no enum `{name}`", draft.span("enum"), unknown_name(name, known, "enums")
-            )
-            return None
-        scope.enums[key] = Enum(name, {"en": humanised(name)}, entries_of(scope, found), closed)
+        scope.enums[key] = Enum(name, {"en": humanised(name)}, entries_of(scope, entries), closed)
     return scope.enums[key]
 
 
@@ -46,27 +36,17 @@ def entries_of(scope: Scope, raw: Map) -> tuple[Entry, ...]:
     by_name: dict[str, str] = {}
     result = []
     for key, value in raw.items():
-        entry = entry_of(scope, raw, key, value)
+        entry = _entry(scope, raw, key, value)
         if entry is None:
             continue
         if entry.raw in by_number:
             first = (raw.key_span(by_number[entry.raw]), "first given here")
-            scope.report.error(
-                "duplicate-enum-value",
-                f"the number {entry.raw} is named twice",
-                raw.key_span(key),
-                "remove one of them",
-                [first],
-            )
+            message = f"the number {entry.raw} is named twice"
+            scope.report.error("duplicate-enum-value", message, raw.key_span(key), "remove one of them", [first])
         elif entry.name in by_name:
             first = (raw.key_span(by_name[entry.name]), "first given here")
-            scope.report.error(
-                "duplicate-enum-name",
-                f"two numbers have the name `{entry.name}`",
-                raw.span(key),
-                "names are unique in an enum",
-                [first],
-            )
+            message = f"two numbers have the name `{entry.name}`"
+            scope.report.error("duplicate-enum-name", message, raw.span(key), "names are unique in an enum", [first])
         else:
             result.append(entry)
         by_number.setdefault(entry.raw, key)
@@ -74,86 +54,113 @@ def entries_of(scope: Scope, raw: Map) -> tuple[Entry, ...]:
     return tuple(result)
 
 
-def entry_of(scope: Scope, raw: Map, key: str, value: Any) -> Entry | None:
-    """One named number."""
+def _entry(scope: Scope, raw: Map, key: str, value: Any) -> Entry | None:
     number = integer(key, raw.key_span(key), scope.report)
     if number is None:
         return None
-    name = value if isinstance(value, str) else str(value["name"])
-    return Entry(number, name, entry_titles(value, name), None if isinstance(value, str) else value.get("quantity"))
+    name = _name(value)
+    return Entry(number, name, _entry_titles(value, name), None if isinstance(value, str) else value.get("quantity"))
 
 
-def entry_titles(value: Map | str, name: str) -> Mapping[str, str]:
+def _name(value: Map | str) -> str:
+    return value if isinstance(value, str) else str(value["name"])
+
+
+def _entry_titles(value: Map | str, name: str) -> Mapping[str, str]:
     """The titles of an entry: what it says by language, else its name."""
     texts = {} if isinstance(value, str) else {key: str(text) for key, text in value.items() if len(key) == 2}
     return {"en": humanised(name), **texts}
 
 
+@dataclass(slots=True)
+class _Taken:
+    """What the numbers and names of one point are taken by, with the places for findings."""
+
+    scope: Scope
+    what: str
+    numbers: list[tuple[int, int, Span]] = field(default_factory=list)
+    names: dict[str, Span] = field(default_factory=dict)
+
+    def takes(self, low: int, high: int, name: str, key: Span, value: Span, shared: str) -> bool:
+        """Whether the numbers low..high and the name are free; a finding (called `shared`) if not."""
+        other = next((span for first, last, span in self.numbers if first <= high and low <= last), None)
+        if other is not None:
+            message = f"the {self.what} {low if low == high else f'{high}..{low}'} is taken twice"
+            self.scope.report.error(shared, message, key, "remove one of them", [(other, "first taken here")])
+            return False
+        if name in self.names:
+            first = (self.names[name], "first given here")
+            message = f"the name `{name}` is given twice"
+            self.scope.report.error("duplicate-enum-name", message, value, "names are unique in a point", [first])
+            return False
+        self.numbers.append((low, high, key))
+        self.names[name] = value
+        return True
+
+
 def specials_of(scope: Scope, draft: Draft) -> tuple[Special, ...]:
     """Raw numbers that are no quantity: `special` by name, then the codes of `no_value`."""
+    raw, codes = draft.get("special"), draft.get("no_value")
+    if raw is None and codes is None:
+        return ()
+    taken = _Taken(scope, "code")
     result = []
-    raw = draft.get("special", {})
-    for key, value in raw.items():
+    for key, value in raw.items() if raw is not None else ():
         found = interval(key, raw.key_span(key), scope.report)
-        if found is not None:
-            name = value if isinstance(value, str) else str(value["name"])
-            result.append(Special(*found, name, entry_titles(value, name), False))
-    for index, value in enumerate(draft.get("no_value", ())):
-        number = integer(value, draft.get("no_value").span(index), scope.report)
-        if number is not None:
-            name = "no_value" if index == 0 else f"no_value_{index + 1}"
+        name = _name(value)
+        if found is not None and taken.takes(*found, name, raw.key_span(key), raw.span(key), "duplicate-enum-value"):
+            result.append(Special(*found, name, _entry_titles(value, name), False))
+    for index, value in enumerate(codes if codes is not None else ()):
+        span = codes.span(index)
+        number = integer(value, span, scope.report)
+        name = "no_value" if index == 0 else f"no_value_{index + 1}"
+        if number is not None and taken.takes(number, number, name, span, span, "duplicate-enum-value"):
             result.append(Special(number, number, name, {"en": "No value"}, True))
     return tuple(result)
 
 
 def flags_of(scope: Scope, draft: Draft, width: int) -> tuple[Flag, ...]:
     """The bits that the word's description names; bits outside the word or taken twice are findings."""
-    raw = draft.get("flags", {})
-    taken: dict[int, str] = {}
-    names: dict[str, str] = {}
+    raw: Map | None = draft.get("flags")
+    if raw is None:
+        return ()
+    taken = _Taken(scope, "bit")
     result = []
     for key, value in raw.items():
         high_text, dots, low_text = key.partition("..")
         high, low = int(high_text), int(low_text) if dots else int(high_text)
-        name = value if isinstance(value, str) else str(value["name"])
+        span, name = raw.key_span(key), _name(value)
         if high < low:
-            scope.report.error("range-reversed", f"bits `{key}` run upwards", raw.key_span(key), f"write {low}..{high}")
+            hint = f"the higher bit stands first: {low}..{high}"
+            scope.report.error("range-reversed", f"bits `{key}` run upwards", span, hint)
         elif high >= width:
-            scope.report.error(
-                "bit-outside-word",
-                f"bit {high} lies outside the {width} bits of the point",
-                raw.key_span(key),
-                f"bits are numbered {width - 1}..0",
-            )
-        elif any(bit in taken for bit in range(low, high + 1)):
-            other = next(taken[bit] for bit in range(low, high + 1) if bit in taken)
-            first = (raw.key_span(other), "taken here")
-            scope.report.error(
-                "bits-overlap", f"bit {low} is taken twice", raw.key_span(key), "flags cannot overlap", [first]
-            )
-        elif name in names:
-            first = (raw.key_span(names[name]), "first given here")
-            scope.report.error(
-                "duplicate-enum-name",
-                f"two flags have the name `{name}`",
-                raw.span(key),
-                "names are unique in a word",
-                [first],
-            )
-        else:
-            result.append(_flag(scope, low, high - low + 1, name, value))
-        taken.update(dict.fromkeys(range(low, high + 1), key))
-        names.setdefault(name, key)
+            if not draft.failed & {"type", "bits"}:
+                message = f"bit {high} lies outside the {width} bits of the point"
+                scope.report.error("bit-outside-word", message, span, f"bits are numbered {width - 1}..0")
+        elif taken.takes(low, high, name, span, raw.span(key), "bits-overlap"):
+            result.append(_flag(scope, raw, key, low, high - low + 1, name))
     return tuple(result)
 
 
-def _flag(scope: Scope, low: int, width: int, name: str, value: Map | str) -> Flag:
+def _flag(scope: Scope, raw: Map, key: str, low: int, width: int, name: str) -> Flag:
+    value: Map | str = raw[key]
     if isinstance(value, str):
         return Flag(low, width, name, {"en": humanised(name)}, 1, ())
-    values = entries_of(scope, value["values"]) if "values" in value else ()
-    meanings = [
-        Entry(number, key, titles(value[key]), None) for number, key in enumerate(("zero", "one")) if key in value
-    ]
-    return Flag(
-        low, width, name, titles(value.get("title"), humanised(name)), value.get("active", 1), values or tuple(meanings)
-    )
+    named = entries_of(scope, value["values"]) if "values" in value else ()
+    for entry in named:
+        if not 0 <= entry.raw < 1 << width:
+            message = f"`{entry.name}` is {entry.raw}, which {width} bit{'s' if width > 1 else ''} cannot hold"
+            scope.report.error("enum-outside-range", message, value.span("values"), f"0..{(1 << width) - 1} can occur")
+    meanings = []
+    for number, which in enumerate(("zero", "one")):
+        if which not in value:
+            continue
+        if width > 1 or named:
+            message = f"`{which}` says what a single bit means"
+            scope.report.error("flag-values", message, value.key_span(which), "name the numbers under `values` only")
+        meanings.append(Entry(number, which, titles(value[which], which.capitalize()), None))
+    if width > 1 and "active" in value:
+        message = "`active` is for a single bit"
+        scope.report.error("flag-values", message, value.key_span("active"), "name the numbers under `values`")
+    title = titles(value.get("title"), humanised(name))
+    return Flag(low, width, name, title, value.get("active", 1), named or tuple(meanings))

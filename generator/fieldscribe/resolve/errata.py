@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from typing import Any
 
 from fieldscribe.language.nodes import Map, Seq
-from fieldscribe.model import Erratum
+from fieldscribe.model import Bus, Erratum
 from fieldscribe.resolve.names import Index
 from fieldscribe.resolve.scope import Scope, source_of
 from fieldscribe.resolve.values import integer
@@ -32,11 +32,12 @@ class OpenErratum:
         return printed.get(key) if isinstance(printed, Map) else None
 
 
-def errata_of(scope: Scope, index: Index) -> list[OpenErratum]:
+def errata_of(scope: Scope, index: Index, bus: Bus) -> list[OpenErratum]:
     """All errata in the order of the text; one about nothing that exists, or with an id given twice, is a finding."""
     seen: dict[str, Map] = {}
     result = []
     frames = {one["name"] for one in scope.listed("frames")}
+    functions = {code.number for code in bus.functions}
     for raw in scope.listed("errata"):
         if raw["id"] in seen:
             first = (seen[raw["id"]].span("id"), "first given here")
@@ -50,10 +51,14 @@ def errata_of(scope: Scope, index: Index) -> list[OpenErratum]:
             continue
         seen[raw["id"]] = raw
         points = tuple(_points(scope, index, raw))
-        where = _where(scope, raw, frames)
+        where = _where(scope, raw, frames, functions)
         if not points and where is None:
             continue
         source = source_of(scope, raw)
+        if source.document not in scope.documents:
+            scope.unknown(
+                "unknown-document", "document", source.document, raw.span("document"), scope.documents, "documents"
+            )
         text = Erratum(
             raw["id"],
             points,
@@ -74,24 +79,21 @@ def _points(scope: Scope, index: Index, raw: Map) -> Iterator[str]:
     for word, span in words:
         found = index.all(word)
         if not found:
-            scope.report.error(
-                "unknown-point",
-                f"the erratum is about `{word}`, which no point has as name or code",
-                span,
-                index.hint(word),
-            )
+            index.unknown(word, span)
         yield from dict.fromkeys(draft.name for draft in found)
 
 
-def _where(scope: Scope, raw: Map, frames: set[str]) -> str | None:
+def _where(scope: Scope, raw: Map, frames: Collection[str], functions: Collection[int]) -> str | None:
+    """Where it is, if not at a point: `frame:NAME`, `function:NUMBER`, a place in words, or nothing; None after a finding."""
     if "frame" in raw:
         if raw["frame"] not in frames:
-            scope.report.error(
-                "unknown-frame", f"there is no frame `{raw['frame']}`", raw.span("frame"), "name one of `frames`"
-            )
+            scope.unknown("unknown-frame", "frame", raw["frame"], raw.span("frame"), frames, "frames")
         return f"frame:{raw['frame']}"
     if "function" in raw:
         number = integer(raw["function"], raw.span("function"), scope.report)
+        if number is not None and number not in functions:
+            word = str(raw["function"])
+            scope.unknown("unknown-function", "function", word, raw.span("function"), (), "bus")
         return f"function:{number}"
     if "where" in raw:
         return str(raw["where"]).replace(":", ",")

@@ -8,9 +8,10 @@ from decimal import Decimal
 from fractions import Fraction
 from typing import Any
 
+from fieldscribe.diagnostics import Span
+from fieldscribe.exact import number_text
 from fieldscribe.language.nodes import Map
 from fieldscribe.model import Bus, Frame, Point
-from fieldscribe.resolve.allowed import round_half_away
 from fieldscribe.resolve.drafts import humanised
 from fieldscribe.resolve.names import Index
 from fieldscribe.resolve.scope import Scope, source_of, titles
@@ -28,87 +29,94 @@ class OpenFrame:
 def frames_of(scope: Scope, bus: Bus, index: Index, points: Mapping[str, Point]) -> list[OpenFrame]:
     """All frames in the order of the text; `valid` and `corrected` are still open."""
     result: dict[str, OpenFrame] = {}
+    seen: dict[str, Span] = {}
     for raw in scope.listed("frames"):
         name = raw["name"]
-        if name in result:
-            scope.report.error(
-                "duplicate-name", f"two frames have the name `{name}`", raw.span("name"), "rename one of them"
-            )
+        if name in seen:
+            first = [(seen[name], "first given here")]
+            message = f"two frames have the name `{name}`"
+            scope.report.error("duplicate-name", message, raw.span("name"), "rename one of them", first)
+            continue
+        seen[name] = raw.span("name")
+        answers = raw.get("answers")
+        if answers is not None and answers not in result:
+            if answers not in seen:
+                hint = "the request stands above its answer"
+                scope.unknown("unknown-frame", "frame", answers, raw.span("answers"), list(result), "frames", hint)
             continue
         digits = "".join(str(raw["bytes"]).split())
         if len(digits) % 2:
-            scope.report.error(
-                "bad-number",
-                "the bytes have an odd number of digits",
-                raw.span("bytes"),
-                "write two digits for each byte",
-            )
+            message = "the bytes have an odd number of digits"
+            scope.report.error("bad-number", message, raw.span("bytes"), "write two digits for each byte")
             continue
-        answers = raw.get("answers")
-        if answers is not None and answers not in result:
-            scope.report.error(
-                "unknown-frame",
-                f"there is no frame `{answers}` above",
-                raw.span("answers"),
-                "the request stands before its answer",
-            )
-            continue
-        data = bytes.fromhex(digits)
-        direction = raw.get("direction") or ("response" if answers else "request")
-        framing = raw.get("framing") or (bus.framings[0] if bus.framings else "rtu")
-        title = titles(raw.get("title"), humanised(name))
-        frame = Frame(
-            name,
-            framing,
-            direction,
-            answers,
-            data,
-            data,
-            True,
-            _meaning(scope, raw, index, points),
-            title,
-            source_of(scope, raw),
-            (),
+        result[name] = OpenFrame(
+            _frame(scope, bus, raw, bytes.fromhex(digits), _meaning(scope, raw, index, points)), raw
         )
-        result[name] = OpenFrame(frame, raw)
     return list(result.values())
 
 
+def _frame(scope: Scope, bus: Bus, raw: Map, data: bytes, meaning: Mapping[str, int]) -> Frame:
+    answers = raw.get("answers")
+    return Frame(
+        name=raw["name"],
+        framing=raw.get("framing") or (bus.framings[0] if bus.framings else "rtu"),
+        direction=raw.get("direction") or ("response" if answers else "request"),
+        answers=answers,
+        printed=data,
+        corrected=data,
+        valid=True,
+        meaning=meaning,
+        title=titles(raw.get("title"), humanised(raw["name"])),
+        source=source_of(scope, raw),
+        errata=(),
+    )
+
+
 def _meaning(scope: Scope, raw: Map, index: Index, points: Mapping[str, Point]) -> dict[str, int]:
-    said: Map | dict[str, Any] = raw.get("says", {})
+    said: Map | None = raw.get("says")
     meaning = {}
-    for word, value in said.items():
+    for word, value in said.items() if said is not None else ():
         draft = index.find(word)
-        if draft is None:
-            scope.report.error(
-                "unknown-point", f"there is no point `{word}`", raw["says"].key_span(word), index.hint(word)
-            )
+        if draft is None and said is not None:
+            index.unknown(word, said.key_span(word))
+        point = points.get(draft.item) if draft is not None else None
+        if point is None or draft is None or said is None or draft.failed & {"scale", "type", "enum"}:
             continue
-        point = points.get(draft.item)
-        if point is not None:
-            found = _raw_of(scope, point, value, raw["says"], word)
-            if found is not None:
-                meaning[point.item] = found
+        found = _raw_of(scope, point, value, said, word)
+        if found is not None:
+            meaning[point.item] = found
     return meaning
 
 
 def _raw_of(scope: Scope, point: Point, value: Any, said: Map, word: str) -> int | None:
+    span = said.span(word)
     if isinstance(value, bool):
         return int(value)
+    if point.info.floating:
+        message = f"`{word}` is a floating-point number"
+        scope.report.error("float-fact", message, span, "leave it out of `says`: frames are held against raw numbers")
+        return None
     if point.enum is not None and isinstance(value, str):
         named = next((entry.raw for entry in point.enum.entries if entry.name == value), None)
         if named is not None:
             return named
+        if not value[:1].isdigit():
+            known = [entry.name for entry in point.enum.entries]
+            scope.unknown("unknown-entry", f"entry of `{word}` called", value, span, known, "enum")
+            return None
     if point.type == "bit" and value in ("on", "off"):
         return int(value == "on")
-    exact = Fraction(value) if isinstance(value, int | Decimal) else number(value, said.span(word), scope.report)
+    exact = Fraction(value) if isinstance(value, int | Decimal) else number(value, span, scope.report)
     if exact is None:
         return None
     if point.scale is not None:
         if len(point.scale) > 1 or point.scale[0].rule.factors:
-            scope.report.error(
-                "bad-formula", f"`{word}` needs other points to be scaled", said.span(word), "leave it out of `says`"
-            )
+            message = f"`{word}` needs other points to be scaled"
+            scope.report.error("bad-formula", message, span, "leave it out of `says`")
             return None
         exact = exact * point.scale[0].rule.ratio + point.scale[0].rule.offset
-    return round_half_away(exact)
+    if exact.denominator != 1:
+        message = f"`{word}` cannot be {value}: that is raw {number_text(exact)}"
+        scope.report.error("bad-number", message, span, "give the value as printed, in the unit of the point")
+        return None
+    return exact.numerator

@@ -4,78 +4,72 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from fieldscribe.diagnostics import Span
-from fieldscribe.model import ScaleCase
-from fieldscribe.resolve.allowed import Ranges
+from fieldscribe.model import Linear, ScaleCase
+from fieldscribe.resolve.bounds import Bounds
 from fieldscribe.resolve.drafts import Draft
 
 MOST_DECIMALS = 12
 _INT64 = 1 << 62
 _EXACT = 1 << 53
+_NARROW = "narrow the range of the point or of the points in its scale"
 
 
-def decimals_of(draft: Draft, cases: tuple[ScaleCase, ...] | None, ranges: Ranges) -> int:
-    """The k of the point's counts (10^-k units): the author's, or the smallest at which one raw step is at least one count."""
+def decimals_of(draft: Draft, cases: tuple[ScaleCase, ...] | None, bounds: Bounds) -> int:
+    """The k of the point's counts (10^-k units): the author's, or the smallest at which one raw step is one count at least."""
+    said: int | None = draft.get("decimals")
+    report = bounds.scales.scope.report
     if cases is None:
-        return int(draft.get("decimals", 0))
-    smallest = min((_least_step(case, ranges) for case in cases), default=Fraction(1))
+        if said and "scale" not in draft.failed and draft.get("scale") is None:
+            message = "`decimals` belongs to a scale, and the raw number is the value here"
+            report.error("integer-path", message, draft.span("decimals"), "leave it out, or give the `scale`")
+        return 0
+    span = draft.span("decimals" if said is not None else "scale")
+    smallest = min(_least_step(case.rule, bounds) for case in cases)
     needed = 0
     while needed < MOST_DECIMALS and smallest * 10**needed < 1:
         needed += 1
-    said = draft.get("decimals")
-    span = draft.span("decimals" if said is not None else "scale")
-    report = ranges.report
     if smallest * 10**needed < 1:
-        hint = "give the points in the scale a narrower `range`"
-        report.error(
-            "integer-path",
-            f"one raw step is {float(smallest):.3g} units, too fine for {MOST_DECIMALS} decimals",
-            span,
-            hint,
-        )
-    elif said is not None and said < needed:
-        report.error(
-            "integer-path",
-            f"with {said} decimals two raw numbers would have one count",
-            span,
-            f"at least {needed} decimals are needed",
-        )
-    chosen = needed if said is None else int(said)
+        message = f"one raw step can be finer than 10^-{MOST_DECIMALS} units"
+        report.error("integer-path", message, span, "give the points in the scale a narrower `range`")
+        return needed
+    if said is not None and said < needed:
+        message = f"with {said} decimals two raw numbers would have one count"
+        report.error("integer-path", message, span, f"at least {needed} decimals are needed")
+        return needed
+    chosen = needed if said is None else said
+    raw = max(map(abs, (*bounds.holds[draft], *bounds.own_hull(draft))))
+    if raw >= 1 << 33:
+        raw = max(map(abs, bounds.own_hull(draft)))
     for case in cases:
-        _fits(draft, case, chosen, ranges, span)
+        fault = _fault(case.rule, chosen, raw, bounds)
+        if fault is not None:
+            report.error(fault[0], fault[1], span, fault[2])
     return chosen
 
 
-def _least_step(case: ScaleCase, ranges: Ranges) -> Fraction:
-    steps = [abs(corner - case.rule.offset) for corner in ranges.corners(case.rule)]
-    largest = max((step for step in steps if step), default=abs(case.rule.ratio) or Fraction(1))
-    return 1 / largest
+def _least_step(rule: Linear, bounds: Bounds) -> Fraction:
+    if not rule.factors:
+        return abs(1 / rule.ratio)
+    steps = [abs(corner - rule.offset) for corner in bounds.corners(rule)]
+    return 1 / max((step for step in steps if step), default=abs(rule.ratio))
 
 
-def _fits(draft: Draft, case: ScaleCase, decimals: int, ranges: Ranges, span: Span) -> None:
-    """A finding unless every intermediate of both paths is wide enough: 62 bits for integers, 53 for doubles."""
-    rule = case.rule
-    up, down = rule.ratio.numerator, rule.ratio.denominator
+def _fault(rule: Linear, decimals: int, raw: int, bounds: Bounds) -> tuple[str, str, str] | None:
+    """Rule, message and hint unless every intermediate of both paths is wide enough: 62 bits for integers, 53 for doubles."""
+    up, down = abs(rule.ratio.numerator), rule.ratio.denominator
     for factor in rule.factors:
-        used = ranges.scales.index.by_item(factor.point)
-        ends = [factor.slope * ranges.hull(used, end) + factor.intercept for end in (0, 1)]
-        above = factor.power == 1
+        most = max(map(abs, bounds.ends_of(factor)))
         if factor.ten_to:
-            most = 10 ** max(abs(end) for end in ends)
-            up, down = up * most, down * most
+            up, down = up * 10**most, down * 10**most
+        elif factor.power == 1:
+            up *= most
         else:
-            up, down = (up * max(map(abs, ends)), down) if above else (up, down * max(map(abs, ends)))
-    least, greatest = ranges.widths[id(draft)]
-    raw = max(abs(least), abs(greatest), abs(ranges.hull(draft, 0)), abs(ranges.hull(draft, 1)))
-    wide = raw if raw < 1 << 33 else max(abs(ranges.hull(draft, 0)), abs(ranges.hull(draft, 1)))
-    numerator = (wide * rule.offset.denominator + abs(rule.offset.numerator)) * abs(down)
-    hint = "narrow the range of the point or of the points in its scale"
-    if numerator > _EXACT or abs(up) * rule.offset.denominator > _EXACT:
-        ranges.report.error("float-path", "some values of this point cannot be exact in a double", span, hint)
-    elif 2 * numerator * 10**decimals > _INT64 or 2 * abs(up) * rule.offset.denominator * 10**decimals > _INT64:
-        ranges.report.error(
-            "integer-path",
-            f"counts of 10^-{decimals} units do not fit into 64 bits",
-            span,
-            f"{hint}, or give fewer `decimals`",
-        )
+            down *= most
+    part = rule.offset.denominator
+    numerator = (raw * part + abs(rule.offset.numerator)) * down
+    if numerator > _EXACT or up * part > _EXACT:
+        return "float-path", "some values of this point cannot be exact in a double", _NARROW
+    if 2 * max(numerator, up * part) * 10**decimals > _INT64:
+        message = f"counts of 10^-{decimals} units do not fit into 64 bits"
+        return "integer-path", message, f"{_NARROW}, or give fewer `decimals`"
+    return None

@@ -5,64 +5,68 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from fieldscribe.diagnostics import Span
-from fieldscribe.families import FAMILIES
 from fieldscribe.model import TYPES, TypeInfo
 from fieldscribe.resolve.drafts import Draft
-from fieldscribe.resolve.scope import Scope, unknown_name
-from fieldscribe.resolve.values import interval
+from fieldscribe.resolve.scope import Scope
+from fieldscribe.resolve.values import integer
 
 
 @dataclass(slots=True)
 class Index:
-    """Drafts by name and by code; a code that several points carry (a record's) names none of them."""
+    """Drafts by name (several where variants differ) and by code; a code that several points carry names none of them."""
 
-    by_name: dict[str, Draft]
+    scope: Scope
+    by_name: dict[str, list[Draft]]
     by_code: dict[str, list[Draft]]
     by_items: dict[str, Draft]
 
-    def find(self, word: str) -> Draft | None:
-        """The point that a formula or an erratum means by `word`: its name, or a code that only one point has."""
-        found = self.by_name.get(word)
-        if found is not None:
-            return found
-        coded = self.by_code.get(word, [])
-        return coded[0] if len({draft.name for draft in coded}) == 1 else None
+    def find(self, word: str, variant: str | None = None) -> Draft | None:
+        """The point that a formula or an erratum means by `word`: its name, or a code that only one point has.
+
+        Of a point that differs by variant it is the one of this variant, else the first.
+        """
+        found = self.by_name.get(word) or self.by_code.get(word, [])
+        if not found or (len(found) > 1 and any(draft.name != found[0].name for draft in found)):
+            return None
+        return next((draft for draft in found if draft.variant == variant), found[0])
 
     def by_item(self, item: str) -> Draft:
         """The point of that item name, which a formula was resolved to."""
         return self.by_items[item]
 
+    def siblings(self, draft: Draft) -> list[Draft]:
+        """The point in all its variants."""
+        return self.by_name[draft.name]
+
     def all(self, word: str) -> list[Draft]:
         """Every point that `word` names: itself, or all that carry the code."""
-        found = self.by_name.get(word)
-        return [found] if found is not None else self.by_code.get(word, [])
+        return self.by_name.get(word) or self.by_code.get(word, [])
 
-    def hint(self, word: str) -> str:
-        """What an unknown word may have meant."""
+    def unknown(self, word: str, span: Span) -> None:
+        """A finding for a word that means no point, or too many."""
         several = self.by_code.get(word, [])
+        hint = None
         if several:
-            return f"`{word}` is the code of {len(several)} points; name one of them, such as `{several[0].name}`"
-        return unknown_name(word, [*self.by_name, *self.by_code], "points")
+            hint = f"`{word}` is the code of {len(several)} points; name one of them, such as `{several[0].name}`"
+        self.scope.unknown("unknown-point", "point", word, span, [*self.by_name, *self.by_code], "points", hint)
 
 
 def index_of(scope: Scope, drafts: list[Draft]) -> Index:
-    """All drafts by name and code; two points of one name (not variants of each other) are a finding, the second is dropped."""
-    index = Index({}, {}, {})
+    """All drafts by name and code; two points of one name that are not variants are a finding, the second is dropped."""
+    index = Index(scope, {}, {}, {})
     kept = []
     for draft in drafts:
-        first = index.by_name.get(draft.name)
-        if first is not None and not (draft.variant and first.variant and draft.own is first.own):
+        known = index.by_name.setdefault(draft.name, [])
+        first = next((one for one in known if not _differ(one, draft)), None)
+        if first is not None:
             related = [(first.span(), "first given here")]
+            hint = "names are unique in a device; a point that differs by variant says so under `variants`"
             scope.report.error(
-                "duplicate-name",
-                f"two points have the name `{draft.name}`",
-                draft.span(),
-                "names are unique in a device",
-                related,
+                "duplicate-name", f"two points have the name `{draft.name}`", draft.span(), hint, related
             )
             continue
-        index.by_name.setdefault(draft.name, draft)
-        index.by_items[draft.item] = draft
+        known.append(draft)
+        index.by_items.setdefault(draft.item, draft)
         if draft.code is not None:
             index.by_code.setdefault(draft.code, []).append(draft)
         kept.append(draft)
@@ -70,67 +74,87 @@ def index_of(scope: Scope, drafts: list[Draft]) -> Index:
     return index
 
 
+def _differ(one: Draft, other: Draft) -> bool:
+    """Whether the two are one point in two variants."""
+    return one.variant is not None and other.variant not in (None, one.variant) and one.layers[1] is other.layers[1]
+
+
 def space_of(scope: Scope, draft: Draft) -> str:
-    """The point's address space; a finding if the family has none of that name."""
+    """The point's address space; a finding, and the family's first space of words, if there is none of that name."""
     space = str(draft.get("space"))
-    known = FAMILIES[scope.family].spaces
-    if space not in known:
-        scope.report.error(
-            "unknown-space",
-            f"the family {scope.family} has no space `{space}`",
-            draft.span("space"),
-            f"known: {', '.join(known)}",
-        )
-    return space
+    known = scope.family.spaces
+    if space in known:
+        return space
+    scope.unknown(
+        "unknown-space",
+        f"space of the family {scope.header['family']} called",
+        space,
+        draft.span("space"),
+        known,
+        "space",
+    )
+    draft.failed.add("space")
+    return next(name for name, holds in known.items() if holds == "word")
 
 
-def bits_of(scope: Scope, draft: Draft) -> tuple[int, int] | None:
+def bits_of(scope: Scope, draft: Draft, space: str) -> tuple[int, int] | None:
     """The (highest, lowest) bit that the point takes of its word, or None for the whole."""
     text = draft.get("bits")
     if text is None:
         return None
-    high_text, dots, low_text = str(text).partition("..")
-    found = interval(f"{low_text}..{high_text}" if dots else high_text, draft.span("bits"), scope.report)
-    if found is None:
-        return None
-    if found[1] > 15:
+    span = draft.span("bits")
+    if scope.family.spaces[space] == "bit":
         scope.report.error(
-            "bit-outside-word",
-            f"bit {found[1]} lies outside the 16-bit word",
-            draft.span("bits"),
-            "bits are numbered 15..0",
+            "bit-outside-word", f"the space `{space}` holds single bits, not words", span, "leave `bits` out"
         )
         return None
-    return found[1], found[0]
+    high_text, dots, low_text = str(text).partition("..")
+    high = integer(high_text.strip(), span, scope.report)
+    low = integer(low_text.strip(), span, scope.report) if dots else high
+    if high is None or low is None:
+        return None
+    if low > high:
+        hint = f"the higher bit stands first: {low}..{high}"
+        scope.report.error("range-reversed", f"bits `{text}` run upwards", span, hint)
+        return None
+    outside = next((bit for bit in (high, low) if not 0 <= bit <= 15), None)
+    if outside is not None:
+        message = f"bit {outside} lies outside the 16-bit word"
+        scope.report.error(
+            "bit-outside-word", message, span, "bits are numbered 15..0; bit 16 is bit 0 of the next address"
+        )
+        return None
+    return high, low
 
 
 def type_of(scope: Scope, draft: Draft, space: str, bits: tuple[int, int] | None) -> str:
     """The point's wire type: said, or what its space and bits ask for; a finding if they do not fit each other."""
-    family = FAMILIES[scope.family]
-    single = family.spaces.get(space) == "bit"
+    single = scope.family.spaces[space] == "bit"
     width = bits[0] - bits[1] + 1 if bits else None
     default = "bit" if single or width == 1 else "u8" if width is not None and width <= 8 else "u16"
     said = str(draft.get("type", default))
+    fault = None if "space" in draft.failed else _type_fault(said, space, single, width, default)
+    if fault is None:
+        return said
+    draft.failed.add("type")
+    span = draft.span("type" if draft.layer("type") is not None else "space")
+    scope.report.error(fault[0], fault[1], span, fault[2])
+    return default
+
+
+def _type_fault(said: str, space: str, single: bool, width: int | None, default: str) -> tuple[str, str, str] | None:
+    """Rule, message and hint of what is wrong with the type, or None."""
     info: TypeInfo = TYPES[said]
-    if bits is None and single != (said == "bit"):
+    if width is not None:
+        if width <= info.bits <= 16 and not info.floating:
+            return None
+        return "bit-outside-word", f"{width} bits do not fit the type `{said}`", f"use `{default}`"
+    if single != (said == "bit"):
         message = (
             f"`{said}` does not fit the space `{space}`, which holds {'single bits' if single else '16-bit words'}"
         )
-        hint = "use `bit`" if single else "use `bits` to take one bit of a word"
-        scope.report.error("type-outside-space", message, _type_span(draft), hint)
-        return default
-    if bits is None and not single and info.bits < 16:
+        return "type-outside-space", message, "use `bit`" if single else "use `bits` to take one bit of a word"
+    if not single and info.bits < 16:
         message = f"`{said}` is smaller than the words of `{space}`"
-        scope.report.error(
-            "type-outside-space", message, _type_span(draft), "use u16 or s16, or say which `bits` of the word it takes"
-        )
-        return default
-    if width is not None and (width > info.bits or info.floating or info.bits > 16):
-        message = f"{width} bits do not fit the type `{said}`"
-        scope.report.error("bit-outside-word", message, _type_span(draft), f"use `{default}`")
-        return default
-    return said
-
-
-def _type_span(draft: Draft) -> Span:
-    return draft.span("type" if draft.layer("type") is not None else "space")
+        return "type-outside-space", message, "use u16 or s16, or say which `bits` of the word it takes"
+    return None

@@ -2,22 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 
-from fieldscribe.families import FAMILIES
 from fieldscribe.language.formula import FormulaError, condition_names, parse_condition
 from fieldscribe.language.nodes import Map
-from fieldscribe.model import TYPES, Enum, Place, Point, Special, Unit
+from fieldscribe.model import TYPES, Point, ScaleCase, Special, Unit
+from fieldscribe.resolve.addresses import Places
 from fieldscribe.resolve.allowed import Ranges
+from fieldscribe.resolve.bounds import Bounds
 from fieldscribe.resolve.drafts import Draft
 from fieldscribe.resolve.enums import enum_of, flags_of, specials_of
 from fieldscribe.resolve.integer_path import decimals_of
 from fieldscribe.resolve.names import Index, bits_of, space_of, type_of
 from fieldscribe.resolve.rules import Scales
-from fieldscribe.resolve.scope import PLAIN, Scope, source_of, titles, unknown_name
-from fieldscribe.resolve.values import formula_finding, formula_value, integer, number
+from fieldscribe.resolve.scope import PLAIN, Scope, source_of, titles
+from fieldscribe.resolve.values import formula_finding, integer, number
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,68 +49,82 @@ class Shape:
         return -(1 << (self.width - 1)) if signed else 0, (1 << (self.width - signed)) - 1
 
 
-def resolve_points(scope: Scope, drafts: list[Draft], index: Index) -> tuple[list[Resolved], Ranges]:
+def resolve_points(scope: Scope, drafts: list[Draft], index: Index) -> tuple[list[Resolved], Ranges, Places]:
     """All points of the device, computed; what is wrong with one is a finding and falls back to what is plain."""
-    shapes = {id(draft): _shape(scope, draft) for draft in drafts}
-    scales = Scales(scope, index)
-    widths = {key: shape.holds for key, shape in shapes.items()}
-    ranges = Ranges(scales, widths, {key: shape.specials for key, shape in shapes.items()})
-    return [Resolved(_point(scope, draft, shapes[id(draft)], scales, ranges), draft) for draft in drafts], ranges
+    shapes = {draft: _shape(scope, draft) for draft in drafts}
+    bounds = Bounds(
+        Scales(scope, index),
+        {draft: shape.holds for draft, shape in shapes.items()},
+        {draft: shape.specials for draft, shape in shapes.items()},
+    )
+    ranges = Ranges(bounds)
+    places = Places(scope)
+    found = [Resolved(_point(scope, draft, shape, places, ranges), draft) for draft, shape in shapes.items()]
+    return found, ranges, places
 
 
 def _shape(scope: Scope, draft: Draft) -> Shape:
     space = space_of(scope, draft)
-    bits = bits_of(scope, draft)
+    bits = bits_of(scope, draft, space)
     return Shape(space, type_of(scope, draft, space, bits), bits, specials_of(scope, draft))
 
 
-def _point(scope: Scope, draft: Draft, shape: Shape, scales: Scales, ranges: Ranges) -> Point:
-    address = _address(scope, draft)
-    closed = draft.layer("range") is None and draft.layer("range_in_units") is None and not draft.get("open", False)
-    enum = enum_of(scope, draft, closed)
-    floating = TYPES[shape.type].floating
-    cases = None if floating else scales.cases(draft)
-    access = str(draft.get("access", "rw"))
+def _point(scope: Scope, draft: Draft, shape: Shape, places: Places, ranges: Ranges) -> Point:
+    get = draft.get
+    address = places.address(draft)
+    ranged = draft.layer("range") is not None or draft.layer("range_in_units") is not None
+    enum = enum_of(scope, draft, closed=not ranged and not get("open", False))
+    cases = _cases(draft, ranges.bounds)
+    access = str(get("access", "rw"))
+    writable = "w" in access
     reason = _reason(draft, address, access)
-    places = () if address is None else (_place(scope, draft, shape, address, access),)
-    _existence(scope, draft, scales.index)
+    _existence(scope, draft, ranges.bounds.scales.index)
     return Point(
         name=draft.name,
         variant=draft.variant,
         code=draft.code,
         group=str(draft.group["group"]),
         space=shape.space,
-        places=places,
-        references=_references(scope, draft, address),
+        places=() if address is None else (places.place(draft, shape.space, shape.type, shape.bits, address),),
+        references=places.references(draft, address),
         type=shape.type,
         bits=shape.bits,
         access=access,
         title=draft.title,
-        note=titles(draft.get("note")),
+        note=titles(get("note")),
         unit=_unit(scope, draft),
         scale=cases,
-        decimals=decimals_of(draft, cases, ranges),
-        allowed=ranges.allowed(draft, enum, floating),
+        decimals=decimals_of(draft, cases, ranges.bounds),
+        allowed=ranges.allowed(draft, enum),
         default=_default(scope, draft),
         steps=_steps(scope, draft),
         enum=enum,
         flags=flags_of(scope, draft, shape.width),
         specials=shape.specials,
         record=draft.record,
-        set=draft.set,
-        changes=draft.get("changes"),
-        keeps=draft.get("keeps") if "w" in access else None,
-        conditions=tuple(draft.get("conditions", ())) if "w" in access else (),
-        when=draft.get("when"),
-        since=draft.get("since"),
-        until=draft.get("until"),
-        was=tuple(draft.get("was", ())),
-        reserved=bool(draft.get("reserved", False)),
+        set=draft.set_number,
+        changes=get("changes"),
+        keeps=get("keeps") if writable else None,
+        conditions=tuple(get("conditions", ())) if writable else (),
+        when=get("when"),
+        since=get("since"),
+        until=get("until"),
+        was=tuple(get("was", ())),
+        reserved=bool(get("reserved", False)),
         source=source_of(scope, *draft.layers, draft.group),
         errata=(),
         generated=reason is None,
         reason=reason,
     )
+
+
+def _cases(draft: Draft, bounds: Bounds) -> tuple[ScaleCase, ...] | None:
+    cases = None if draft.floating else bounds.scales.cases(draft)
+    for case in cases or ():
+        if case.rule.factors and not bounds.exponents_fit(case.rule, draft.span("scale")):
+            draft.failed.add("scale")
+            return None
+    return cases
 
 
 def _reason(draft: Draft, address: int | None, access: str) -> str | None:
@@ -123,88 +137,12 @@ def _reason(draft: Draft, address: int | None, access: str) -> str | None:
     return "not reachable over the bus" if access == "none" else None
 
 
-def _address(scope: Scope, draft: Draft) -> int | None:
-    raw = draft.get("at")
-    span = draft.span("at")
-    if draft.layer("at") is None:
-        scope.report.error(
-            "missing-key",
-            f"`{draft.name}` says no address",
-            draft.span(),
-            "add `at: …`, or `at: ~` if the manual prints none",
-        )
-        return None
-    if raw is None:
-        return None
-    exact = Fraction(raw) if isinstance(raw, int) else formula_value(str(raw), _base(scope, draft), span, scope.report)
-    if exact is None:
-        return None
-    address = exact.numerator
-    if exact.denominator != 1:
-        scope.report.error(
-            "bad-number", f"the address {exact} is not a whole number", span, "`at` is the number on the wire"
-        )
-        return None
-    last = FAMILIES[scope.family].last_address
-    if not 0 <= address <= last:
-        scope.report.error(
-            "address-outside-space",
-            f"the address {address} lies outside 0..{last}",
-            span,
-            "`at` is the number on the wire",
-        )
-        return None
-    return address
-
-
-def _base(scope: Scope, draft: Draft) -> Mapping[str, Fraction]:
-    """What an address may be computed from: the place where a record is used."""
-    use = draft.use
-    if use is None or use.get("at") is None:
-        return {}
-    base = integer(use["at"], use.span("at"), scope.report)
-    return {} if base is None else {"base": Fraction(base)}
-
-
-def _place(scope: Scope, draft: Draft, shape: Shape, address: int, access: str) -> Place:
-    count = 1 if shape.bits else max(1, TYPES[shape.type].bits // 16)
-    words = tuple(range(address, address + count))
-    if words[-1] > FAMILIES[scope.family].last_address:
-        message = f"the last word of `{draft.name}` lies outside the space"
-        scope.report.error("address-outside-space", message, draft.span("at"), "check the address and the type")
-    order = draft.get("words") or _bus_order(scope, shape.type)
-    purpose = "write" if access == "w" else "read"
-    return Place(purpose, shape.space, words[::-1] if order == "low first" else words, None)
-
-
-def _bus_order(scope: Scope, type_name: str) -> str:
-    said = next((file["bus"].get("words") for file in scope.files if "bus" in file), None)
-    if isinstance(said, Map):
-        return str(said.get(type_name, "high first"))
-    return str(said or "high first")
-
-
-def _references(scope: Scope, draft: Draft, address: int | None) -> Mapping[str, int | str]:
-    if address is None:
-        return {}
-    numbering: Map | None = draft.group.get("numbering")
-    known = {"wire": Fraction(address)}
-    for name, text in (numbering or {}).items():
-        assert numbering is not None
-        found = formula_value(text, known, numbering.span(name), scope.report)
-        if found is not None:
-            known[name] = found
-    return {name: int(found) for name, found in known.items() if name != "wire"}
-
-
 def _unit(scope: Scope, draft: Draft) -> Unit:
     symbol = draft.get("unit")
-    if symbol is None:
-        return PLAIN
-    found = scope.units.get(symbol)
+    found = PLAIN if symbol is None else scope.units.get(symbol)
     if found is None:
-        hint = unknown_name(symbol, list(scope.units), "units")
-        scope.report.error("unknown-unit", f"there is no unit `{symbol}`", draft.span("unit"), hint)
+        scope.unknown("unknown-unit", "unit", str(symbol), draft.span("unit"), scope.units, "units")
+        draft.failed.add("unit")
     return found or PLAIN
 
 
@@ -214,25 +152,31 @@ def _default(scope: Scope, draft: Draft) -> Fraction | None:
 
 
 def _steps(scope: Scope, draft: Draft) -> tuple[tuple[int, int], ...]:
-    raw: Map = draft.get("steps", {})
-    found = [(integer(key, raw.key_span(key), scope.report), step) for key, step in raw.items()]
-    return tuple(sorted((start, step) for start, step in found if start is not None))
+    raw: Map | None = draft.get("steps")
+    if raw is None:
+        return ()
+    found: dict[int, int] = {}
+    for key, step in raw.items():
+        start = integer(key, raw.key_span(key), scope.report)
+        if start is None:
+            continue
+        if start in found:
+            message = f"the steps from {start} on are given twice"
+            scope.report.error("duplicate-enum-value", message, raw.key_span(key), "remove one of them")
+        found.setdefault(start, step)
+    return tuple(sorted(found.items()))
 
 
 def _existence(scope: Scope, draft: Draft, index: Index) -> None:
     text = draft.get("when")
     if text is None:
         return
+    span = draft.span("when")
     try:
         names = condition_names(parse_condition(text))
     except FormulaError as error:
-        formula_finding(error, draft.span("when"), scope.report)
+        formula_finding(error, span, scope.report)
         return
-    axes = scope.header.get("variants", {})
     for name in names:
-        if index.find(name.name) is None and name.name not in axes:
-            place = draft.span("when")
-            message = f"there is no point and no variant axis `{name.name}`"
-            scope.report.error(
-                "unknown-point", message, place._replace(column=place.column + name.column), index.hint(name.name)
-            )
+        if index.find(name.name) is None and name.name not in scope.axes:
+            index.unknown(name.name, span._replace(column=span.column + name.column))

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterator
 from fractions import Fraction
 
 from fieldscribe.diagnostics import Span
-from fieldscribe.language.formula import Affine, FormulaError, parse_case, parse_scale, scale_rule
+from fieldscribe.language.formula import Affine, FormulaError, Part, parse_case, parse_scale, scale_rule
 from fieldscribe.language.nodes import Map
 from fieldscribe.model import Linear, ScaleCase
 from fieldscribe.resolve.drafts import Draft
@@ -16,89 +18,135 @@ from fieldscribe.resolve.values import formula_finding
 IDENTITY = Linear(Fraction(1), Fraction(0), ())
 
 
+class Unknown(Exception):
+    """A formula cannot be used; the finding is already reported."""
+
+
 class Scales:
     """The scale of every point, computed when first asked for; a point that needs itself is a finding."""
 
     def __init__(self, scope: Scope, index: Index) -> None:
         self.scope = scope
         self.index = index
-        self._known: dict[int, tuple[ScaleCase, ...] | None] = {}
-        self._open: list[Draft] = []
+        self._known: dict[Draft, tuple[ScaleCase, ...] | None] = {}
 
     def cases(self, draft: Draft) -> tuple[ScaleCase, ...] | None:
         """The cases of the point's scale; None where the raw number is the value (also after a finding)."""
-        key = id(draft)
-        if key not in self._known:
-            self._open.append(draft)
-            self._known[key] = self._cases(draft)
-            self._open.pop()
-        return self._known[key]
+        if draft not in self._known:
+            self._known[draft] = self._cases(draft)
+        return self._known[draft]
+
+    def affine(self, draft: Draft, name: str, part: Part, text: str, span: Span, in_scale: bool = False) -> Affine:
+        """A point's number in a formula of `draft`: raw * slope + intercept. Raises Unknown after a finding."""
+        used = self.index.find(name, draft.variant)
+        found = re.search(rf"\b{re.escape(name)}\b", text)
+        place = span._replace(column=span.column + (found.start() if found else 0), width=len(name))
+        if used is None:
+            self.index.unknown(name, place)
+            raise Unknown
+        if used.floating:
+            self._refuse(
+                place, f"`{name}` is a floating-point number and cannot stand in a formula", "use a whole number"
+            )
+        if part == "raw":
+            return Affine(used.item, Fraction(1), Fraction(0))
+        if in_scale and (chain := self._circle(draft, used)):
+            message = f"a scale that needs itself: {' needs '.join(f'`{one}`' for one in chain)}"
+            hint = f"use `{name}.raw`, or break the circle"
+            self.scope.report.error("scale-cycle", message, place, hint)
+            raise Unknown
+        rule = self._static(used, name, place)
+        if len({self.cases(one) for one in self.index.siblings(used)}) > 1 and used.variant != draft.variant:
+            self._refuse(
+                place, f"the scale of `{name}` differs by variant", f"use `{name}.raw`, or give `variants` here too"
+            )
+        return Affine(used.item, 1 / rule.ratio, -rule.offset / rule.ratio)
 
     def _cases(self, draft: Draft) -> tuple[ScaleCase, ...] | None:
         raw = draft.get("scale")
         if raw is None:
             return None
-        span = draft.span("scale")
         if isinstance(raw, str):
-            rule = self._rule(raw, span)
+            rule = self._rule(draft, raw, draft.span("scale"))
             return None if rule is None or rule == IDENTITY else (ScaleCase(None, None, rule),)
-        cases = [self._case(one) for one in raw]
-        return tuple(case for case in cases if case is not None) or None
+        seen: dict[tuple[str, int], Span] = {}
+        cases = tuple(case for one in raw if (case := self._case(draft, one, seen)) is not None)
+        if not cases:
+            draft.failed.add("scale")
+        return cases or None
 
-    def _case(self, one: Map) -> ScaleCase | None:
-        rule = self._rule(one["rule"], one.span("rule"))
+    def _case(self, draft: Draft, one: Map, seen: dict[tuple[str, int], Span]) -> ScaleCase | None:
+        rule = self._rule(draft, one["rule"], one.span("rule"))
+        place = one.span("when")
         try:
             name, constant = parse_case(one["when"])
         except FormulaError as error:
-            formula_finding(error, one.span("when"), self.scope.report)
+            formula_finding(error, place, self.scope.report)
+            draft.failed.add("scale")
             return None
-        chosen = self.index.find(name.name)
+        chosen = self.index.find(name.name, draft.variant)
         if chosen is None:
-            self.unknown(name.name, name.column, one.span("when"))
+            self.index.unknown(name.name, place._replace(column=place.column + name.column))
+            draft.failed.add("scale")
             return None
+        key = (chosen.item, constant)
+        if key in seen:
+            first = [(seen[key], "first given here")]
+            self.scope.report.error("duplicate-case", "two rules hold in this case", place, "remove one of them", first)
+        seen.setdefault(key, place)
         return None if rule is None else ScaleCase(chosen.item, constant, rule)
 
-    def _rule(self, text: str, span: Span) -> Linear | None:
+    def _rule(self, draft: Draft, text: str, span: Span) -> Linear | None:
         try:
-            return scale_rule(parse_scale(text), lambda name, part: self.affine(name, part, text, span))
+            return scale_rule(parse_scale(text), lambda name, part: self.affine(draft, name, part, text, span, True))
         except FormulaError as error:
             formula_finding(error, span, self.scope.report)
         except Unknown:
             pass
+        draft.failed.add("scale")
         return None
 
-    def affine(self, name: str, part: str, text: str, span: Span) -> Affine:
-        """A point's number in a formula: raw * slope + intercept."""
-        used = self.index.find(name)
-        if used is None:
-            self.unknown(name, max(0, text.find(name)), span)
-            raise Unknown
-        if part == "raw":
-            return Affine(used.item, Fraction(1), Fraction(0))
-        if used in self._open:
-            chain = " needs ".join(f"`{draft.name}`" for draft in [*self._open[self._open.index(used) :], used])
-            self.scope.report.error(
-                "scale-cycle",
-                f"a scale that needs itself: {chain}",
-                span,
-                "use `.raw` of one of them, or break the circle",
-            )
-            raise Unknown
+    def _static(self, used: Draft, name: str, place: Span) -> Linear:
+        """The rule of a point whose value another formula needs: it cannot need a third one."""
+        if any(True for _ in self._needs(used)) or isinstance(used.get("scale"), list):
+            self._refuse(place, f"the value of `{name}` itself depends on another point", f"use `{name}.raw`")
         cases = self.cases(used)
-        if cases is None:
-            return Affine(used.item, Fraction(1), Fraction(0))
-        if len(cases) > 1 or cases[0].rule.factors:
-            message = f"the value of `{name}` itself depends on another point"
-            self.scope.report.error("bad-formula", message, span, f"use `{name}.raw`, or write its rule out here")
+        if "scale" in used.failed:
             raise Unknown
-        rule = cases[0].rule
-        return Affine(used.item, 1 / rule.ratio, -rule.offset / rule.ratio)
+        return IDENTITY if cases is None else cases[0].rule
 
-    def unknown(self, name: str, column: int, span: Span) -> None:
-        """A finding for a name that no point has."""
-        place = span._replace(column=span.column + column, width=len(name))
-        self.scope.report.error("unknown-point", f"there is no point `{name}`", place, self.index.hint(name))
+    def _circle(self, draft: Draft, used: Draft) -> list[str]:
+        """The names from `draft` over `used` back to itself, if the values need each other in a circle."""
+        came_from: dict[Draft, Draft | None] = {used: None}
+        waiting = [used]
+        while waiting:
+            here = waiting.pop()
+            if here is draft:
+                chain = [here.name]
+                step = came_from[here]
+                while step is not None:
+                    chain.append(step.name)
+                    step = came_from[step]
+                return [draft.name, *reversed(chain)]
+            for needed in self._needs(here):
+                if needed not in came_from:
+                    came_from[needed] = here
+                    waiting.append(needed)
+        return []
 
+    def _needs(self, draft: Draft) -> Iterator[Draft]:
+        """The points whose values the scale of this one needs."""
+        raw = draft.get("scale")
+        for text in (raw,) if isinstance(raw, str) else (one["rule"] for one in raw or ()):
+            try:
+                uses = parse_scale(text).uses
+            except FormulaError:
+                continue
+            for name in uses:
+                found = self.index.find(name.name, draft.variant) if name.part == "value" else None
+                if found is not None:
+                    yield found
 
-class Unknown(Exception):
-    """A name in a formula could not be resolved; the finding is already reported."""
+    def _refuse(self, place: Span, message: str, hint: str) -> None:
+        self.scope.report.error("bad-formula", message, place, hint)
+        raise Unknown

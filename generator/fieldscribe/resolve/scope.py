@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
 from pathlib import Path
 
 from fieldscribe.diagnostics import Report, Span
+from fieldscribe.families import FAMILIES, Family
+from fieldscribe.language.files import Files
+from fieldscribe.language.hints import nearest, quoted
 from fieldscribe.language.load import load
 from fieldscribe.language.nodes import Map
 from fieldscribe.language.source import SourceFile
@@ -23,10 +26,12 @@ class Scope:
 
     files: tuple[Map, ...]
     report: Report
+    complete: bool
     units: Mapping[str, Unit] = field(default_factory=dict)
     formats: dict[str, Map] = field(default_factory=dict)
     records: dict[str, Map] = field(default_factory=dict)
-    enums: dict[str, Enum] = field(default_factory=dict)
+    named_enums: dict[str, Map] = field(default_factory=dict)
+    enums: dict[tuple[str, int, bool], Enum] = field(default_factory=dict)
     documents: dict[str, Document] = field(default_factory=dict)
 
     @property
@@ -35,42 +40,75 @@ class Scope:
         return self.files[0]
 
     @property
-    def family(self) -> str:
-        """The family's name."""
-        return str(self.header["family"])
+    def family(self) -> Family:
+        """The rules of the device's family."""
+        return FAMILIES[str(self.header["family"])]
 
-    def declared(self, section: str) -> Iterator[tuple[str, Map, Map]]:
-        """All (name, declaration, its file) of a section over all files; a name declared twice is a finding."""
+    @property
+    def axes(self) -> Mapping[str, Map]:
+        """The variant axes by name."""
+        found: Map = self.header.get("variants", {})
+        return found
+
+    @property
+    def bus(self) -> Map | None:
+        """The mapping under `bus`, from the file that says it."""
+        return next((file["bus"] for file in self.files if "bus" in file), None)
+
+    def declared(self, section: str) -> dict[str, Map]:
+        """All declarations of a section over all files, by name; a name declared twice is a finding."""
         seen: dict[str, Map] = {}
+        found: dict[str, Map] = {}
         for file in self.files:
             for name, value in file.get(section, {}).items():
                 if name in seen:
-                    here = file[section].key_span(name)
                     first = (seen[name].key_span(name), "first declared here")
+                    message = f"{quoted(name)} is declared twice under `{section}`"
                     self.report.error(
-                        "duplicate-name",
-                        f"`{name}` is declared twice under `{section}`",
-                        here,
-                        "rename one of them",
-                        [first],
+                        "duplicate-name", message, file[section].key_span(name), "rename one of them", [first]
                     )
                     continue
                 seen[name] = file[section]
-                yield name, value, file[section]
+                found[name] = value
+        return found
 
     def listed(self, section: str) -> Iterator[Map]:
         """All items of a list section over all files."""
         for file in self.files:
             yield from file.get(section, ())
 
+    def is_lost(self, word: str, section: str) -> bool:
+        """Whether a word that nothing is named may be the name of something that was dropped with a finding of its own."""
+        marks = {word, f"*{section}"}
+        return not self.complete or any(marks & file.file.lost for file in self.files)
 
-def open_scope(files: tuple[Map, ...], report: Report) -> Scope:
-    """The declarations of the files; `files[0]` is device.yaml."""
-    scope = Scope(files, report)
-    scope.units = {**shipped_units(), **_units(scope)}
-    scope.formats = {name: value for name, value, _ in scope.declared("formats")}
-    scope.records = {name: value for name, value, _ in scope.declared("records")}
-    for name, value in scope.header.get("documents", {}).items():
+    def unknown(
+        self, rule: str, what: str, word: str, span: Span, known: Collection[str], section: str, hint: str | None = None
+    ) -> None:
+        """A finding for a word that names nothing: what it should name, where it stands, what there is."""
+        if self.report.full or self.is_lost(word, section):
+            return
+        if hint is None:
+            near = nearest(word, tuple(known))
+            hint = f"did you mean `{near}`?" if near else _known(known, section)
+        self.report.error(rule, f"there is no {what} {quoted(word)}", span._replace(width=max(1, len(word))), hint)
+
+
+def _known(known: Collection[str], section: str) -> str:
+    if known and len(known) <= 12:
+        return f"known: {', '.join(known)}"
+    return f"declare it under `{section}`"
+
+
+def open_scope(files: Files, report: Report) -> Scope:
+    """The declarations of the files."""
+    scope = Scope(files.maps, report, files.complete)
+    units = {symbol: Unit(symbol, one["name"], one["quantity"]) for symbol, one in scope.declared("units").items()}
+    scope.units = {**shipped_units(), **units}
+    scope.formats = scope.declared("formats")
+    scope.records = scope.declared("records")
+    scope.named_enums = scope.declared("enums")
+    for name, value in scope.header["documents"].items():
         known = (str(value["title"]), str(value["language"]), value.get("file"), value.get("sha256"))
         scope.documents[name] = Document(name, *known)
     return scope
@@ -87,45 +125,30 @@ def shipped_units() -> Mapping[str, Unit]:
     return {symbol: Unit(symbol, one["name"], one["quantity"]) for symbol, one in table.items()}
 
 
-def _units(scope: Scope) -> dict[str, Unit]:
-    return {symbol: Unit(symbol, str(one["name"]), str(one["quantity"])) for symbol, one, _ in scope.declared("units")}
-
-
 def titles(value: Map | str | None, otherwise: str = "") -> Titles:
     """A title by language from its YAML; `otherwise` is the English one when there is none."""
     if value is None:
         return {"en": otherwise} if otherwise else {}
-    return {"en": value} if isinstance(value, str) else {key: str(text) for key, text in value.items()}
+    if isinstance(value, str):
+        return {"en": value}
+    return dict(value) if "en" in value else {"en": otherwise, **value}
 
 
 def source_of(scope: Scope, *layers: Map) -> Source:
-    """The source that the layers (own facts first) give together."""
+    """The source that the layers (own facts first) give together; without a document, the first one."""
     found: dict[str, object] = {}
     for layer in layers:
-        for key in ("line", "section", "page"):
+        for key in ("line", "section", "page", "document"):
             if key in layer:
                 found.setdefault(key, layer[key])
-        for key, value in layer.get("source", {}).items() if isinstance(layer.get("source"), Map) else ():
-            found.setdefault(key, value)
+        if "source" in layer and isinstance(layer["source"], Map):
+            for key, value in layer["source"].items():
+                found.setdefault(key, value)
     document = str(found.get("document") or next(iter(scope.documents), ""))
-    line = found.get("line")
-    section, page = found.get("section"), found.get("page")
+    line, section, page = found.get("line"), found.get("section"), found.get("page")
     return Source(
         document,
         None if section is None else str(section),
         None if page is None else str(page),
         line if isinstance(line, int) else None,
     )
-
-
-def unknown_name(word: str, known: list[str], what: str) -> str:
-    """A hint that names what is nearest to an unknown name."""
-    import difflib
-
-    near = difflib.get_close_matches(word, known, 1, 0.6)
-    return f"did you mean `{near[0]}`?" if near else f"declare it under `{what}`"
-
-
-def place(layer: Map, key: str) -> Span:
-    """Where a fact of a layer stands."""
-    return layer.span(key)

@@ -42,7 +42,8 @@ def interval(text: str, span: Span, report: Report) -> tuple[int, int] | None:
     if low is None or high is None:
         return None
     if low > high:
-        report.error("range-reversed", f"`{text}` runs downwards", span, f"write {high}..{low} if that is meant")
+        message = f"`{text}` runs downwards"
+        report.error("range-reversed", message, span, f"write {high_text.strip()}..{low_text.strip()}")
         return None
     return low, high
 

@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING
 
-from fieldscribe.model import Device
-from fieldscribe.render import Render
+from fieldscribe.targets.c.clashes import clashes
 from fieldscribe.targets.c.conformance import conformance_view
 from fieldscribe.targets.c.device import device_view
 from fieldscribe.targets.c.modbus import modbus_view
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+    from fieldscribe.model import Device
+    from fieldscribe.render import Render
 
 
 def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
@@ -27,3 +32,6 @@ def runtime(device: Device) -> Iterator[tuple[str, str]]:
     if device.family == "modbus":
         yield "c/fieldscribe_modbus.h", "c/runtime/fieldscribe_modbus.h"
     yield "c/fieldscribe_conformance.h", "c/runtime/fieldscribe_conformance.h"
+
+
+__all__ = ["clashes", "outputs", "runtime"]

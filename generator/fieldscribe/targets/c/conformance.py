@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
-from fieldscribe.model import Device, Point
 from fieldscribe.names import upper
 from fieldscribe.targets.c.literals import raw_type
 from fieldscribe.targets.c.points import special_defines, value_type
-from fieldscribe.targets.c.scope import Scope
-from fieldscribe.targets.c.views import DeviceView, PointView
+
+if TYPE_CHECKING:
+    from fieldscribe.model import Device, Point, Special
+    from fieldscribe.targets.c.scope import Scope
+    from fieldscribe.targets.c.views import DeviceView, PointView
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,10 +78,13 @@ def _adapter(point: Point, view: PointView, scope: Scope) -> AdapterView:
         point.arguments if view.declare_all else (),
         tuple(f"FIELDSCRIBE_{case}" for case in cases),
         tuple((flag.name, _flag(point, view, flag.name, flag.width)) for flag in point.flags),
-        tuple(
-            (special.name, *(name for name, _ in special_defines(special, view.macro))) for special in point.specials
-        ),
+        tuple(_special(special, view) for special in point.specials),
     )
+
+
+def _special(special: Special, view: PointView) -> tuple[str, str, str]:
+    (first, _), (last, _) = special_defines(special, view.macro)
+    return special.name, first, last
 
 
 def _conversions(point: Point, view: PointView, scope: Scope) -> list[str]:

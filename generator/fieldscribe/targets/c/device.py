@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from fieldscribe import __version__
-from fieldscribe.model import Device, Point
 from fieldscribe.names import upper
 from fieldscribe.targets.c.points import comment_lines, point_view
 from fieldscribe.targets.c.scope import Scope, scope_of
 from fieldscribe.targets.c.views import DeviceView, GroupView, Needs, PointView
 from fieldscribe.text import c_comment
+
+if TYPE_CHECKING:
+    from fieldscribe.model import Device, Point
 
 _FLOATS = {"round", "round_wide", "times", "times_wide", "real", "f32", "f64", "rules"}
 
@@ -23,18 +27,19 @@ def device_view(device: Device) -> tuple[DeviceView, Scope]:
         if not point.generated:
             by_group.setdefault(point.group, []).append((None, _remark(point, scope)))
             continue
-        view = point_view(point, scope)
-        by_group.setdefault(point.group, []).append((view, ()))
+        one = point_view(point, scope)
+        by_group.setdefault(point.group, []).append((one, ()))
         spaces.setdefault(point.space)
         for old in point.was:
-            aliases += _aliases(view, f"{scope.prefix}_{old}", f"{scope.upper}_{upper(old)}")
+            item = old + point.item[len(point.name) :]  # a variant keeps its suffix
+            aliases += _aliases(one, f"{scope.prefix}_{item}", f"{scope.upper}_{upper(item)}")
     titles = {group.name: group.title["en"] for group in device.groups}
     groups = tuple(
         GroupView(c_comment(titles.get(name, name)), tuple(entries)) for name, entries in by_group.items() if entries
     )
     view = DeviceView(
         head=head_lines(device),
-        title=c_comment(f"{device.vendor} {device.model}: {device.title['en']}"),
+        title=c_comment(f"{device.vendor} {device.model} ({device.title['en']})"),
         file=f"{device.id}.h",
         guard=f"{scope.upper}_H",
         prefix=scope.prefix,
@@ -63,8 +68,9 @@ def head_lines(device: Device) -> tuple[str, ...]:
 
 def function_names(view: PointView) -> list[str]:
     """Every function that the header defines for a point, but for the names of its enum."""
-    pair = ("_encode", "_decode") if view.shape in ("plain", "float") else ("_encode", "_decode", "_encode_count", "_decode_count")
-    tails = [tail for tail in pair if (view.writable if tail.startswith("_encode") else view.readable)]
+    counted = view.shape in ("scaled", "ruled")
+    tails = ["_encode", "_encode_count"][: 1 + counted] if view.writable else []
+    tails += ["_decode", "_decode_count"][: 1 + counted] if view.readable else []
     tails += ["_check"] if view.writable else []
     tails += ["_rule"] if view.shape == "ruled" else []
     tails += ["_to_words", "_from_words"] if view.words else []

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 from fieldscribe.model import Bound, Interval, Limit, Point
-from fieldscribe.targets.c.literals import INT32, raw_bounds, signed, unsigned
+from fieldscribe.targets.c.literals import INT32, bare, raw_bounds, unsigned
 from fieldscribe.targets.c.rules import limit_is_wide, limit_view
-from fieldscribe.targets.c.scope import Scope
 from fieldscribe.targets.c.views import CheckView, LimitView
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from fieldscribe.targets.c.scope import Scope
 
 _WIDTH = 100
 """How long a line of a test may grow."""
@@ -19,15 +23,25 @@ def refused_status(point: Point) -> str:
     return "UNKNOWN_VALUE" if point.enum is not None and point.enum.closed else "OUT_OF_RANGE"
 
 
-def check_view(point: Point, scope: Scope, arguments: tuple[str, ...]) -> CheckView:
+def check_view(point: Point, macro: str, scope: Scope, arguments: tuple[str, ...]) -> CheckView:
     """The check of a point whose raw number is an integer; `arguments` are the points that its limits need."""
     refused = f"{scope.upper}_{refused_status(point)}"
     bounds = raw_bounds(point)
     if arguments or not all(map(_is_fixed, point.allowed.intervals)):
         return _moving(point, scope, refused)
-    literal = signed if point.info.signed else unsigned
-    tests = [_test("raw", one.low, one.high, bounds, literal) for one in point.allowed.intervals]
-    return CheckView((), "", _union(tests), refused)
+    intervals = point.allowed.intervals
+    if len(intervals) == 1:
+        return CheckView((), "", _named_test("raw", macro, (intervals[0].low, intervals[0].high), bounds), refused)
+    literal = bare if point.info.signed else unsigned
+    tests = [interval_test("raw", one.low, one.high, bounds, literal) for one in intervals]
+    return CheckView((), "", any_of(tests), refused)
+
+
+def _named_test(name: str, macro: str, limits: tuple[Bound, Bound], bounds: tuple[int, int]) -> str:
+    """Whether a number lies within RAW_MIN and RAW_MAX, as far as its type holds more."""
+    tests = [f"{name} >= {macro}_RAW_MIN"] if limits[0] != bounds[0] else []
+    tests += [f"{name} <= {macro}_RAW_MAX"] if limits[1] != bounds[1] else []
+    return " && ".join(tests)
 
 
 def _moving(point: Point, scope: Scope, refused: str) -> CheckView:
@@ -47,15 +61,15 @@ def _moving(point: Point, scope: Scope, refused: str) -> CheckView:
                 ends.append(name)
             else:
                 ends.append(bound)
-        tests.append(_test("number", ends[0], ends[1], raw_bounds(point), signed))
-    return CheckView(tuple(limits), "int64_t" if wide else "int32_t", _union(tests), refused)
+        tests.append(interval_test("number", ends[0], ends[1], raw_bounds(point), bare))
+    return CheckView(tuple(limits), "int64_t" if wide else "int32_t", any_of(tests), refused)
 
 
 def _is_fixed(interval: Interval) -> bool:
     return isinstance(interval.low, int) and isinstance(interval.high, int)
 
 
-def _test(
+def interval_test(
     name: str, low: Bound | str, high: Bound | str, bounds: tuple[int, int], literal: Callable[[int], str]
 ) -> str:
     """One interval as a test; empty when the type holds nothing else. Comparisons that are always true are left out."""
@@ -69,7 +83,7 @@ def _test(
     return " && ".join(parts)
 
 
-def _union(tests: list[str]) -> str:
+def any_of(tests: list[str]) -> str:
     """The tests joined by `or`, in lines of a bearable length; empty when nothing is refused."""
     if len(tests) < 2:
         return tests[0] if tests else ""

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
 from functools import lru_cache
+from typing import TYPE_CHECKING
 
-from fieldscribe.model import Point
+if TYPE_CHECKING:
+    from fractions import Fraction
+
+    from fieldscribe.model import Point
 
 INT32 = (-(1 << 31), (1 << 31) - 1)
 INT64 = (-(1 << 63), (1 << 63) - 1)
@@ -57,6 +60,12 @@ def signed(number: int) -> str:
     if number >= 0:
         return str(number)
     return f"({number})" if number > INT64[0] else f"({number + 1} - 1)"
+
+
+@lru_cache(maxsize=65536)
+def bare(number: int) -> str:
+    """The same for one side of a comparison, where a minus needs no brackets."""
+    return str(number) if INT64[0] < number <= INT64[1] else signed(number)
 
 
 @lru_cache(maxsize=65536)

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
-from fieldscribe.model import Block, Command, Device, Place, Point
 from fieldscribe.names import upper
 from fieldscribe.targets.c.literals import hexadecimal, raw_type, unsigned
-from fieldscribe.targets.c.scope import Scope
-from fieldscribe.targets.c.views import Define, DeviceView, PointView
 from fieldscribe.text import c_comment
+
+if TYPE_CHECKING:
+    from fieldscribe.model import Block, Command, Device, Place, Point
+    from fieldscribe.targets.c.scope import Scope
+    from fieldscribe.targets.c.views import Define, DeviceView, PointView
 
 _MOST = {1: 2000, 2: 2000, 3: 125, 4: 125, 5: 1, 6: 1, 8: 1, 15: 1968, 16: 123}
 """The functions that the frames know, with the protocol's own limits."""
@@ -72,7 +75,11 @@ def modbus_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
     """The view of `<device>_modbus.h`."""
     bus = device.bus
     functions = tuple(
-        (hexadecimal(code.number, 2), f"{min(code.most or _MOST[code.number], _MOST[code.number])}U", c_comment(code.name))
+        (
+            hexadecimal(code.number, 2),
+            f"{min(code.most or _MOST[code.number], _MOST[code.number])}U",
+            c_comment(code.name),
+        )
         for code in bus.functions
         if code.number in _MOST
     )

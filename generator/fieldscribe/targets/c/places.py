@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
-from fieldscribe.model import Point
+from typing import TYPE_CHECKING
+
 from fieldscribe.targets.c.literals import hexadecimal, raw_type
-from fieldscribe.targets.c.scope import Scope
 from fieldscribe.targets.c.views import BitsView, WordsView
+
+if TYPE_CHECKING:
+    from fieldscribe.model import Point
+    from fieldscribe.targets.c.scope import Scope
 
 
 def words_view(point: Point, scope: Scope) -> WordsView | None:
@@ -25,27 +29,27 @@ def words_view(point: Point, scope: Scope) -> WordsView | None:
         (index, f"(uint16_t)(bits >> {shift})" if shift else "(uint16_t)(bits & 0xFFFFU)")
         for shift, index in sorted(shifts, key=lambda one: one[1])
     )
-    joined = " | ".join(f"(({bits})words[{index}] << {shift})" if shift else f"words[{index}]" for shift, index in shifts)
+    joined = " | ".join(
+        f"(({bits})words[{index}] << {shift})" if shift else f"words[{index}]" for shift, index in shifts
+    )
     if info.signed:
         joined = f"{scope.helper(f'signed{info.bits}')}({joined})"
     return WordsView(point.words, bits, stores, joined)
 
 
-def bits_view(point: Point, scope: Scope) -> BitsView | None:
+def bits_view(point: Point, macro: str, scope: Scope) -> BitsView | None:
     """Conversions between raw and the word it shares; None for points with words of their own."""
     if point.bits is None:
         return None
-    low, width, target = point.bits[1], point.width, raw_type(point)
-    ones = (1 << width) - 1
-    field = f"(uint16_t)(word >> {low})" if low else "word"
-    field = f"{field} & {hexadecimal(ones, 1)}"
+    target, low = raw_type(point), point.bits[1]
+    field = f"((uint32_t)word & {macro}_MASK) >> {macro}_SHIFT" if low else f"word & {macro}_MASK"
     if target == "bool":
-        extract = f"(word & {hexadecimal(ones << low)}) != 0U"
+        extract = f"(word & {macro}_MASK) != 0U"
     elif point.info.signed:
-        extract = f"({target}){scope.helper('signed')}({field}, {hexadecimal(1 << (width - 1), 1)})"
+        sign = hexadecimal(1 << (point.width - 1), 1)
+        extract = f"({target}){scope.helper('signed')}((uint16_t)({field}), {sign})"
     else:
         extract = f"({target})({field})"
     number = "(raw ? 1U : 0U)" if target == "bool" else "(uint16_t)raw"
-    shifted = f"((uint32_t){number} << {low})" if low else f"(uint32_t){number}"
-    kept = hexadecimal(0xFFFF & ~(ones << low))
-    return BitsView(extract, f"(uint16_t)((word & {kept}) | ({shifted} & {hexadecimal(ones << low)}))")
+    shifted = f"(uint32_t){number} << {macro}_SHIFT" if low else f"(uint32_t){number}"
+    return BitsView(extract, f"(uint16_t)((word & ~(uint32_t){macro}_MASK) | (({shifted}) & {macro}_MASK))")

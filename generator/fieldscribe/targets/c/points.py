@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import textwrap
+from typing import TYPE_CHECKING
 
 from fieldscribe.exact import number_text
-from fieldscribe.model import Enum, Flag, Point, Special
 from fieldscribe.names import upper
-from fieldscribe.targets.c.limits import check_view
+from fieldscribe.targets.c.limits import any_of, check_view, interval_test
 from fieldscribe.targets.c.literals import (
     VALUE_BOUNDS,
+    bare,
     hexadecimal,
     outer_limits,
+    raw_bounds,
     raw_type,
     real,
     signed,
@@ -20,10 +22,13 @@ from fieldscribe.targets.c.literals import (
 from fieldscribe.targets.c.places import bits_view, words_view
 from fieldscribe.targets.c.rules import ruled_view
 from fieldscribe.targets.c.scales import scaled_view
-from fieldscribe.targets.c.scope import Scope
 from fieldscribe.targets.c.views import Codec, Define, EnumView, FlagView, FloatView, PlainView, PointView
 from fieldscribe.text import c_comment, c_string
 from fieldscribe.wording import access_text, range_text, raw_range_text, resolution_text, with_unit
+
+if TYPE_CHECKING:
+    from fieldscribe.model import Enum, Flag, Point, Special
+    from fieldscribe.targets.c.scope import Scope
 
 _COMMENT_WIDTH = 114
 
@@ -33,8 +38,8 @@ def point_view(point: Point, scope: Scope) -> PointView:
     macro = f"{scope.upper}_{upper(point.item)}"
     low, high = (0, 0) if point.info.floating else outer_limits(point)
     scale, limits = point.scale_arguments, point.limit_arguments
-    shape, codec = _codec(point, scope, low, high, scale)
-    check = check_view(point, scope, limits) if point.writable and shape != "float" else None
+    shape, codec = _codec(point, macro, scope, (low, high), scale)
+    check = check_view(point, macro, scope, limits) if point.writable and shape != "float" else None
     kind = raw_type(point)
     declare_scale, declare_limits = scope.declare(scale), scope.declare(limits)
     return PointView(
@@ -61,8 +66,10 @@ def point_view(point: Point, scope: Scope) -> PointView:
         declare_limits=declare_limits,
         pass_limits=scope.place(limits),
         words=words_view(point, scope),
-        bits=bits_view(point, scope),
-        flags=tuple(_flag_view(flag, point, scope) for flag in point.flags if flag.width > 1) if point.flags else (),
+        bits=bits_view(point, macro, scope),
+        flags=tuple(_flag_view(flag, point, macro, scope) for flag in point.flags if flag.width > 1)
+        if point.flags
+        else (),
     )
 
 
@@ -110,22 +117,24 @@ def _range(point: Point) -> str:
 
 def _wrapped(text: str) -> list[str]:
     cleaned = c_comment(text)
-    return [cleaned] if len(cleaned) <= _COMMENT_WIDTH else textwrap.wrap(cleaned, _COMMENT_WIDTH, break_long_words=False)
+    return (
+        [cleaned] if len(cleaned) <= _COMMENT_WIDTH else textwrap.wrap(cleaned, _COMMENT_WIDTH, break_long_words=False)
+    )
 
 
-def _codec(point: Point, scope: Scope, low: int, high: int, arguments: tuple[str, ...]) -> tuple[str, Codec]:
+def _codec(
+    point: Point, macro: str, scope: Scope, outer: tuple[int, int], arguments: tuple[str, ...]
+) -> tuple[str, Codec]:
+    """The shape of the point's functions, and their view; `arguments` are the points that its scale needs."""
     form = point.form
     if form == "scaled":
-        if arguments:
-            return "ruled", ruled_view(point, scope, low, high)
-        return "scaled", scaled_view(point, scope, low, high)
+        return ("ruled", ruled_view(point, scope)) if arguments else ("scaled", scaled_view(point, scope, *outer))
     if form == "float":
         return "float", _float_view(point, scope)
     kind = value_type(point)
     least, greatest = VALUE_BOUNDS[kind]
-    tests = [f"value < {signed(low)}"] if low > least else []
-    if high < greatest:
-        tests.append(f"value > {unsigned(high) if kind == 'uint64_t' else signed(high)}")
+    tests = [f"value < {macro}_RAW_MIN"] if outer[0] > least else []
+    tests += [f"value > {macro}_RAW_MAX"] if outer[1] < greatest else []
     return "plain", PlainView(kind, " || ".join(tests))
 
 
@@ -185,7 +194,8 @@ def _enum_view(enum: Enum, point: Point, scope: Scope) -> EnumView | None:
         return None
     scope.enums.add(enum.name)
     prefix = enum_prefix(point, scope)
-    entries, cases = [], {}
+    entries: list[tuple[str, str, str]] = []
+    cases: dict[int, tuple[str, str]] = {}
     for entry in enum.entries:
         name = f"{prefix}_{upper(entry.name)}"
         title = c_comment(entry.title["en"])
@@ -193,23 +203,21 @@ def _enum_view(enum: Enum, point: Point, scope: Scope) -> EnumView | None:
         cases.setdefault(entry.raw, (name, c_string(entry.name)))
     fits = all(-(1 << 15) <= entry.raw < 1 << 15 for entry in enum.entries)
     function = f"{scope.prefix}_{enum.name}_name"
-    return EnumView(c_comment(enum.title["en"]), tuple(entries), tuple(cases.values()), fits, function, value_type(point))
+    return EnumView(
+        c_comment(enum.title["en"]), tuple(entries), tuple(cases.values()), fits, function, value_type(point)
+    )
 
 
-def _flag_view(flag: Flag, point: Point, scope: Scope) -> FlagView:
-    kind = raw_type(point).replace("int", "uint").replace("uuint", "uint")
-    mask = hexadecimal((1 << flag.width) - 1, 1)
-    number = f"(raw >> {flag.low}) & {mask}" if flag.low else f"raw & {mask}"
-    return FlagView(f"{scope.prefix}_{point.item}_{flag.name}", kind, f"({kind})({number})")
+def _flag_view(flag: Flag, point: Point, macro: str, scope: Scope) -> FlagView:
+    kind = f"uint{point.info.bits}_t"
+    name = f"{macro}_{upper(flag.name)}"
+    number = "(uint64_t)raw" if kind == "uint64_t" else "(uint32_t)raw"
+    return FlagView(
+        f"{scope.prefix}_{point.item}_{flag.name}", kind, f"({kind})(({number} & {name}_MASK) >> {name}_SHIFT)"
+    )
 
 
 def _no_value(point: Point) -> str:
-    literal = signed if point.info.signed else unsigned
-    tests = []
-    for special in point.specials:
-        if special.no_value and special.low == special.high:
-            tests.append(f"raw == {literal(special.low)}")
-        elif special.no_value:
-            tests.append(f"(raw >= {literal(special.low)} && raw <= {literal(special.high)})")
-    return " || ".join(tests)
-
+    literal = bare if point.info.signed else unsigned
+    codes = [special for special in point.specials if special.no_value]
+    return any_of([interval_test("raw", code.low, code.high, raw_bounds(point), literal) for code in codes])

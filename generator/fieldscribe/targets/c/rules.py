@@ -2,22 +2,24 @@
 
 from __future__ import annotations
 
-from fieldscribe.model import Factor, Limit, Linear, Point, ScaleCase
-from fieldscribe.targets.c.literals import INT32, INT64, outer_limits, raw_bounds, signed
-from fieldscribe.targets.c.scope import Scope
+from typing import TYPE_CHECKING
+
+from fieldscribe.targets.c.literals import INT32, INT64, bare, outer_limits, raw_bounds, signed
 from fieldscribe.targets.c.views import LimitView, RuleCase, RuledView, Step
 
+if TYPE_CHECKING:
+    from fieldscribe.model import Factor, Limit, Linear, Point, ScaleCase
+    from fieldscribe.targets.c.scope import Scope
 
-def ruled_view(point: Point, scope: Scope, low: int, high: int) -> RuledView:
-    """The rule function of a point, case by case; `low` and `high` are the outer raw limits."""
+
+def ruled_view(point: Point, scope: Scope) -> RuledView:
+    """The rule function of a point, case by case."""
     cases = tuple(_case(case, scope) for case in point.scale or ())
     scope.used.add("rules")
     return RuledView(
         cases=cases,
         total=any(not case.test for case in cases),
         tens=signed(10**point.decimals),
-        low=signed(low),
-        high=signed(high),
         pass_scale=scope.place(point.scale_arguments),
     )
 
@@ -25,8 +27,8 @@ def ruled_view(point: Point, scope: Scope, low: int, high: int) -> RuledView:
 def limit_view(limit: Limit, name: str, is_low: bool, scope: Scope) -> LimitView:
     """The statements' parts that compute one limit into the variable `name`."""
     start = limit.least if is_low else limit.greatest
-    tests = [f"{point}_raw != {signed(raw)}" for point, raws in limit.unless for raw in raws]
-    applies, clamp = " && ".join(tests), f"{name} {'<' if is_low else '>'} {signed(start)}"
+    tests = [f"{point}_raw != {bare(raw)}" for point, raws in limit.unless for raw in raws]
+    applies, clamp = " && ".join(tests), f"{name} {'<' if is_low else '>'} {bare(start)}"
     simple = _simple(limit.rule, scope)
     if simple is None:
         scope.used.add("rules")
@@ -39,9 +41,7 @@ def limit_view(limit: Limit, name: str, is_low: bool, scope: Scope) -> LimitView
 
 def limit_is_wide(limit: Limit, scope: Scope) -> bool:
     """Whether a limit may need more than 32 bits on its way."""
-    if any(factor.ten_to for factor in limit.rule.factors):
-        return True
-    return _reach(limit.rule, scope) > INT32[1]
+    return _simple(limit.rule, scope) is None or _reach(limit.rule, scope) > INT32[1]
 
 
 def _never_negative(rule: Linear, scope: Scope) -> bool:
@@ -49,7 +49,7 @@ def _never_negative(rule: Linear, scope: Scope) -> bool:
 
 
 def _case(case: ScaleCase, scope: Scope) -> RuleCase:
-    test = f"{case.point}_raw == {signed(case.raw or 0)}" if case.point is not None else ""
+    test = f"{case.point}_raw == {bare(case.raw or 0)}" if case.point is not None else ""
     return _rule(case.rule, scope, test)
 
 
@@ -82,13 +82,13 @@ def _beyond(factor: Factor, scope: Scope) -> str:
     point = scope.points[factor.point]
     low, high = outer_limits(point)
     least, greatest = raw_bounds(point)
-    tests = [f"{factor.point}_raw < {signed(low)}"] if low > least else []
-    tests += [f"{factor.point}_raw > {signed(high)}"] if high < greatest else []
+    tests = [f"{factor.point}_raw < {bare(low)}"] if low > least else []
+    tests += [f"{factor.point}_raw > {bare(high)}"] if high < greatest else []
     return " || ".join(tests)
 
 
 def _simple(rule: Linear, scope: Scope) -> tuple[str, tuple[str, ...]] | None:
-    """A limit as one expression, with the factors that must not be zero; None when 64 bits are not proven to suffice."""
+    """A limit as one expression and the factors that must not be zero; None when 64 bits are not proven to suffice."""
     factors, part = rule.factors, rule.offset.denominator
     positive = all(_bounds(factor, scope)[0] >= 0 for factor in factors if factor.power < 0)
     if any(factor.ten_to for factor in factors) or not positive or _reach(rule, scope) > INT64[1]:
@@ -115,7 +115,7 @@ def _product(constant: int, names: list[str], cast: str) -> str:
 
 
 def _number(factor: Factor, cast: str) -> str:
-    """raw * slope + intercept of a factor, in brackets where it is more than a name."""
+    """Raw * slope + intercept of a factor, in brackets where it is more than a name."""
     text = f"({cast}){factor.point}_raw"
     if factor.slope != 1:
         text = f"{text} * {signed(factor.slope)}"

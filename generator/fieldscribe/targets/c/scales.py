@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
 from math import gcd
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
-from fieldscribe.model import Linear, Point
-from fieldscribe.targets.c.literals import EXACT_FLOAT, INT32, INT64, raw_bounds, raw_type, real, signed
-from fieldscribe.targets.c.scope import Scope
+from fieldscribe.targets.c.literals import EXACT_FLOAT, INT32, INT64, bare, raw_bounds, raw_type, real, signed
 from fieldscribe.targets.c.views import ScaledView
+
+if TYPE_CHECKING:
+    from fieldscribe.model import Linear, Point
+    from fieldscribe.targets.c.scope import Scope
 
 
 class Plan(NamedTuple):
@@ -36,10 +37,20 @@ def scaled_view(point: Point, scope: Scope, low: int, high: int) -> ScaledView:
     """The functions' expressions for a scale without run-time factors; `low` and `high` are the outer raw limits."""
     assert point.scale is not None
     rule = point.scale[0].rule
+    ratio, offset = rule.ratio, rule.offset
+    numbers = ratio.numerator, ratio.denominator, offset.numerator, offset.denominator  # hashed faster than fractions
+    key = (*numbers, point.decimals, point.type, point.access, low, high)
+    known = scope.scales.get(key)
+    if known is None:
+        known = scope.scales[key] = _scaled_view(point, rule, scope, low, high)
+    return known
+
+
+def _scaled_view(point: Point, rule: Linear, scope: Scope, low: int, high: int) -> ScaledView:
     plan = _plan(rule, point.decimals, raw_bounds(point), low, high)
     limits = INT64 if plan.count_wide else INT32
-    tests = [f"count < {signed(plan.counts[0])}"] if plan.counts[0] > limits[0] else []
-    tests += [f"count > {signed(plan.counts[1])}"] if plan.counts[1] < limits[1] else []
+    tests = [f"count < {bare(plan.counts[0])}"] if plan.counts[0] > limits[0] else []
+    tests += [f"count > {bare(plan.counts[1])}"] if plan.counts[1] < limits[1] else []
     narrow = _is_float(plan, rule, low, high)
     wide = not narrow
     if point.writable:
@@ -52,21 +63,20 @@ def scaled_view(point: Point, scope: Scope, low: int, high: int) -> ScaledView:
         real="double" if wide else scope.helper("real"),
         round=f"{scope.prefix}_round_wide" if wide else f"{scope.prefix}_round",
         whole_type="int64_t" if wide else "int32_t",
-        low=signed(low),
-        high=signed(high),
         scaled=_scaled(rule, scope, wide) if point.writable else "",
         value_of_raw=_value_of_raw(plan, "double" if wide else f"{scope.prefix}_real"),
     )
 
 
-@lru_cache(maxsize=4096)
 def _plan(rule: Linear, decimals: int, raws: tuple[int, int], low: int, high: int) -> Plan:
     ratio, offset = rule.ratio, rule.offset
     p = ratio.numerator * offset.denominator
     r = ratio.denominator * offset.denominator * 10**decimals
     p, q, r = _reduced(p, offset.numerator * ratio.denominator * 10**decimals, r)
     a, b, c = _reduced(
-        offset.denominator * ratio.denominator, offset.numerator * ratio.denominator, offset.denominator * ratio.numerator
+        offset.denominator * ratio.denominator,
+        offset.numerator * ratio.denominator,
+        offset.denominator * ratio.numerator,
     )
     ends = [_divided(raw * r - q, p) for raw in raws]
     count_wide = not (INT32[0] <= min(ends) and max(ends) <= INT32[1])
@@ -130,8 +140,10 @@ def _linear(name: str, factor: int, add: int, cast: str) -> str:
 
 def _raw_of_count(plan: Plan, scope: Scope, target: str) -> str:
     cast = ""
-    if plan.encode_wide != plan.count_wide and plan.r != 1:
-        cast = "int64_t" if plan.encode_wide else "int32_t"
+    if plan.encode_wide and not plan.count_wide:
+        cast = "int64_t"
+    elif plan.count_wide and not plan.encode_wide and plan.r != 1:
+        cast = "int32_t"
     number = _linear("count", plan.p, plan.q, cast)
     if plan.r != 1:
         helper = scope.helper("divide_wide" if plan.encode_wide else "divide")
@@ -141,10 +153,12 @@ def _raw_of_count(plan: Plan, scope: Scope, target: str) -> str:
 
 def _count_of_raw(plan: Plan, scope: Scope) -> str:
     sign = 1 if plan.p > 0 else -1
+    if plan.p == plan.r == 1 and plan.q == 0:
+        return "raw"
     number = _linear("raw", plan.r * sign, -plan.q * sign, "int64_t" if plan.decode_wide else "int32_t")
-    if abs(plan.p) == 1:
-        return "raw" if number.endswith(")raw") else number
-    return f"{scope.helper('divide_wide' if plan.decode_wide else 'divide')}({number}, {abs(plan.p)})"
+    if abs(plan.p) != 1:
+        number = f"{scope.helper('divide_wide' if plan.decode_wide else 'divide')}({number}, {abs(plan.p)})"
+    return f"(int32_t)({number})" if plan.decode_wide and not plan.count_wide else number
 
 
 def _scaled(rule: Linear, scope: Scope, wide: bool) -> str:
@@ -163,6 +177,7 @@ def _scaled(rule: Linear, scope: Scope, wide: bool) -> str:
 
 def _value_of_raw(plan: Plan, real_type: str) -> str:
     plain = plan.a == 1 and plan.b == 0
-    number = "raw" if plain else f"({_linear('raw', plan.a, -plan.b, 'int64_t' if plan.numerator > INT32[1] else 'int32_t')})"
+    cast = "int64_t" if plan.numerator > INT32[1] else "int32_t"
+    number = "raw" if plain else f"({_linear('raw', plan.a, -plan.b, cast)})"
     text = f"({real_type}){number}"
     return text if plan.c == 1 else f"{text} / {plan.c}"

@@ -1,18 +1,26 @@
-"""What the view of one device shares while it is built: prefixes, points by name, and the helpers that turned out to be needed."""
+"""What the view of one device shares while it is built: prefixes, points by name, which helpers are needed."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
-from fieldscribe.model import Device, Point
 from fieldscribe.names import upper
 from fieldscribe.targets.c.literals import raw_type
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from fieldscribe.model import Device, Point
+    from fieldscribe.targets.c.views import ScaledView
 
 
 @dataclass(slots=True)
 class Scope:
-    """The namespace of one device; `used` collects the names of shared helpers, `enums` the enums already placed."""
+    """The namespace of one device.
+
+    `used` collects the names of shared helpers, `enums` the enums already placed, `scales` what points share.
+    """
 
     prefix: str
     upper: str
@@ -20,6 +28,7 @@ class Scope:
     errata: Mapping[str, str]
     used: set[str] = field(default_factory=set)
     enums: set[str] = field(default_factory=set)
+    scales: dict[tuple[object, ...], ScaledView] = field(default_factory=dict)
 
     def helper(self, name: str) -> str:
         """The identifier of a shared helper, which the header will then hold."""
@@ -42,6 +51,7 @@ def scope_of(device: Device) -> Scope:
         points.setdefault(point.name, point)
         points.setdefault(point.item, point)
     lines = {
-        one.id: f"Erratum {one.id} ({one.certainty}): printed {one.printed}; taken {one.taken}." for one in device.errata
+        one.id: f"Erratum {one.id} ({one.certainty}): printed {one.printed}; taken {one.taken}."
+        for one in device.errata
     }
     return Scope(device.id, upper(device.id), points, lines)

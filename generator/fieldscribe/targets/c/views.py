@@ -1,4 +1,4 @@
-"""What the C templates see: final identifiers, literals, masks, expressions and comment text, nothing left to decide."""
+"""What the C templates see: final identifiers, literals, masks, expressions and comments, nothing left to decide."""
 
 from __future__ import annotations
 
@@ -91,8 +91,6 @@ class ScaledView:
     real: str
     round: str
     whole_type: str
-    low: str
-    high: str
     scaled: str
     value_of_raw: str
 
@@ -104,8 +102,6 @@ class RuledView:
     cases: tuple[RuleCase, ...]
     total: bool
     tens: str
-    low: str
-    high: str
     pass_scale: str
 
 

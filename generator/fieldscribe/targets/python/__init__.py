@@ -24,6 +24,7 @@ _RUNTIME = (
     "descriptors",
     "device",
     "errors",
+    "facts",
     "forms",
     "handles",
     "modbus",

@@ -128,8 +128,8 @@ def _by_variant(points: list[Point], scope: Scope) -> PointView:
     if old_names:
         scope.used.add("renamed")
     arguments = (python_string(axis), laid_out(Group("{", tuple(chosen), "}"), _BODY))
-    doc = python_doc(f"{points[0].title['en']}, as the device's {axis} has it.")
-    return PointView(attribute(points[0].name), "ByVariant", arguments, (doc,), old_names)
+    doc = _wrapped(python_doc(f"{points[0].title['en']}, as the device's {axis} has it."))
+    return PointView(attribute(points[0].name), "ByVariant", arguments, tuple(doc), old_names)
 
 
 def _doc(point: Point, errata: Mapping[str, Erratum], by_name: Mapping[str, Point]) -> tuple[str, ...]:
@@ -140,8 +140,8 @@ def _doc(point: Point, errata: Mapping[str, Erratum], by_name: Mapping[str, Poin
     lines = _wrapped(python_doc(first if first.endswith(".") else f"{first}."))
     for one in point.errata:
         erratum = errata[one]
-        facts = f"printed {erratum.printed}; taken {erratum.taken}"
-        text = f"Erratum {erratum.id} ({erratum.certainty}): {facts}. {erratum.why}"
+        facts = f"printed: {erratum.printed.rstrip('.')}; taken: {erratum.taken.rstrip('.')}"
+        text = f"Erratum {erratum.id} ({erratum.certainty}), {facts}. {erratum.why}"
         lines += ("", *_wrapped(python_doc(text)))
     return tuple(lines)
 

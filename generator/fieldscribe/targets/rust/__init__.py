@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING
 
-from fieldscribe.model import Device
-from fieldscribe.render import Render
 from fieldscribe.targets.rust.conformance import conformance_tables
 from fieldscribe.targets.rust.device import device_context
+from fieldscribe.targets.rust.subjects import scope_of
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+    from fieldscribe.model import Device
+    from fieldscribe.render import Render
 
 _SOURCES = ("lib", "points", "enums", "flags", "with")
 _RUNTIME = (
@@ -28,12 +33,13 @@ _RUNTIME = (
 
 def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     """The generated files: path relative to the output folder, and text."""
-    context = device_context(device)
+    scope = scope_of(device)
+    context = device_context(device, scope)
     folder = f"rust/{device.id}"
     yield f"{folder}/Cargo.toml", render("rust/Cargo.toml.j2", context)
     for name in _SOURCES:
         yield f"{folder}/src/{name}.rs", render(f"rust/{name}.rs.j2", context)
-    suite = {**context, "tables": conformance_tables(device)}
+    suite = {**context, "tables": conformance_tables(scope)}
     yield f"{folder}/tests/conformance.rs", render("rust/conformance.rs.j2", suite)
 
 

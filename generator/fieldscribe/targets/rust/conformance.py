@@ -2,82 +2,89 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
-from fieldscribe.model import Device, Point
-from fieldscribe.targets.rust.literals import raw_type, type_name, value_name
-from fieldscribe.targets.rust.points import Scope, scope_of
+from fieldscribe.targets.rust.literals import type_name, value_name
+from fieldscribe.targets.rust.words import getter_name
 from fieldscribe.text import rust_string
 
-_PLAIN = ("integer", "enum", "flags", "bit")
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
 
+    from fieldscribe.targets.rust.subjects import Scope, Subject
 
 Table = tuple[str, str, tuple[str, ...]]
 """The function that a table becomes, the runner's function behind it, and its rows."""
 
 
-def conformance_tables(device: Device) -> tuple[Table, ...]:
+def conformance_tables(scope: Scope) -> tuple[Table, ...]:
     """The tables by kind; rows are tokens that the runner's macro reads."""
-    scope = scope_of(device)
-    points = [point for point in device.points if point.generated]
-    plain = [point for point in points if not _mixed(point, scope)]
-    mixed = [point for point in points if _mixed(point, scope)]
-    alone = [(point, f"{rust_string(point.item)} {type_name(point.item)} (alone)") for point in points]
+    scaled = [one for one in scope.subjects if one.form == "scaled"]
+    floats = [one for one in scope.subjects if one.form == "float"]
+    whole = [one for one in scope.subjects if one.form not in ("scaled", "float")]
+    plain = [one for one in whole if one.carried == one.raw]
+    mixed = [one for one in whole if one.carried != one.raw]
+    read_scaled, write_scaled = tuple(_reads(scaled)), tuple(_writes(scaled))
+    write_plain, write_mixed = tuple(_writes(plain)), tuple(_writes(mixed))
     return (
-        ("decode", "decode", tuple(_rows(points, ("scaled", "float"), read=True))),
-        ("encode", "encode", tuple(_rows(points, ("scaled", "float"), read=False))),
-        ("decode_count", "decode_count", tuple(_rows(points, ("scaled",), read=True))),
-        ("decode_plain", "decode_plain", tuple(_rows(plain, _PLAIN, read=True))),
-        ("decode_mixed", "decode_count", tuple(_rows(mixed, _PLAIN, read=True))),
-        ("encode_count", "encode_count", tuple(_rows(points, ("scaled",), read=False))),
-        ("encode_plain", "encode_plain", tuple(_rows(plain, _PLAIN, read=False))),
-        ("encode_mixed", "encode_count", tuple(_rows(mixed, _PLAIN, read=False))),
-        ("check", "check", tuple(_rows(points, (*_PLAIN, "scaled"), read=False))),
-        ("name", "name", tuple(_names(points, scope))),
-        ("special", "special", tuple(_specials(points))),
-        ("flag", "flag", tuple(_flags(points))),
-        ("bits", "bits", tuple(row for point, row in alone if point.bits)),
-        ("words", "words", tuple(row for point, row in alone if point.words > 1)),
-        ("address", "address", tuple(row for _, row in alone)),
+        ("decode", "decode", (*read_scaled, *_reads(floats))),
+        ("encode", "encode", (*write_scaled, *_writes(floats))),
+        ("decode_count", "decode_count", read_scaled),
+        ("decode_plain", "decode_plain", tuple(_reads(plain))),
+        ("decode_mixed", "decode_count", tuple(_reads(mixed))),
+        ("encode_count", "encode_count", write_scaled),
+        ("encode_plain", "encode_plain", write_plain),
+        ("encode_mixed", "encode_count", write_mixed),
+        ("check", "check", (*write_scaled, *write_plain, *write_mixed)),
+        ("name", "name", tuple(_names(whole))),
+        ("special", "special", tuple(_specials(scope.subjects))),
+        ("flag", "flag", tuple(_flags(whole))),
+        ("bits", "bits", tuple(_row(one, "alone") for one in scope.subjects if one.point.bits)),
+        ("words", "words", tuple(_row(one, "alone") for one in scope.subjects if one.point.words > 1)),
+        ("address", "address", tuple(_row(one, "alone") for one in scope.subjects)),
     )
 
 
-def _rows(points: list[Point], forms: tuple[str, ...], *, read: bool) -> Iterator[str]:
-    for point in points:
-        if point.form in forms and (point.readable if read else point.writable):
-            name = type_name(point.item)
-            names = point.scale_arguments if read else point.arguments
-            struct = f"{name}Factors" if read and point.scale_arguments != point.arguments else name
-            fields = " ".join(f"{value_name(one)} {rust_string(one)}" for one in names)
-            yield f"{rust_string(point.item)} {name} ({f'{struct}: {fields}' if names else ''})"
+def _row(subject: Subject, how: str) -> str:
+    return f"{rust_string(subject.point.item)} {subject.name} ({how})"
 
 
-def _mixed(point: Point, scope: Scope) -> bool:
-    """Whether points of several raw types share the point's enum."""
-    return point.form == "enum" and point.enum is not None and scope.enums[point.enum.name] != raw_type(point)
+def _reads(subjects: Iterable[Subject]) -> Iterator[str]:
+    for one in subjects:
+        if "r" in one.point.access:
+            yield _row(one, _arguments(one.factors_type, one.factors))
 
 
-def _names(points: list[Point], scope: Scope) -> Iterator[str]:
-    for point in points:
-        if point.enum is not None and point.form == "enum":
-            yield f"{rust_string(point.item)} {type_name(point.enum.name)} (enum {scope.enums[point.enum.name]})"
+def _writes(subjects: Iterable[Subject]) -> Iterator[str]:
+    for one in subjects:
+        if "w" in one.point.access:
+            yield _row(one, _arguments(one.with_type, one.arguments))
 
 
-def _specials(points: list[Point]) -> Iterator[str]:
-    for point in points:
-        for one in point.specials:
-            kind = "one" if one.low == one.high else "several"
-            yield f"{rust_string(f'{point.item} {one.name}')} {type_name(point.item)} ({kind} {one.name.upper()})"
+def _arguments(struct: str, names: tuple[str, ...]) -> str:
+    if not names:
+        return ""
+    fields = " ".join(f"{value_name(name)} {rust_string(name)}" for name in names)
+    return f"{struct.removeprefix('with::')}: {fields}"
 
 
-def _flags(points: list[Point]) -> Iterator[str]:
-    for point in points:
-        if point.form != "flags":
-            continue
-        for flag in point.flags:
-            # The getter is the one that the view of the word names.
-            convert = flag.name.startswith(("from_", "as_", "into_", "to_"))
-            getter = value_name(f"get_{flag.name}" if convert else flag.name)
-            how = ("on" if flag.active else "off") if flag.width == 1 else "bits"
-            name = rust_string(f"{point.item} {flag.name}")
-            yield f"{name} {type_name(point.item)} ({how} {raw_type(point)} {getter} with_{flag.name})"
+def _names(subjects: Iterable[Subject]) -> Iterator[str]:
+    for one in subjects:
+        if one.enum is not None:
+            yield f"{rust_string(one.point.item)} {type_name(one.enum.name)} (enum {one.carried})"
+
+
+def _specials(subjects: Iterable[Subject]) -> Iterator[str]:
+    for one in subjects:
+        for special in one.point.specials:
+            kind = "one" if special.low == special.high else "several"
+            yield f"{rust_string(f'{one.point.item} {special.name}')} {one.name} ({kind} {special.name.upper()})"
+
+
+def _flags(subjects: Iterable[Subject]) -> Iterator[str]:
+    for one in subjects:
+        if one.form == "flags":
+            for flag in one.point.flags:
+                how = ("on" if flag.active else "off") if flag.width == 1 else "bits"
+                calls = f"{how} {one.raw} {getter_name(flag.name)} with_{flag.name}"
+                yield f"{rust_string(f'{one.point.item} {flag.name}')} {one.name} ({calls})"

@@ -1,52 +1,63 @@
-"""What the doc comments of a point say: what it is, where it is, what it means, what is doubtful."""
+"""What doc comments say, from names and numbers alone: titles, notes and the words of errata are in the documentation.
+
+So a corrected title touches no code, as it touches no digest.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING
 
-from fieldscribe.model import Device, Erratum, Point, Titles
-from fieldscribe.text import rust_doc
+from fieldscribe.text import line
+from fieldscribe.wording import access_text, address_text, raw_range_text, resolution_text
 
-_ACCESS = {"r": "read only", "w": "write only", "rw": "read and write", "none": "not reachable"}
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
-
-def sentence(titles: Titles) -> str:
-    """The English title with a full stop."""
-    text = rust_doc(titles["en"])
-    return text if text.endswith((".", "!", "?")) else f"{text}."
+    from fieldscribe.model import Device, Point
 
 
-def point_doc(point: Point, errata: Mapping[str, Erratum]) -> tuple[str, ...]:
-    """The lines of a point's doc comment, without `///`; an empty line parts paragraphs."""
-    lines = [sentence(point.title), "", f"{', '.join(_facts(point))}."]
-    if point.note:
-        lines += ["", sentence(point.note)]
-    for name in point.errata:
-        erratum = errata[name]
-        lines += ["", rust_doc(f"Erratum {name} ({erratum.certainty}): printed {erratum.printed}; taken {erratum.taken}.")]
+def sentence(name: str) -> str:
+    """A name as the first sentence of a doc comment: `base_frequency` as `Base frequency.`."""
+    return f"{name.replace('_', ' ').capitalize()}."
+
+
+def quoted(text: str) -> str:
+    """Text as code in a doc comment, so that neither rustdoc nor clippy reads anything into it."""
+    return f"`{line(text).replace('`', chr(39))}`"
+
+
+def point_doc(point: Point) -> tuple[str, ...]:
+    """The lines of a point's doc comment behind `///`; an empty line parts paragraphs."""
+    lines = [f" {sentence(point.item)}", "", f" {', '.join(_facts(point))}."]
+    if point.errata:
+        lines += ["", f" Errata: {', '.join(f'`{name}`' for name in point.errata)}."]
     return tuple(lines)
 
 
 def left_out(device: Device) -> tuple[str, ...]:
     """One line for each point that is only documented."""
     return tuple(
-        rust_doc(f"{point.item}{f' ({point.code})' if point.code else ''}: {point.reason}.")
+        f"`{point.item}`{f' ({quoted(point.code)})' if point.code else ''}"
         for point in device.points
         if not point.generated
     )
 
 
 def _facts(point: Point) -> Iterator[str]:
-    if point.code:
-        yield rust_doc(point.code)
-    words = f"{point.address:04X}h" if point.address is not None else "no address"
+    where = f"{point.space} {address_text(min(point.places[0].addresses))}"
     bits = f" bits {point.bits[0]} to {point.bits[1]}" if point.bits else ""
-    yield f"{rust_doc(point.space)} {words}{bits}"
+    yield f"{quoted(point.code)} at {where}{bits}" if point.code else f"At {where}{bits}"
     yield f"`{point.type}`"
-    if point.unit.symbol:
-        yield f"in {rust_doc(point.unit.symbol)}"
-    yield _ACCESS.get(point.access, rust_doc(point.access))
+    if point.form != "float":
+        span = raw_range_text(point)
+        if span:
+            yield f"raw {quoted(span)}"
+    if point.form in ("scaled", "float"):
+        resolution = resolution_text(point)
+        if resolution:
+            yield f"steps of {quoted(resolution)}"
+    yield access_text(point.access)
     if point.variant:
-        yield f"for {rust_doc(point.variant)}"
+        yield f"for {quoted(point.variant)}"
     if point.when:
-        yield f"only when {rust_doc(point.when)}"
+        yield f"only when {quoted(point.when)}"

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from functools import lru_cache
 
-from fieldscribe.model import Point
 from fieldscribe.names import RUST_RESERVED, pascal
 
 RAW_TYPES = {
@@ -21,11 +20,7 @@ _NOT_RAW = frozenset({"crate", "self", "super", "Self"})
 _UNGROUPED = 10_000
 
 
-def raw_type(point: Point) -> str:
-    """The Rust type of the point's raw number."""
-    return "bool" if point.form == "bit" else RAW_TYPES[point.type]
-
-
+@lru_cache(maxsize=32)
 def type_range(rust_type: str) -> tuple[int, int]:
     """The least and the greatest number of a Rust integer type or `bool`."""
     if rust_type == "bool":

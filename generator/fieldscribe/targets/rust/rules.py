@@ -2,25 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from math import gcd
+from typing import TYPE_CHECKING
 
 from fieldscribe.exact import inverse
 from fieldscribe.model import Bound, Factor, Limit, Linear, Point
 from fieldscribe.targets.rust.literals import float_literal, integer, type_range, value_name
 from fieldscribe.targets.rust.views import FactorView, LimitView, RuleView
 
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
 _EXACT = 1 << 53
-_ALWAYS = ""
+_PATTERN_WIDTH = 55
+"""rustfmt breaks the arguments of a macro that take more columns than these and `raw, ` before them."""
 _SOURCES = {"u32": 64, "i64": 64, "u64": 128}
 """The bits that a signed type needs to hold every number of these."""
 
 
 @dataclass(frozen=True, slots=True)
 class CountPath:
-    """The integer path of a fixed scale: the count's type, expressions, whether decoding can overflow, counts in bounds.
+    """The integer path of a fixed scale: the count's type, both ways, whether decoding can overflow, counts in bounds.
 
     Each way is an expression for `scaled` (empty if nothing is divided), and one for the result.
     """
@@ -41,14 +45,6 @@ def bounds(point: Point) -> tuple[int, int]:
     low = min(one.low if isinstance(one.low, int) else one.low.least for one in intervals)
     high = max(one.high if isinstance(one.high, int) else one.high.greatest for one in intervals)
     return max(low, point.least), min(high, point.greatest)
-
-
-def fixed(point: Point) -> Linear | None:
-    """The rule of a scale that needs no other point."""
-    if point.scale is None or len(point.scale) != 1:
-        return None
-    case = point.scale[0]
-    return case.rule if case.point is None and not case.rule.factors else None
 
 
 @lru_cache(maxsize=4096)
@@ -116,20 +112,21 @@ def run_time_rules(point: Point, points: Mapping[str, Point]) -> tuple[RuleView,
     """The cases of a scale that needs other points, in their order, up to one that always holds."""
     found: list[RuleView] = []
     for case in point.scale or ():
-        condition = _ALWAYS if case.point is None else f"{_raw_of(case.point)} == {integer(case.raw or 0)}"
+        held = "" if case.point is None else _raw_of(case.point)
         # Exponents last: a zero factor is reported before an exponent that is out of its bounds.
         factors = sorted(case.rule.factors, key=lambda factor: factor.ten_to)
-        found.append(_rule(case.rule, condition, [_factor(one, points, limit=False) for one in factors]))
+        found.append(_rule(case.rule, held, integer(case.raw or 0), [_factor(one, points, limit=False) for one in factors]))
         if case.point is None:
             break
     return tuple(found)
 
 
-def limit_views(point: Point, points: Mapping[str, Point]) -> tuple[tuple[LimitView, ...], tuple[str, ...]]:
+def limit_views(
+    point: Point, points: Mapping[str, Point], arguments: frozenset[str]
+) -> tuple[tuple[LimitView, ...], tuple[str, ...]]:
     """The limits to work out, and for each interval the condition that `number` lies in it."""
     views: list[LimitView] = []
     conditions: list[str] = []
-    arguments = frozenset(point.arguments)
     for place, one in enumerate(point.allowed.intervals, 1):
         if isinstance(one.low, int) and isinstance(one.high, int):
             conditions.append(f"matches!(number, {interval(one.low, one.high)})")
@@ -148,6 +145,33 @@ def interval(low: int, high: int) -> str:
     return integer(low) if low == high else f"{integer(low)}..={integer(high)}"
 
 
+def merged(numbers: list[tuple[int, int]]) -> list[tuple[int, int]]:
+    """The intervals in ascending order, neighbours joined."""
+    found: list[tuple[int, int]] = []
+    for low, high in sorted(numbers):
+        if found and low <= found[-1][1] + 1:
+            found[-1] = (found[-1][0], max(high, found[-1][1]))
+        else:
+            found.append((low, high))
+    return found
+
+
+def patterns(numbers: list[tuple[int, int]], rust_type: str) -> tuple[str, ...]:
+    """Conditions, each short enough for one line, of which one holds if `raw` is in one of the intervals."""
+    if rust_type == "bool":
+        return ("raw" if numbers[0][0] else "!raw",)
+    lines: list[list[str]] = [[]]
+    width = 0
+    for low, high in merged(numbers):
+        part = interval(low, high)
+        if width + len(part) > _PATTERN_WIDTH:
+            lines.append([])
+            width = 0
+        lines[-1].append(part)
+        width += len(part) + 3
+    return tuple(f"matches!(raw, {' | '.join(line)})" for line in lines)
+
+
 def outer(bound: Bound, *, lower: bool) -> int:
     """The number that a bound never goes beyond."""
     if isinstance(bound, int):
@@ -160,14 +184,14 @@ def _limit(local: str, limit: Limit, points: Mapping[str, Point], arguments: fro
     unless = tuple(
         (_raw_of(name), " | ".join(map(integer, codes))) for name, codes in limit.unless if name in arguments
     )
-    rule = _rule(limit.rule, _ALWAYS, [_factor(one, points, limit=True) for one in limit.rule.factors])
+    rule = _rule(limit.rule, "", "", [_factor(one, points, limit=True) for one in limit.rule.factors])
     bound = integer(outer(limit, lower=lower))
     return LimitView(local, unless, bound, rule, f"max({bound})" if lower else f"min({bound})")
 
 
-def _rule(rule: Linear, condition: str, factors: list[FactorView]) -> RuleView:
+def _rule(rule: Linear, held: str, code: str, factors: list[FactorView]) -> RuleView:
     numbers = (rule.ratio.numerator, rule.ratio.denominator, rule.offset.numerator, rule.offset.denominator)
-    return RuleView(condition, ", ".join(map(integer, numbers)), tuple(factors))
+    return RuleView(held, code, ", ".join(map(integer, numbers)), tuple(factors))
 
 
 def _factor(factor: Factor, points: Mapping[str, Point], *, limit: bool) -> FactorView:
@@ -187,7 +211,7 @@ def _factor(factor: Factor, points: Mapping[str, Point], *, limit: bool) -> Fact
 
 
 def _raw_of(name: str) -> str:
-    return f"runtime::Raw::to_i64(with.{value_name(name)})"
+    return f"with.{value_name(name)}"
 
 
 def _reduced(multiply: int, add: int, divide: int) -> tuple[int, int, int]:
@@ -221,7 +245,7 @@ def _counts(encoded: tuple[int, int, int], low: int, high: int) -> tuple[int, in
 
 
 def _wide(type_: str, rule: tuple[int, int, int], ends: tuple[int, int]) -> int:
-    """The bits of the narrowest signed type that holds a number of the type between `ends`, and all that is made of it."""
+    """The bits of the narrowest signed type that holds what is made of the type's numbers between `ends`."""
     multiply, add, divide = rule
     products = [end * multiply for end in ends]
     numbers = (*ends, *products, *(product + add for product in products), multiply, add, divide)

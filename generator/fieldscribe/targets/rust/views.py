@@ -17,16 +17,17 @@ class FactorView:
 
 @dataclass(frozen=True, slots=True)
 class RuleView:
-    """A rule under a condition (empty: always): its constants and its factors."""
+    """A rule that holds where a raw number (empty: always) is a code: its constants and its factors."""
 
-    condition: str
+    held: str
+    code: str
     constants: str
     factors: tuple[FactorView, ...]
 
 
 @dataclass(frozen=True, slots=True)
 class LimitView:
-    """A limit that other points set: a local, what skips it (raw number, codes) and holds then, its rule, its outer bound."""
+    """A limit that other points set: a local, what skips it (raw number, codes), its bound then, rule and clamp."""
 
     local: str
     unless: tuple[tuple[str, str], ...]
@@ -86,11 +87,7 @@ class SpecialView:
     """A constant for raw numbers that are no quantity."""
 
     doc: str
-    name: str
-    label: str
-    type: str
-    literal: str
-    single: bool
+    lines: tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,17 +100,25 @@ class BitsView:
 
 
 @dataclass(frozen=True, slots=True)
+class OrderView:
+    """Words whose high part does not come first: how many, their names from the high part on, and by address."""
+
+    count: int
+    by_rank: str
+    by_address: str
+
+
+@dataclass(frozen=True, slots=True)
 class PointView:
     """One point."""
 
     doc: tuple[str, ...]
     alias: str
     name: str
-    item: str
     raw: str
     value: str
     constants: tuple[str, ...]
-    order: tuple[str, str, str, str] | None
+    order: OrderView | None
     bits: BitsView | None
     rules: tuple[RuleView, ...]
     factors: str
@@ -121,7 +126,7 @@ class PointView:
     read: ReadView | None
     write: WriteView | None
     specials: tuple[SpecialView, ...]
-    was: tuple[str, ...]
+    was: tuple[tuple[str, ...], ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -137,12 +142,13 @@ class ArgumentsView:
 
 @dataclass(frozen=True, slots=True)
 class EntryView:
-    """A variant of an enum."""
+    """A variant of an enum; `named` and `numbered` are the arms that turn it into its name and its number."""
 
     doc: str
     name: str
     literal: str
-    label: str
+    named: tuple[str, ...]
+    numbered: tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -158,20 +164,20 @@ class EnumView:
 
 @dataclass(frozen=True, slots=True)
 class FlagView:
-    """A flag: its mask, how it is read and set, its named numbers (doc, name, literal)."""
+    """A flag: its mask, how it is read and set, its named numbers (doc, constant)."""
 
     doc: str
-    label: str
     constant: str
     getter: str
-    setter: str
+    setter: tuple[str, ...]
     mask: str
     single: bool
     read: str
     full: bool
     placed: str
-    active: bool
-    values: tuple[tuple[str, str, str], ...]
+    when_true: str
+    when_false: str
+    values: tuple[tuple[str, tuple[str, ...]], ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -180,7 +186,6 @@ class FlagsView:
 
     doc: str
     name: str
-    item: str
     raw: str
     bits: str
     flags: tuple[FlagView, ...]

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
-from fieldscribe.model import Device, Enum, Flag, Point
 from fieldscribe.targets.rust.documentation import sentence
-from fieldscribe.targets.rust.literals import integer, mask, raw_type, type_name, value_name
-from fieldscribe.targets.rust.points import Scope
+from fieldscribe.targets.rust.layout import arm, binding, fields_of_self, signature
+from fieldscribe.targets.rust.literals import integer, mask, type_name, value_name
 from fieldscribe.targets.rust.views import ArgumentsView, EntryView, EnumView, FlagsView, FlagView
 from fieldscribe.text import rust_string
 
-_STRUCT_WIDTH = 18
-"""rustfmt puts the fields of a struct literal on lines of their own if they take more columns."""
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from fieldscribe.model import Device, Entry, Enum, Flag
+    from fieldscribe.targets.rust.subjects import Scope
 
 
 def enum_views(device: Device, scope: Scope) -> Iterator[EnumView]:
@@ -22,73 +24,79 @@ def enum_views(device: Device, scope: Scope) -> Iterator[EnumView]:
             yield _enum(enum, scope.enums[enum.name])
 
 
-def flags_views(device: Device) -> Iterator[FlagsView]:
+def getter_name(flag: str) -> str:
+    """The function that gets a flag; clippy wants what is named `from_` or `as_` to convert, which a flag does not."""
+    return f"get_{flag}" if flag.startswith(("from_", "as_", "into_", "to_")) else value_name(flag)
+
+
+def flags_views(scope: Scope) -> Iterator[FlagsView]:
     """The words with named bits."""
-    for point in device.points:
-        if point.generated and point.form == "flags":
-            bits = raw_type(point).replace("i", "u")
+    for subject in scope.subjects:
+        if subject.form == "flags":
+            point, bits = subject.point, subject.raw.replace("i", "u")
             flags = tuple(_flag(flag, bits) for flag in point.flags)
-            yield FlagsView(sentence(point.title), type_name(point.item), point.item, raw_type(point), bits, flags)
+            yield FlagsView(sentence(point.item), subject.name, subject.raw, bits, flags)
 
 
-def arguments_views(device: Device, scope: Scope) -> Iterator[ArgumentsView]:
+def arguments_views(scope: Scope) -> Iterator[ArgumentsView]:
     """The structs of raw numbers that points need."""
-    for point in device.points:
-        if not point.generated or not point.arguments:
+    for subject in scope.subjects:
+        if not subject.arguments:
             continue
-        name = type_name(point.item)
-        parted = bool(point.scale_arguments) and point.scale_arguments != point.arguments
-        part = f"{name}Factors" if parted else ""
+        item = subject.point.item
+        parted = bool(subject.factors) and subject.factors != subject.arguments
+        part = f"{subject.name}Factors" if parted else ""
         if parted:
-            doc = f"Raw numbers that the scale of `{point.item}` needs."
-            yield ArgumentsView(doc, part, _fields(point.scale_arguments, scope), "", ())
-        doc = f"Raw numbers that `{point.item}` needs."
-        literal = _struct_literal(point.scale_arguments) if parted else ()
-        yield ArgumentsView(doc, name, _fields(point.arguments, scope), part, literal)
+            doc = f"Raw numbers that the scale of `{item}` needs."
+            yield ArgumentsView(doc, part, _fields(subject.factors, scope), "", ())
+        literal = fields_of_self(8, part, tuple(map(value_name, subject.factors))) if parted else ()
+        doc = f"Raw numbers that `{item}` needs."
+        yield ArgumentsView(doc, subject.name, _fields(subject.arguments, scope), part, literal)
 
 
 def _fields(names: tuple[str, ...], scope: Scope) -> tuple[tuple[str, str, str], ...]:
-    return tuple((f"The raw number of `{name}`.", value_name(name), raw_type(scope.points[name])) for name in names)
-
-
-def _struct_literal(names: tuple[str, ...]) -> tuple[str, ...]:
-    """The lines between the braces; a single one if rustfmt would keep it on the line of the braces."""
-    fields = [f"{value_name(name)}: self.{value_name(name)}" for name in names]
-    return (", ".join(fields),) if len(", ".join(fields)) <= _STRUCT_WIDTH else (*(f"{one}," for one in fields), "")
+    return tuple((f"The raw number of `{name}`.", value_name(name), scope.raw_types[name]) for name in names)
 
 
 def _enum(enum: Enum, raw: str) -> EnumView:
-    entries = tuple(
-        EntryView(sentence(entry.title), type_name(entry.name), integer(entry.raw), rust_string(entry.name))
-        for entry in enum.entries
-    )
+    name = type_name(enum.name)
+    entries = tuple(_entry(entry, name) for entry in enum.entries)
     taken = {entry.name for entry in entries}
-    unknown = next(name for name in ("Unknown", "Other", "Unnamed", "Number") if name not in taken)
-    return EnumView(sentence(enum.title), type_name(enum.name), raw, entries, unknown)
+    unknown = next(one for one in ("Unknown", "Other", "Unnamed", "Number") if one not in taken)
+    return EnumView(sentence(enum.name), name, raw, entries, unknown)
+
+
+def _entry(entry: Entry, enum: str) -> EntryView:
+    name, literal = type_name(entry.name), integer(entry.raw)
+    named = arm(12, f"Self::{name}", f"Some({rust_string(entry.name)})")
+    return EntryView(sentence(entry.name), name, literal, named, arm(12, f"{enum}::{name}", literal))
 
 
 def _flag(flag: Flag, raw: str) -> FlagView:
     ones = (1 << flag.width) - 1
     bits = mask(ones << flag.low, raw)
     constant = flag.name.upper()
-    # clippy wants what is named `from_…` or `as_…` to convert, which a flag does not.
-    getter = f"get_{flag.name}" if flag.name.startswith(("from_", "as_", "into_", "to_")) else flag.name
     single = flag.width == 1
     full = ones << flag.low == (1 << int(raw[1:])) - 1
     masked = "self.0" if full else f"self.0 & Self::{constant}"
     number = masked if flag.low == 0 else f"({masked}) >> {flag.low}"
     placed = "number" if flag.low == 0 else f"(number << {flag.low})"
+    parameter = "state: bool" if single else f"number: {raw}"
+    states = (f"self.0 & !Self::{constant}", f"self.0 | Self::{constant}")
     return FlagView(
-        doc=sentence(flag.title),
-        label=flag.name,
+        doc=sentence(flag.name),
         constant=constant,
-        getter=value_name(getter),
-        setter=f"with_{flag.name}",
+        getter=getter_name(flag.name),
+        setter=signature(4, f"pub const fn with_{flag.name}", ("self", parameter), "Self"),
         mask=bits,
         single=single,
         read=f"{masked} {'!=' if flag.active else '=='} 0" if single else number,
         full=full,
         placed=placed,
-        active=bool(flag.active),
-        values=tuple((sentence(one.title), f"{constant}_{one.name.upper()}", integer(one.raw)) for one in flag.values),
+        when_true=states[flag.active],
+        when_false=states[1 - flag.active],
+        values=tuple(
+            (sentence(one.name), binding(4, f"pub const {constant}_{one.name.upper()}: {raw}", integer(one.raw)))
+            for one in flag.values
+        ),
     )

@@ -21,6 +21,7 @@ from .errors import (
     WrongLengthError,
     ZeroFactorError,
 )
+from .facts import Place, coil, discrete, holding, input_register
 from .forms import (
     BIT,
     F32,
@@ -40,7 +41,7 @@ from .forms import (
 )
 from .modbus import Profile
 from .planner import Block
-from .points import Place, Point, coil, discrete, holding, input_register
+from .points import Point
 from .quantities import Floating, OrNone, Scaled
 from .rules import Case, Factor, Limit, Rule
 from .session import PointTable, Value

@@ -9,7 +9,7 @@ from .errors import AccessError
 
 if TYPE_CHECKING:
     from .device import AsyncDevice, Device
-    from .points import Place
+    from .facts import Place
     from .session import Session, Steps
 
 

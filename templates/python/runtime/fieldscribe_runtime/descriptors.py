@@ -8,7 +8,8 @@ import warnings
 from typing import TYPE_CHECKING, Any, Generic, Never, TypeVar, Unpack, overload
 
 from .errors import AccessError
-from .points import Decoding, Encoding, FactArguments, Facts, Point
+from .facts import FactArguments, Facts
+from .points import Decoding, Encoding, Point
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Protocol, TypeVar
 
 from .commands import AsyncCommandHandle, Command, CommandHandle
 from .descriptors import ReadOnly, ReadWrite
+from .facts import Place
 from .handles import (
     AsyncReadHandle,
     AsyncReadWriteHandle,
@@ -18,11 +19,12 @@ from .handles import (
     WriteHandle,
 )
 from .planner import read_function
-from .points import Place, Point
 from .session import Session, Steps, Value
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
+
+    from .points import Point
 
 T = TypeVar("T")
 

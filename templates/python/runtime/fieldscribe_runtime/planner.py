@@ -11,7 +11,7 @@ from .modbus import READ_COILS, READ_DISCRETE, READ_HOLDING, READ_INPUT, READS, 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable
 
-    from .points import Place
+    from .facts import Place
 
 _READS = {"coil": READ_COILS, "discrete": READ_DISCRETE, "holding": READ_HOLDING, "input": READ_INPUT}
 

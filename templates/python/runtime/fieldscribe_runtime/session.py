@@ -7,14 +7,17 @@ Each operation is a generator: it yields the bytes of a request, is sent the byt
 from __future__ import annotations
 
 from collections.abc import Generator, Iterable, Mapping
-from typing import Any, ClassVar, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 from . import modbus
 from .descriptors import PointAttribute, ReadOnly, ReadWrite, WriteOnly
 from .errors import AccessError
 from .modbus import Profile, Request
 from .planner import Block, plan, read_function
-from .points import Decoding, Encoding, Place, Point
+from .points import Decoding, Encoding, Point
+
+if TYPE_CHECKING:
+    from .facts import Place
 
 T = TypeVar("T")
 Steps = Generator[bytes, bytes, T]

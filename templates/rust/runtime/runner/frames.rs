@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: 0BSD
 //! Vectors of Modbus frames and of batched reads.
 
-use fieldscribe_runtime::modbus::{Block, Profile, ReplyError, Request, LONGEST};
+use fieldscribe_runtime::modbus::{Block, BuildError, Profile, ReplyError, Request, LONGEST};
 
 use super::{same, Outcome, Vector};
 
@@ -18,7 +18,7 @@ pub fn build(vector: &Vector, profile: &Profile) -> Outcome {
     same(vector.text("bytes"), hex(&buffer[..length]).as_str())?;
     if length > 0 {
         let short = request.build(profile, &mut buffer[..length - 1]);
-        same(Err("buffer_too_small"), short.map_err(|error| error.name()))?;
+        same(Err("buffer_too_small"), short.map_err(BuildError::name))?;
     }
     Ok(())
 }
@@ -66,7 +66,9 @@ fn request<'a>(vector: &Vector, values: Option<&'a [u16]>) -> Request<'a> {
 }
 
 fn hex(bytes: &[u8]) -> String {
-    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+    bytes
+        .iter()
+        .fold(String::new(), |text, byte| format!("{text}{byte:02x}"))
 }
 
 fn bytes(text: &str) -> Vec<u8> {

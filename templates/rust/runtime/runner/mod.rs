@@ -165,10 +165,11 @@ fn number(value: &Value) -> Option<i128> {
 
 /// The two are equal.
 pub fn same<T: PartialEq + std::fmt::Debug>(expected: T, found: T) -> Outcome {
-    if expected == found {
+    let pair = (expected, found);
+    if pair.0 == pair.1 {
         Ok(())
     } else {
-        Err(format!("expected {expected:?}, found {found:?}"))
+        Err(format!("expected {:?}, found {:?}", pair.0, pair.1))
     }
 }
 

@@ -13,6 +13,7 @@ macro_rules! round {
             clippy::cast_lossless,
             reason = "the bounds are checked first; a number beyond 53 bits is whole, and its cast is exact"
         )]
+        #[inline]
         pub fn $name(number: f64) -> Option<$integer> {
             // Within the bounds the cast cuts off the fraction alone; NaN is within nothing.
             if !(-$limit..$limit).contains(&number) {
@@ -39,6 +40,7 @@ macro_rules! div_round {
     ($name:ident, $integer:ty, $magnitude:ty) => {
         /// `dividend / DIVISOR`, rounded to nearest, halves away from zero.
         #[must_use]
+        #[inline]
         pub const fn $name<const DIVISOR: $magnitude>(dividend: $integer) -> $integer {
             // At most 2^(n-1) plus half of a divisor below 2^n: the sum has n bits.
             let sum = dividend.unsigned_abs() + DIVISOR / 2;
@@ -61,6 +63,7 @@ div_round!(div_round_i128, i128, u128);
 /// The binary64 number nearest to an integer.
 #[must_use]
 #[expect(clippy::cast_precision_loss, reason = "nearest is what is asked for")]
+#[inline]
 pub const fn to_f64(integer: i64) -> f64 {
     integer as f64
 }
@@ -68,6 +71,7 @@ pub const fn to_f64(integer: i64) -> f64 {
 /// The binary64 number nearest to an unsigned integer.
 #[must_use]
 #[expect(clippy::cast_precision_loss, reason = "nearest is what is asked for")]
+#[inline]
 pub const fn unsigned_to_f64(integer: u64) -> f64 {
     integer as f64
 }
@@ -76,6 +80,7 @@ pub const fn unsigned_to_f64(integer: u64) -> f64 {
 ///
 /// # Errors
 /// [`Error::OutOfRange`] if it is neither 0 nor 1.
+#[inline]
 pub const fn bit(count: i32) -> Result<bool, Error> {
     match count {
         0 => Ok(false),
@@ -88,6 +93,7 @@ pub const fn bit(count: i32) -> Result<bool, Error> {
 ///
 /// # Errors
 /// [`Error::OutOfRange`] if it is not.
+#[inline]
 pub fn within<T: PartialOrd + Copy>(number: T, low: T, high: T) -> Result<T, Error> {
     if number >= low && number <= high {
         Ok(number)
@@ -100,6 +106,7 @@ pub fn within<T: PartialOrd + Copy>(number: T, low: T, high: T) -> Result<T, Err
 ///
 /// # Errors
 /// [`Error::NotANumber`].
+#[inline]
 pub fn number(number: f64) -> Result<f64, Error> {
     if number.is_nan() {
         Err(Error::NotANumber)
@@ -112,6 +119,7 @@ pub fn number(number: f64) -> Result<f64, Error> {
 ///
 /// # Errors
 /// What [`Writable::check_with`] says; [`Error::NotANumber`]; [`Error::OutOfRange`] if the type cannot hold the number.
+#[inline]
 pub fn nearest<P: Writable>(scaled: f64, with: P::With) -> Result<P::Raw, Error> {
     let raw = P::Raw::round(number(scaled)?).ok_or(Error::OutOfRange)?;
     checked::<P>(raw, with)
@@ -121,6 +129,7 @@ pub fn nearest<P: Writable>(scaled: f64, with: P::With) -> Result<P::Raw, Error>
 ///
 /// # Errors
 /// `otherwise`, if the type cannot hold the number.
+#[inline]
 pub fn held<P: Point>(number: impl TryInto<P::Raw>, otherwise: Error) -> Result<P::Raw, Error> {
     number.try_into().map_err(|_| otherwise)
 }
@@ -129,6 +138,7 @@ pub fn held<P: Point>(number: impl TryInto<P::Raw>, otherwise: Error) -> Result<
 ///
 /// # Errors
 /// [`Error::Overflow`] if it does not fit.
+#[inline]
 pub fn narrow(count: i128) -> Result<i64, Error> {
     i64::try_from(count).map_err(|_| Error::Overflow)
 }
@@ -137,6 +147,7 @@ pub fn narrow(count: i128) -> Result<i64, Error> {
 ///
 /// # Errors
 /// What [`Writable::check_with`] says.
+#[inline]
 pub fn checked<P: Writable>(raw: P::Raw, with: P::With) -> Result<P::Raw, Error> {
     P::check_with(raw, with)?;
     Ok(raw)
@@ -146,6 +157,7 @@ pub fn checked<P: Writable>(raw: P::Raw, with: P::With) -> Result<P::Raw, Error>
 ///
 /// # Errors
 /// What [`Writable::check_with`] says; [`Error::OutOfRange`] if the type cannot hold the number.
+#[inline]
 pub fn store<P: Writable>(raw: impl TryInto<P::Raw>, with: P::With) -> Result<P::Raw, Error> {
     checked::<P>(held::<P>(raw, Error::OutOfRange)?, with)
 }
@@ -158,6 +170,7 @@ pub fn store<P: Writable>(raw: impl TryInto<P::Raw>, with: P::With) -> Result<P:
     clippy::cast_possible_truncation,
     reason = "rounding to binary32 is what is asked for"
 )]
+#[inline]
 pub fn f32_bits(value: f64) -> Result<u32, Error> {
     let single = number(value)? as f32;
     if single.is_finite() {
@@ -171,6 +184,7 @@ pub fn f32_bits(value: f64) -> Result<u32, Error> {
 ///
 /// # Errors
 /// [`Error::NotANumber`]; [`Error::OutOfRange`] for infinity.
+#[inline]
 pub fn f64_bits(value: f64) -> Result<u64, Error> {
     if number(value)?.is_finite() {
         Ok(value.to_bits())
@@ -181,6 +195,7 @@ pub fn f64_bits(value: f64) -> Result<u64, Error> {
 
 /// The bits of the group in `word`, right-aligned.
 #[must_use]
+#[inline]
 pub const fn extract(word: u16, shift: u32, mask: u16) -> u16 {
     match (word & mask).checked_shr(shift) {
         Some(bits) => bits,
@@ -190,6 +205,7 @@ pub const fn extract(word: u16, shift: u32, mask: u16) -> u16 {
 
 /// The bits of the group in `word` as a number in two's complement, right-aligned, the sign in all upper bits.
 #[must_use]
+#[inline]
 pub const fn extract_signed(word: u16, shift: u32, mask: u16) -> u16 {
     let above = mask.leading_zeros();
     let Some(left) = (word & mask).checked_shl(above) else {
@@ -203,6 +219,7 @@ pub const fn extract_signed(word: u16, shift: u32, mask: u16) -> u16 {
 
 /// `word` with the group replaced by the low bits of `bits`.
 #[must_use]
+#[inline]
 pub const fn insert(word: u16, shift: u32, mask: u16, bits: u16) -> u16 {
     match bits.checked_shl(shift) {
         Some(placed) => (word & !mask) | (placed & mask),
@@ -214,6 +231,7 @@ pub const fn insert(word: u16, shift: u32, mask: u16, bits: u16) -> u16 {
 ///
 /// # Errors
 /// [`Error::Overflow`] if it is not.
+#[inline]
 pub fn exponent(raw: i64, low: i64, high: i64) -> Result<i64, Error> {
     within(raw, low, high).map_err(|_| Error::Overflow)
 }
@@ -222,6 +240,7 @@ pub fn exponent(raw: i64, low: i64, high: i64) -> Result<i64, Error> {
 ///
 /// # Errors
 /// [`Error::Overflow`].
+#[inline]
 pub fn line(raw: i64, slope: i64, intercept: i64) -> Result<i64, Error> {
     let product = raw.checked_mul(slope).ok_or(Error::Overflow)?;
     product.checked_add(intercept).ok_or(Error::Overflow)
@@ -239,6 +258,7 @@ pub struct Rule {
 impl Rule {
     /// `raw = value * num / den + offset_num / offset_den`; both denominators are positive.
     #[must_use]
+    #[inline]
     pub const fn new(num: i64, den: i64, offset_num: i64, offset_den: i64) -> Self {
         Self {
             num,
@@ -252,6 +272,7 @@ impl Rule {
     ///
     /// # Errors
     /// [`Error::ZeroFactor`] if it is zero; [`Error::Overflow`].
+    #[inline]
     pub fn times(self, factor: i64) -> Result<Self, Error> {
         if factor == 0 {
             return Err(Error::ZeroFactor);
@@ -263,6 +284,7 @@ impl Rule {
     ///
     /// # Errors
     /// [`Error::Overflow`].
+    #[inline]
     pub fn limited_by(self, factor: i64) -> Result<Self, Error> {
         let num = self.num.checked_mul(factor).ok_or(Error::Overflow)?;
         Ok(Self { num, ..self })
@@ -272,6 +294,7 @@ impl Rule {
     ///
     /// # Errors
     /// [`Error::ZeroFactor`] if it is zero; [`Error::Overflow`].
+    #[inline]
     pub fn over(self, divisor: i64) -> Result<Self, Error> {
         if divisor == 0 {
             return Err(Error::ZeroFactor);
@@ -284,6 +307,7 @@ impl Rule {
     ///
     /// # Errors
     /// [`Error::Overflow`].
+    #[inline]
     pub fn times_ten_to(self, exponent: i64) -> Result<Self, Error> {
         let digits = u32::try_from(exponent.unsigned_abs()).map_err(|_| Error::Overflow)?;
         let power = 10_i64.checked_pow(digits).ok_or(Error::Overflow)?;
@@ -298,12 +322,14 @@ impl Rule {
     ///
     /// # Errors
     /// [`Error::Overflow`].
+    #[inline]
     pub fn over_ten_to(self, exponent: i64) -> Result<Self, Error> {
         self.times_ten_to(exponent.checked_neg().ok_or(Error::Overflow)?)
     }
 
     /// The raw number before rounding; each step is rounded to binary64.
     #[must_use]
+    #[inline]
     pub fn encode(self, value: f64) -> f64 {
         let product = value * to_f64(self.num);
         let quotient = product / to_f64(self.den);
@@ -314,6 +340,7 @@ impl Rule {
     ///
     /// # Errors
     /// [`Error::Overflow`]; [`Error::ZeroFactor`].
+    #[inline]
     pub fn decode(self, raw: i64) -> Result<f64, Error> {
         let (num, den) = self.turned(raw, 1)?;
         Ok(to_f64(num) / to_f64(den))
@@ -323,6 +350,7 @@ impl Rule {
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if the raw number is beyond every type.
+    #[inline]
     pub fn encode_count<const PER_UNIT: i64>(self, count: i64) -> Result<i64, Error> {
         let den = product([self.den, PER_UNIT, self.offset_den]);
         let scaled = product([count, self.num, self.offset_den]);
@@ -339,6 +367,7 @@ impl Rule {
     ///
     /// # Errors
     /// [`Error::Overflow`]; [`Error::ZeroFactor`].
+    #[inline]
     pub fn decode_count<const PER_UNIT: i64>(self, raw: i64) -> Result<i64, Error> {
         let (num, den) = self.turned(raw, PER_UNIT)?;
         divide(num, den).ok_or(Error::Overflow)
@@ -348,6 +377,7 @@ impl Rule {
     ///
     /// # Errors
     /// [`Error::Overflow`].
+    #[inline]
     pub fn limit(self) -> Result<i64, Error> {
         let den = product([self.den, self.offset_den, 1]);
         let scaled = product([self.num, self.offset_den, 1]);
@@ -361,6 +391,7 @@ impl Rule {
     }
 
     /// `(raw - offset) * den * times / num` as a fraction with a positive denominator.
+    #[inline]
     fn turned(self, raw: i64, times: i64) -> Result<(i64, i64), Error> {
         if self.num == 0 {
             return Err(Error::ZeroFactor);
@@ -379,11 +410,13 @@ impl Rule {
     }
 }
 
+#[inline]
 fn product([a, b, c]: [i64; 3]) -> Option<i64> {
     a.checked_mul(b)?.checked_mul(c)
 }
 
 /// The quotient, rounded to nearest, halves away from zero; none for a zero divisor or a result beyond the type.
+#[inline]
 fn divide(dividend: i64, divisor: i64) -> Option<i64> {
     let half = divisor.unsigned_abs() / 2;
     let sum = dividend.unsigned_abs().checked_add(half)?;

@@ -248,6 +248,7 @@ pub trait CountWritable: Writable {
 ///
 /// # Errors
 /// [`Error::OutOfRange`] if it does not hold.
+#[inline]
 pub const fn allowed(holds: bool) -> Result<(), Error> {
     if holds {
         Ok(())
@@ -260,6 +261,7 @@ pub const fn allowed(holds: bool) -> Result<(), Error> {
 ///
 /// # Errors
 /// [`Error::UnknownValue`] if it does not hold.
+#[inline]
 pub const fn listed(holds: bool) -> Result<(), Error> {
     if holds {
         Ok(())
@@ -272,6 +274,7 @@ pub const fn listed(holds: bool) -> Result<(), Error> {
 ///
 /// # Errors
 /// [`Error::NoValue`] if it does not hold.
+#[inline]
 pub const fn has_value(holds: bool) -> Result<(), Error> {
     if holds {
         Ok(())

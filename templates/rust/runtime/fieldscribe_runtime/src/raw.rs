@@ -40,15 +40,18 @@ macro_rules! byte {
                 [u16::from(low)]
             }
 
+            #[inline]
             fn from_words([word]: [u16; 1]) -> Self {
                 let [_, low] = word.to_be_bytes();
                 Self::from_be_bytes([low])
             }
 
+            #[inline]
             fn round(number: f64) -> Option<Self> {
                 Self::try_from(round_i32(number)?).ok()
             }
 
+            #[inline]
             fn to_i64(self) -> i64 {
                 i64::from(self)
             }
@@ -75,10 +78,12 @@ macro_rules! words {
                 Self::from_be_bytes([$($high, $low),+])
             }
 
+            #[inline]
             fn round(number: f64) -> Option<Self> {
                 Self::try_from($round(number)?).ok()
             }
 
+            #[inline]
             fn to_i64(self) -> i64 {
                 $wide(self)
             }
@@ -108,10 +113,12 @@ impl Raw for bool {
         [u16::from(self)]
     }
 
+    #[inline]
     fn from_words([word]: [u16; 1]) -> Self {
         word != 0
     }
 
+    #[inline]
     fn round(number: f64) -> Option<Self> {
         match round_i32(number) {
             Some(0) => Some(false),
@@ -120,6 +127,7 @@ impl Raw for bool {
         }
     }
 
+    #[inline]
     fn to_i64(self) -> i64 {
         i64::from(self)
     }

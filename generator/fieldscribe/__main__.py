@@ -1,0 +1,5 @@
+"""`python -m fieldscribe`."""
+
+from fieldscribe.cli import main
+
+raise SystemExit(main())

@@ -1,0 +1,82 @@
+"""`fieldscribe check`: validate descriptions."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from argparse import ArgumentParser, Namespace
+
+    from fieldscribe.model import Device
+
+HELP = "validate descriptions; say everything that is wrong, and where"
+EXAMPLE = """examples:
+  fieldscribe check
+  fieldscribe check descriptions/hitachi_l200 --format json"""
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """The command's arguments."""
+    from fieldscribe.cli.common import add_format
+
+    parser.add_argument(
+        "paths",
+        nargs="*",
+        type=Path,
+        metavar="PATH",
+        help="descriptions: a folder with device.yaml, or a folder of such folders (default: descriptions)",
+    )
+    add_format(parser)
+
+
+def run(arguments: Namespace) -> int:
+    """Check; the exit code: 1 when a description is wrong."""
+    import sys
+
+    from fieldscribe.cli import FINDINGS, FINE
+    from fieldscribe.cli.common import description_paths, print_json, report_findings
+    from fieldscribe.diagnostics import Report
+    from fieldscribe.pipeline import find_devices, load_device
+    from fieldscribe.report import as_data
+
+    as_text = arguments.format == "text"
+    report, good = Report(), []
+    for device_file in find_devices(description_paths(arguments.paths), report):
+        device = load_device(device_file, report)
+        if device is not None:
+            good.append(_facts(device))
+            if as_text:
+                print(_line(good[-1]), flush=True)
+    if as_text:
+        report_findings(report, "text", sys.stdout)
+    else:
+        print_json({"devices": good, "findings": as_data(report.findings)})
+    return FINDINGS if report.has_errors else FINE
+
+
+def _facts(device: Device) -> dict[str, object]:
+    """How much a description holds."""
+    certainty: dict[str, int] = {}
+    for erratum in device.errata:
+        certainty[erratum.certainty] = certainty.get(erratum.certainty, 0) + 1
+    return {
+        "device": device.id,
+        "version": device.version,
+        "points": len(device.points),
+        "generated": sum(point.generated for point in device.points),
+        "groups": len(device.groups),
+        "errata": len(device.errata),
+        "errata_by_certainty": dict(sorted(certainty.items())),
+        "frames": len(device.frames),
+    }
+
+
+def _line(facts: dict[str, object]) -> str:
+    by_certainty = facts["errata_by_certainty"]
+    assert isinstance(by_certainty, dict)
+    certainty = ", ".join(f"{count} {name}" for name, count in by_certainty.items())
+    return (
+        f"{facts['device']}: {facts['points']} points ({facts['generated']} generated) in {facts['groups']} groups, "
+        f"{facts['errata']} errata{f' ({certainty})' if certainty else ''}, {facts['frames']} printed frames"
+    )

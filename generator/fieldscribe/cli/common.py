@@ -1,0 +1,208 @@
+"""What commands share: which description is meant, and how results and refusals are told."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, TextIO
+
+from fieldscribe.cli import FINDINGS, USAGE
+from fieldscribe.cli.terminal import print_lines
+
+if TYPE_CHECKING:
+    from argparse import ArgumentParser, Namespace
+    from collections.abc import Iterable
+
+    from fieldscribe.diagnostics import Report
+    from fieldscribe.model import Device
+    from fieldscribe.report import ReadLines
+
+LOCAL = Path("descriptions")
+"""Where descriptions are looked for first."""
+
+
+class StopError(Exception):
+    """The command cannot go on: a message and a hint for stderr, and the exit code."""
+
+    def __init__(self, message: str, hint: str = "", code: int = USAGE) -> None:
+        super().__init__(message)
+        self.message = message
+        self.hint = hint
+        self.code = code
+
+    def tell(self) -> int:
+        """Print it; the exit code."""
+        if self.message:
+            usage_error(self.message, self.hint)
+        return self.code
+
+
+def usage_error(message: str, hint: str = "") -> int:
+    """Say on stderr what is wrong with the command line or the machine; the exit code."""
+    from fieldscribe.report import visible
+
+    lines = [[("error", "fieldscribe: "), ("", visible(message))]]
+    if hint:
+        lines.append([("hint", f"  hint: {visible(hint)}")])
+    sys.stdout.flush()
+    print_lines(lines, sys.stderr)
+    return USAGE
+
+
+def unknown_command(name: str, known: Iterable[str]) -> int:
+    """Say that there is no such command; the exit code."""
+    from fieldscribe.selection import quoted
+
+    return usage_error(f"there is no command `{quoted(name)}`", _near(name, list(known)))
+
+
+def add_format(parser: ArgumentParser) -> None:
+    """How a command reports."""
+    parser.add_argument("--format", choices=("text", "json"), default="text", help="how to report (default: text)")
+
+
+def add_device(parser: ArgumentParser, *, variants: bool = True) -> None:
+    """Which device a command is about."""
+    parser.add_argument("device", metavar="DEVICE", help="a device's id, or the path of its folder or device.yaml")
+    parser.add_argument(
+        "--descriptions",
+        type=Path,
+        metavar="DIR",
+        help=f"where ids are looked for (default: {LOCAL}, then what comes with fieldscribe)",
+    )
+    if variants:
+        parser.add_argument(
+            "--variant",
+            action="append",
+            default=[],
+            metavar="AXIS=VALUE",
+            help="choose a variant, as in voltage_class=400V; may be repeated",
+        )
+
+
+def description_paths(paths: list[Path]) -> list[Path]:
+    """The paths that were given; else ./descriptions, else the descriptions that come with the compiler."""
+    if paths:
+        return paths
+    if LOCAL.is_dir():
+        return [LOCAL]
+    from fieldscribe.resources import descriptions_dir
+
+    return [descriptions_dir()]
+
+
+def open_device(arguments: Namespace) -> Device:
+    """The device that the command line names, with its chosen variants. Findings go to stderr. Raises StopError."""
+    from fieldscribe.diagnostics import Report
+    from fieldscribe.pipeline import load_device
+    from fieldscribe.selection import UnclearError, choose_variants
+
+    report = Report()
+    device = load_device(_device_file(arguments), report)
+    if device is None:
+        report_findings(report, getattr(arguments, "format", "text"))
+        raise StopError("", code=FINDINGS)
+    try:
+        return choose_variants(device, getattr(arguments, "variant", []))
+    except UnclearError as error:
+        raise StopError(error.message, error.hint) from error
+
+
+def report_findings(report: Report, form: str, stream: TextIO | None = None) -> None:
+    """Tell findings. As text they are messages (stderr, or `stream`); as JSON, when there are errors, the result."""
+    from fieldscribe.report import as_data, as_lines, summary
+
+    findings = report.findings
+    if form == "json":
+        if report.has_errors:
+            print_json({"findings": as_data(findings)})
+        return
+    if findings:
+        stream = stream or sys.stderr
+        print_lines(as_lines(findings, _reader()), stream)
+        print_lines([[("strong", summary(findings))]], stream)
+
+
+def print_json(data: object) -> None:
+    """One JSON object on stdout; ASCII only, so that nothing in it reaches a terminal raw."""
+    import json
+
+    json.dump(data, sys.stdout, indent=2)
+    sys.stdout.write("\n")
+
+
+def _device_file(arguments: Namespace) -> Path:
+    """The device.yaml of the device that is meant. Raises StopError."""
+    from fieldscribe.diagnostics import Report
+    from fieldscribe.pipeline import DEVICE_FILE, find_devices
+
+    asked: str = arguments.device
+    roots = _roots(arguments)
+    if asked.replace("_", "").isalnum():
+        for root in roots:
+            if (root / asked / DEVICE_FILE).is_file():
+                return root / asked / DEVICE_FILE
+    path = Path(asked)
+    if not path.exists():
+        known = sorted({file.parent.name for root in roots for file in root.glob(f"*/{DEVICE_FILE}")})
+        where = " and ".join(dict.fromkeys(map(str, roots)))
+        raise StopError(
+            f"there is no device or path `{asked}`", _near(asked, known) or f"descriptions are looked for in {where}"
+        )
+    found = find_devices([path], Report())
+    if not found:
+        raise StopError(f"`{asked}` holds no {DEVICE_FILE}", f"name a folder with a {DEVICE_FILE}, or the file itself")
+    if len(found) > 1:
+        names = ", ".join(file.parent.name for file in found[:8])
+        raise StopError(f"`{asked}` holds {len(found)} devices", f"name one of them: {names}")
+    return found[0]
+
+
+def _roots(arguments: Namespace) -> list[Path]:
+    if arguments.descriptions is not None:
+        if not arguments.descriptions.is_dir():
+            raise StopError(f"there is no folder `{arguments.descriptions}`")
+        return [arguments.descriptions]
+    from fieldscribe.resources import descriptions_dir
+
+    return [LOCAL, descriptions_dir()]
+
+
+def _near(name: str, known: list[str]) -> str:
+    from difflib import get_close_matches
+
+    found = get_close_matches(name.lower()[:60], known, 3)
+    if found:
+        return f"did you mean {' or '.join(f'`{one}`' for one in found)}?"
+    return f"there are {', '.join(known[:20])}" if known else ""
+
+
+def _reader() -> ReadLines:
+    """Reads each file that findings name once."""
+    from fieldscribe.language.source import MOST_BYTES
+    from fieldscribe.report import split_lines
+
+    known: dict[str, list[str] | None] = {}
+
+    def read(name: str) -> list[str] | None:
+        if name not in known:
+            try:
+                with Path(name).open("rb") as stream:
+                    known[name] = split_lines(stream.read(MOST_BYTES).decode("utf-8-sig", "replace"))
+            except (OSError, ValueError):
+                known[name] = None
+        return known[name]
+
+    return read
+
+
+def settings_of(device: Device, pairs: list[str]) -> dict[str, int]:
+    """What `--with` says of other points, as raw numbers. Raises StopError."""
+    from fieldscribe.refusals import RefusedError
+    from fieldscribe.selection import UnclearError
+    from fieldscribe.typed_values import read_settings
+
+    try:
+        return read_settings(device, pairs)
+    except (UnclearError, RefusedError) as error:
+        raise StopError(f"--with: {error.message}", error.hint) from error

@@ -1,0 +1,85 @@
+"""`fieldscribe explain`: everything about one address, code or name."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from argparse import ArgumentParser, Namespace
+
+    from fieldscribe.explain import Explanation
+    from fieldscribe.model import Device
+
+HELP = "say everything about one address, code or name"
+EXAMPLE = """examples:
+  fieldscribe explain hitachi_l200 A020
+  fieldscribe explain hitachi_l200 0x1028
+  fieldscribe explain hitachi_l200 modicon:4137 --as-documented"""
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """The command's arguments."""
+    from fieldscribe.cli.common import add_device, add_format
+
+    add_device(parser)
+    parser.add_argument(
+        "what",
+        metavar="WHAT",
+        help="a code, a name, or an address (4136, 0x1028, 1028h); wire:, modicon:, code: or name: force one reading",
+    )
+    parser.add_argument(
+        "--as-documented", action="store_true", help="show what the manual alone would say, without errata"
+    )
+    add_format(parser)
+
+
+def run(arguments: Namespace) -> int:
+    """Explain; the exit code."""
+    from fieldscribe.cli import FINE
+    from fieldscribe.cli.common import StopError, open_device, print_json
+    from fieldscribe.explain_others import explain_others
+    from fieldscribe.lookup import near, number_of
+    from fieldscribe.selection import did_you_mean, quoted
+
+    device = open_device(arguments)
+    found = _points(device, arguments.what, as_documented=arguments.as_documented)
+    found += explain_others(device, arguments.what)
+    if not found:
+        hint = did_you_mean(near(device, arguments.what))
+        if number_of(arguments.what) is not None:
+            hint = hint.replace("did you mean", "its neighbours are").rstrip("?")
+        raise StopError(f"{device.id} has no code, name or address `{quoted(arguments.what)}`", hint)
+    if arguments.format == "json":
+        readings = [{"readings": readings, **told.as_data()} for readings, told in found]
+        print_json({"device": device.id, "what": arguments.what, "found": readings})
+    else:
+        _print(found, arguments.what)
+    return FINE
+
+
+def _points(device: Device, what: str, *, as_documented: bool) -> list[tuple[list[str], Explanation]]:
+    """Every point that is meant, with all readings that lead to it."""
+    from fieldscribe.explain import explain_point
+    from fieldscribe.lookup import find
+
+    readings: dict[str, list[str]] = {}
+    points = {}
+    for match in find(device, what):
+        word = f": {match.word}" if match.word else ""
+        readings.setdefault(match.point.item, []).append(match.reading + word)
+        points[match.point.item] = match.point
+    return [
+        (readings[item], explain_point(device, point, as_documented=as_documented)) for item, point in points.items()
+    ]
+
+
+def _print(found: list[tuple[list[str], Explanation]], what: str) -> None:
+    from fieldscribe.cli.terminal import print_lines, print_rows
+    from fieldscribe.selection import quoted
+
+    if len(found) > 1:
+        print_lines([[("strong", f"`{quoted(what)}` can mean {len(found)} things.")], []])
+    for place, (readings, told) in enumerate(found):
+        if place:
+            print_lines([[]])
+        print_rows(told.heading, [("Found as", "; ".join(readings)), *told.rows])

@@ -1,0 +1,66 @@
+"""A typed value into a raw number, and into the request that writes it. Raises RefusedError, UnclearError."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from fieldscribe import wording
+from fieldscribe.meanings import meaning_of, raw_text, rounding_remarks
+from fieldscribe.refusals import RefusedError
+from fieldscribe.selection import label
+from fieldscribe.text import line
+from fieldscribe.typed_values import encode_typed, read_value
+
+if TYPE_CHECKING:
+    from fieldscribe.codec import Settings
+    from fieldscribe.model import Device, Point
+
+
+@dataclass(frozen=True, slots=True)
+class Encoded:
+    """A raw number to write, what it means, and what became of the value on the way."""
+
+    point: str
+    code: str | None
+    raw: int
+    pattern: int
+    text: str
+    notes: tuple[str, ...]
+
+    def as_data(self) -> dict[str, object]:
+        """The same for JSON."""
+        return {
+            "point": self.point,
+            "code": self.code,
+            "raw": self.raw,
+            "hex": f"{self.pattern:X}",
+            "text": self.text,
+            "notes": list(self.notes),
+        }
+
+
+def encode_point(device: Device, point: Point, value: str, settings: Settings) -> Encoded:
+    """The raw number that writes a typed value."""
+    _refuse_unwritable(point)
+    typed = read_value(point, value)
+    raw = encode_typed(device, point, typed, settings)
+    notes = () if typed.value is None else tuple(rounding_remarks(point, typed.value, raw, settings))
+    meaning = meaning_of(device, point, raw, settings)
+    text = line(f"{label(point)} = {meaning.text}: {raw_text(point, raw)}")
+    return Encoded(point.item, point.code, raw, raw & ((1 << point.width) - 1), text, notes)
+
+
+def frame_for(device: Device, point: Point, raw: int, unit: int | None, framing: str | None) -> bytes:
+    """The bytes of the request that writes a raw number."""
+    from fieldscribe.families.modbus.words import write_request
+
+    return write_request(device, point, raw, unit, framing)[1]
+
+
+def _refuse_unwritable(point: Point) -> None:
+    if not point.generated:
+        reason = point.reason or "the manual leaves it open"
+        raise RefusedError("not_generated", line(f"{label(point)} cannot be written: {reason}"))
+    if not point.writable:
+        raise RefusedError("read_only", f"{label(point)} is {wording.access_text(point.access)}")

@@ -1,0 +1,73 @@
+"""All files of one description: device.yaml and the parts that it lists, each held against the schema."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from fieldscribe.diagnostics import Report
+from fieldscribe.language.hints import nearest
+from fieldscribe.language.load import load
+from fieldscribe.language.nodes import Map
+from fieldscribe.language.shape import check_shape
+from fieldscribe.language.source import read_source
+
+_UNSAFE_NAMES = frozenset({"con", "prn", "aux", "nul", *(f"{port}{n}" for port in ("com", "lpt") for n in range(10))})
+_NEEDED = ("device", "family", "documents")
+
+
+@dataclass(frozen=True, slots=True)
+class Files:
+    """The mappings of a description, device.yaml first. Not `complete` if a part is missing or could not be read."""
+
+    maps: tuple[Map, ...]
+    complete: bool
+
+
+def read_files(device_file: Path, report: Report) -> Files | None:
+    """What the files say; None when device.yaml says too little to go on. Findings go to the report."""
+    header, fine = _file(device_file, "device_file", report)
+    if header is None:
+        return None
+    _safe_name(header, report)
+    parts = [_file(path, "part_file", report) for path in _parts(device_file, header, report)]
+    if not all(key in header for key in _NEEDED):
+        return None
+    listed = "parts" not in header.broken and len(parts) == len(header.get("parts", ()))
+    complete = fine and listed and all(part_fine for _, part_fine in parts)
+    return Files((header, *(part for part, _ in parts if part is not None)), complete)
+
+
+def _file(path: Path, kind: str, report: Report) -> tuple[Map | None, bool]:
+    """The file's mapping, and whether it is whole."""
+    source = read_source(path, report)
+    root = None if source is None else load(source, report)
+    return root, root is not None and check_shape(root, kind, report)
+
+
+def _parts(device_file: Path, header: Map, report: Report) -> list[Path]:
+    found: dict[str, Path] = {}
+    for index, name in enumerate(header.get("parts", ())):
+        span = header["parts"].span(index)
+        path = device_file.parent / name
+        if name in found:
+            first = (header["parts"].span(list(header["parts"]).index(name)), "first listed here")
+            report.error("duplicate-name", f"the part `{name}` is listed twice", span, "remove one of them", [first])
+        elif name == device_file.name:
+            report.error("missing-part", f"`{name}` cannot be a part of itself", span, "take it off the list")
+        elif not path.is_file():
+            others = tuple(sorted(one.name for one in device_file.parent.glob("*.y*ml") if one != device_file))
+            near = nearest(name, others)
+            hint = f"did you mean `{near}`?" if near else "create it or take it off the list"
+            report.error("missing-part", f"there is no file `{name}` beside {device_file.name}", span, hint)
+        else:
+            found[name] = path
+    return list(found.values())
+
+
+def _safe_name(header: Map, report: Report) -> None:
+    if header.get("device") in _UNSAFE_NAMES:
+        message = f"`{header['device']}` is no safe name for a folder on every system"
+        report.error(
+            "unsafe-name", message, header.span("device"), "name it after vendor and model, such as `hitachi_l200`"
+        )

@@ -1,0 +1,146 @@
+"""What a raw number of a point means, in words a commissioning engineer understands."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from struct import pack, unpack
+from typing import TYPE_CHECKING
+
+from fieldscribe import codec, wording
+from fieldscribe.codec import CodecError, Settings
+from fieldscribe.exact import hex_text, number_text
+from fieldscribe.refusals import amount_with_unit, failure, refusal
+from fieldscribe.selection import label
+from fieldscribe.text import line
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from fractions import Fraction
+
+    from fieldscribe.model import Device, Flag, Point
+
+
+@dataclass(frozen=True, slots=True)
+class Meaning:
+    """What a raw number says: words, the exact value if it is a quantity, and what is missing or odd."""
+
+    text: str
+    value: str | None = None
+    missing: tuple[str, ...] = ()
+    hint: str = ""
+
+
+def meaning_of(device: Device, point: Point, raw: int, settings: Settings) -> Meaning:
+    """The meaning of a raw number; never fails: what cannot be said is said."""
+    special = next((one for one in point.specials if one.low <= raw <= one.high), None)
+    if special is not None:
+        remark = ", no value" if special.no_value else ""
+        return Meaning(line(f"{special.name} ({wording.title_text(special.title)}){remark}"))
+    if point.enum is not None:
+        entry = next((one for one in point.enum.entries if one.raw == raw), None)
+        if entry is None:
+            return Meaning(f"{raw}, a number without a name in the manual")
+        return Meaning(line(wording.entry_text(entry).partition(" = ")[2]))
+    if point.flags:
+        return Meaning(_flags_text(point, raw))
+    if point.type == "bit":
+        return Meaning("on" if raw else "off")
+    return _quantity(device, point, raw, settings)
+
+
+def rounding_remarks(point: Point, asked: Fraction, raw: int, settings: Settings) -> Iterator[str]:
+    """What became of a value that the point cannot hold exactly."""
+    if point.info.floating:
+        return
+    got = codec.decode(point, raw, settings)
+    if got != asked:
+        yield f"{amount_with_unit(point, asked)} is between two raw numbers; rounded to {amount_with_unit(point, got)}"
+    coarse = next((step for start, step in reversed(point.steps) if raw >= start), 1)
+    if raw % coarse:
+        kept = codec.decode(point, raw - raw % coarse, settings)
+        back = amount_with_unit(point, kept)
+        yield f"here the device keeps only raw numbers divisible by {coarse}; expect {back} back"
+
+
+def range_remark(device: Device, point: Point, raw: int, settings: Settings) -> str:
+    """Why the device will not take a raw number that a frame writes; empty if it may."""
+    if not point.writable:
+        return f"it is {wording.access_text(point.access)}"
+    try:
+        codec.check(point, raw, settings)
+    except CodecError as error:
+        if error.status == "missing":
+            return ""
+        refused = refusal(device, point, _value(point, raw, settings), raw, (error, settings))
+        return refused.message.removeprefix(f"{label(point)}: ").removeprefix(f"{label(point)} ")
+    return ""
+
+
+def raw_text(point: Point, raw: int) -> str:
+    """A raw number in both notations: `raw 500 = 01F4h`."""
+    if point.type == "bit":
+        return f"raw {raw}"
+    digits = max(1, point.width + 3 >> 2)
+    return f"raw {raw} = {hex_text(raw & ((1 << point.width) - 1), digits)}"
+
+
+def _value(point: Point, raw: int, settings: Settings) -> Fraction | None:
+    try:
+        return codec.decode(point, raw, settings) if point.form in ("scaled", "integer", "float") else None
+    except CodecError:
+        return None
+
+
+def _quantity(device: Device, point: Point, raw: int, settings: Settings) -> Meaning:
+    if not point.generated and point.scale is None and point.unit.symbol:
+        return Meaning(f"raw {raw}, {line(point.reason or 'its meaning is not settled')}")
+    try:
+        value = codec.decode(point, raw, settings)
+    except CodecError as error:
+        if error.status == "not_a_number":
+            return Meaning(str(codec.float_of(point, raw)))
+        message, hint = failure(device, point, error)
+        return Meaning(f"not known: {message}", None, error.missing, hint)
+    if point.info.floating:
+        return Meaning(wording.with_unit(_shortest(point, raw), point), number_text(value))
+    return Meaning(amount_with_unit(point, value), number_text(value))
+
+
+def _shortest(point: Point, raw: int) -> str:
+    """The shortest decimal that means this bit pattern, as an instrument would show it."""
+    number = codec.float_of(point, raw)
+    if point.type == "f64":
+        return repr(number)
+    for digits in range(1, 10):
+        text = f"{number:.{digits}g}"
+        try:
+            if unpack("<f", pack("<f", float(text)))[0] == number:
+                return text
+        except OverflowError:
+            continue
+    return repr(number)
+
+
+def _flags_text(point: Point, raw: int) -> str:
+    true = [_flag_text(flag, raw) for flag in point.flags if flag.width > 1 or _is_true(flag, raw)]
+    false = [flag.name for flag in point.flags if flag.width == 1 and not _is_true(flag, raw)]
+    parts = [", ".join(true) if true else "none set"]
+    if false:
+        parts.append(f"not set: {', '.join(false)}")
+    rest = raw & ~sum(((1 << flag.width) - 1) << flag.low for flag in point.flags)
+    if rest:
+        bits = [str(bit) for bit in range(point.width) if rest >> bit & 1]
+        parts.append(f"also bit{'s' if len(bits) > 1 else ''} {', '.join(bits)}, which the manual does not name")
+    return line("; ".join(parts))
+
+
+def _is_true(flag: Flag, raw: int) -> bool:
+    return raw >> flag.low & 1 == flag.active
+
+
+def _flag_text(flag: Flag, raw: int) -> str:
+    if flag.width == 1:
+        return flag.name
+    number = raw >> flag.low & ((1 << flag.width) - 1)
+    name = next((entry.name for entry in flag.values if entry.raw == number), "")
+    return f"{flag.name} = {name or number}"

@@ -1,0 +1,129 @@
+"""Findings for people and machines: text with the lines of the file that are meant, and JSON.
+
+Text is made of lines of (style, text) pieces, so that whoever prints them may colour them. Whatever a file holds, no
+control or direction-changing character passes: it is shown by its number.
+"""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from fieldscribe.diagnostics import Diagnostic, Span
+
+Line = list[tuple[str, str]]
+"""One line as (style, text); styles are error, warning, strong, place, frame, hint, and empty."""
+
+ReadLines = Callable[[str], Sequence[str] | None]
+"""The lines of a file by the path that findings name; None when it cannot be read."""
+
+BEFORE, AFTER = 40, 60
+"""How many characters of a long line are shown around the place that is meant."""
+
+_BREAKS = re.compile(r"\r\n|[\n\r\x85\u2028\u2029]")
+_HIDDEN = frozenset({"Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp"})
+
+
+def as_lines(findings: Iterable[Diagnostic], read: ReadLines) -> Iterator[Line]:
+    """The findings as text, each followed by an empty line."""
+    for one in findings:
+        yield [(one.severity, f"{one.severity}[{one.rule}]"), ("strong", f": {visible(one.message)}")]
+        margin = len(str(max(one.span.line, *(span.line for span, _ in one.related), 0)))
+        yield [("frame", " " * margin + "--> "), ("place", place_text(one.span))]
+        yield from _frame(one.span, margin, read, one.severity)
+        for span, message in one.related:
+            yield [("frame", " " * margin + "::: "), ("place", place_text(span)), ("", f": {visible(message)}")]
+            yield from _frame(span, margin, read, "frame")
+        if one.hint:
+            yield [("frame", " " * margin + " = "), ("hint", f"hint: {visible(one.hint)}")]
+        yield []
+
+
+def as_data(findings: Iterable[Diagnostic]) -> list[dict[str, object]]:
+    """The findings for JSON."""
+    return [
+        {
+            "rule": one.rule,
+            "severity": one.severity,
+            "message": one.message,
+            **_place_data(one.span),
+            "hint": one.hint,
+            "related": [{"message": message, **_place_data(span)} for span, message in one.related],
+        }
+        for one in findings
+    ]
+
+
+def summary(findings: Sequence[Diagnostic]) -> str:
+    """One line: `3 errors in 2 files; 1 warning`; empty when there are none."""
+    wrong = [one for one in findings if one.severity == "error"]
+    rest = len(findings) - len(wrong)
+    parts = (
+        [f"{_count(len(wrong), 'error')} in {_count(len({one.span.file for one in wrong}), 'file')}"] if wrong else []
+    )
+    return "; ".join(parts + ([_count(rest, "warning")] if rest else []))
+
+
+def split_lines(text: str) -> list[str]:
+    """The lines of a text as YAML counts them."""
+    return _BREAKS.split(text)
+
+
+def place_text(span: Span) -> str:
+    """Where a finding is: `file:line:column`."""
+    return f"{visible(span.file)}:{span.line}:{span.column}"
+
+
+def visible(text: str) -> str:
+    """The text with every character that is not seen, or that could change what is seen, shown by its number."""
+    if text.isascii() and text.isprintable():
+        return text
+    return "".join(_shown(char) for char in text)
+
+
+def _shown(char: str) -> str:
+    if char == "\t":
+        return "    "
+    return f"<U+{ord(char):04X}>" if unicodedata.category(char) in _HIDDEN else char
+
+
+def _frame(span: Span, margin: int, read: ReadLines, style: str) -> Iterator[Line]:
+    """The line that is meant, cut around the place, with a mark below it."""
+    lines = read(span.file)
+    if lines is None or not 1 <= span.line <= len(lines):
+        return
+    whole = lines[span.line - 1]
+    if not whole.strip():
+        return
+    at = min(max(span.column - 1, 0), len(whole))
+    start = 0 if at <= BEFORE + 10 else at - BEFORE
+    end = len(whole) if len(whole) <= at + AFTER + 10 else at + AFTER
+    before, meant = (
+        visible(whole[start:at].lstrip() if start else whole[start:at]),
+        whole[at : min(at + span.width, end)],
+    )
+    before = f"... {before}" if start else before
+    after = visible(whole[at + len(meant) : end]) + (" ..." if end < len(whole) else "")
+    number = f"{span.line:>{margin}}"
+    yield [("frame", f"{number} | "), ("", f"{before}{visible(meant)}{after}".rstrip())]
+    mark = "^" * max(1, columns(visible(meant)))
+    yield [("frame", " " * margin + " | "), (style, " " * columns(before) + mark)]
+
+
+def columns(text: str) -> int:
+    """How many columns of a terminal a text takes."""
+    if text.isascii():
+        return len(text)
+    wide = sum(unicodedata.east_asian_width(char) in "WF" for char in text)
+    return len(text) + wide - sum(unicodedata.combining(char) != 0 for char in text)
+
+
+def _place_data(span: Span) -> dict[str, object]:
+    return {"file": span.file, "line": span.line, "column": span.column, "width": span.width}
+
+
+def _count(number: int, noun: str) -> str:
+    return f"{number} {noun}{'' if number == 1 else 's'}"

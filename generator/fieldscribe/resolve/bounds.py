@@ -1,0 +1,162 @@
+"""What the raw number of a point, or a formula of points, can be at most: the type, the range, and the factors' bounds."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from functools import lru_cache
+from typing import Any
+
+from fieldscribe.diagnostics import Span
+from fieldscribe.language.formula import Expression, FormulaError, evaluate, limit_rule, names, parse_range
+from fieldscribe.language.nodes import Seq
+from fieldscribe.model import Factor, Linear, Special
+from fieldscribe.resolve.drafts import Draft
+from fieldscribe.resolve.rules import Scales, Unknown
+
+MOST_EXPONENT = 30
+"""The largest exponent of ten that a point may give: 10^30 is beyond any device."""
+
+_DEEPEST = 30
+
+
+def round_half_away(number: Fraction) -> int:
+    """The nearest whole number, halves away from zero."""
+    if number.denominator == 1:
+        return number.numerator
+    doubled = 2 * abs(number.numerator) + number.denominator
+    magnitude = doubled // (2 * number.denominator)
+    return magnitude if number.numerator >= 0 else -magnitude
+
+
+def as_text(raw: Any) -> str:
+    """A range in the one notation that the parser reads: a YAML list is its items with commas."""
+    return ", ".join(str(one) for one in raw) if isinstance(raw, Seq) else str(raw)
+
+
+@lru_cache(maxsize=16384)
+def constant_range(text: str) -> tuple[tuple[Fraction, Fraction], ...] | None:
+    """The intervals of a range that names no point; None if it does. Raises FormulaError."""
+    alternatives = parse_range(text).alternatives
+    if any(names(end) for ends in alternatives for end in ends):
+        return None
+    return tuple((evaluate(low, {}), evaluate(high, {})) for low, high in alternatives)
+
+
+class Bounds:
+    """Types, special codes and outer bounds of all points."""
+
+    def __init__(
+        self, scales: Scales, holds: dict[Draft, tuple[int, int]], specials: dict[Draft, tuple[Special, ...]]
+    ) -> None:
+        self.scales = scales
+        self.holds = holds
+        self.specials = specials
+        self._ends: dict[tuple[Draft, int], int] = {}
+        self._depth = 0
+
+    def hull(self, item: str) -> tuple[int, int]:
+        """The least and greatest raw number that a point can hold, whatever its dependent limits and its variant say."""
+        index = self.scales.index
+        ends = [self.own_hull(one) for one in index.siblings(index.by_item(item))]
+        return min(low for low, _ in ends), max(high for _, high in ends)
+
+    def own_hull(self, draft: Draft) -> tuple[int, int]:
+        """The same for one variant of a point."""
+        return self._end(draft, 0), self._end(draft, 1)
+
+    def _end(self, draft: Draft, end: int) -> int:
+        """One end of the hull, each for itself: so points that limit each other find an end that is fixed."""
+        key = (draft, end)
+        found = self._ends.get(key)
+        if found is None:
+            found = self._ends[key] = self.holds[draft][end]  # what holds while the points of a circle are looked at
+            self._depth += 1
+            if self._depth <= _DEEPEST:
+                found = self._ends[key] = self._computed_end(draft, end)
+            self._depth -= 1
+        return found
+
+    def ends_of(self, factor: Factor) -> tuple[int, int]:
+        """The ends of raw * slope + intercept of a factor's point."""
+        low, high = self.hull(factor.point)
+        return factor.slope * low + factor.intercept, factor.slope * high + factor.intercept
+
+    def corners(self, rule: Linear) -> list[Fraction]:
+        """The extreme results of the rule (applied to 1) at the ends of what its factors can hold."""
+        if not rule.factors:
+            return [rule.ratio + rule.offset]
+        results = {rule.ratio}
+        for factor in rule.factors:
+            products = {one * end for one in results for end in self._factor_ends(factor)}
+            results = {min(products), max(products)}
+        return sorted(one + rule.offset for one in results)
+
+    def _factor_ends(self, factor: Factor) -> set[Fraction]:
+        low, high = self.ends_of(factor)
+        if factor.ten_to:
+            exponents = {max(-MOST_EXPONENT, min(MOST_EXPONENT, end)) for end in (low, high)}
+            return {Fraction(10) ** (factor.power * exponent) for exponent in exponents}
+        if factor.power == 1:
+            return {Fraction(low), Fraction(high)}
+        nearest = {one for one in (1, -1) if low <= one <= high}  # zero itself is an error at run time
+        return {Fraction(1, one) for one in {low, high, *nearest} if one} or {Fraction(1)}
+
+    def exponents_fit(self, rule: Linear, span: Span) -> bool:
+        """Whether every point that is an exponent has a range that keeps the power in sight; else a finding."""
+        for factor in rule.factors:
+            if factor.ten_to and max(map(abs, self.ends_of(factor))) > MOST_EXPONENT:
+                low, high = self.ends_of(factor)
+                name = self.scales.index.by_item(factor.point).name
+                message = f"`{name}` is an exponent and can be {low}..{high}"
+                hint = f"give `{name}` a `range` within -{MOST_EXPONENT}..{MOST_EXPONENT}"
+                self.scales.scope.report.error("exponent-range", message, span, hint)
+                return False
+        return True
+
+    def encoded(self, draft: Draft, limit: Linear, span: Span) -> Linear:
+        """A limit in units as a limit in raw numbers. Raises Unknown after a finding."""
+        if "scale" in draft.failed:
+            raise Unknown
+        cases = self.scales.cases(draft)
+        if cases is None:
+            return limit
+        scale = cases[0].rule
+        if len(cases) > 1 or (limit.factors and limit.offset):
+            message = "limits in units need one rule, and no sum of points and numbers"
+            hint = "give the limits as raw numbers under `range`"
+            self.scales.scope.report.error("bad-formula", message, span, hint)
+            raise Unknown
+        if not limit.factors:
+            return Linear((limit.ratio + limit.offset) * scale.ratio, scale.offset, scale.factors)
+        return Linear(limit.ratio * scale.ratio, scale.offset, (*limit.factors, *scale.factors))
+
+    def limit(self, draft: Draft, end: Expression, text: str, span: Span, in_units: bool) -> Linear:
+        """The rule of one end of a range, applied to 1 it gives the raw limit. Raises FormulaError or Unknown."""
+        rule = limit_rule(end, lambda name, part: self.scales.affine(draft, name, part, text, span))
+        return self.encoded(draft, rule, span) if in_units else rule
+
+    def falls(self, draft: Draft) -> bool:
+        """Whether a larger value is a smaller raw number."""
+        cases = self.scales.cases(draft)
+        return cases is not None and cases[0].rule.ratio < 0
+
+    def _computed_end(self, draft: Draft, end: int) -> int:
+        key = "range" if draft.layer("range") is not None else "range_in_units"
+        least, greatest = self.holds[draft]
+        if draft.layer(key) is None or draft.floating:
+            return self.holds[draft][end]
+        text, span = as_text(draft.get(key)), draft.span(key)
+        pick = max if end else min
+        try:
+            constant = constant_range(text) if key == "range" else None
+            if constant is not None:
+                found = [ends[end] for ends in constant]
+            else:
+                side = 1 - end if key != "range" and self.falls(draft) else end
+                rules = [
+                    self.limit(draft, ends[side], text, span, key != "range") for ends in parse_range(text).alternatives
+                ]
+                found = [corner for rule in rules for corner in self.corners(rule)]
+        except (FormulaError, Unknown):
+            return self.holds[draft][end]
+        return max(least, min(greatest, round_half_away(pick(found))))

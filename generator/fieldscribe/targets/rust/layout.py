@@ -1,0 +1,52 @@
+"""Lines as rustfmt breaks them, for the few places where names decide whether one line is enough."""
+
+from __future__ import annotations
+
+_WIDTH = 100
+_ARRAY_WIDTH = 60
+_STRUCT_WIDTH = 18
+
+Lines = tuple[str, ...]
+
+
+def binding(indent: int, left: str, right: str) -> Lines:
+    """`left = right;`, broken behind the sign, or behind the colon of `name: type` if that is too long."""
+    line = f"{left} = {right};"
+    if indent + len(line) <= _WIDTH:
+        return (line,)
+    if indent + len(left) + 2 <= _WIDTH:
+        return f"{left} =", f"    {right};"
+    name, _, type_ = left.partition(": ")
+    return f"{name}:", f"    {type_} = {right};"
+
+
+def arm(indent: int, pattern: str, body: str) -> Lines:
+    """`pattern => body,`, else with a block."""
+    line = f"{pattern} => {body},"
+    return (line,) if indent + len(line) <= _WIDTH else (f"{pattern} => {{", f"    {body}", "}")
+
+
+def signature(indent: int, name: str, parameters: Lines, result: str) -> Lines:
+    """`name(parameters) -> result {`, else with a line per parameter."""
+    line = f"{name}({', '.join(parameters)}) -> {result} {{"
+    if indent + len(line) <= _WIDTH:
+        return (line,)
+    return (f"{name}(", *(f"    {one}," for one in parameters), f") -> {result} {{")
+
+
+def array(items: list[str]) -> Lines:
+    """What stands between an array's brackets: one line, else a line per item."""
+    joined = ", ".join(items)
+    return (joined,) if len(joined) <= _ARRAY_WIDTH else tuple(f"{item}," for item in items)
+
+
+def fields_of_self(indent: int, type_: str, names: Lines) -> Lines:
+    """A struct literal that takes its fields from `self`."""
+    joined = ", ".join(f"{name}: self.{name}" for name in names)
+    if len(joined) <= _STRUCT_WIDTH:
+        return (f"{type_} {{ {joined} }}",)
+    lines = [f"{type_} {{"]
+    for name in names:
+        line = f"    {name}: self.{name},"
+        lines += [line] if indent + len(line) <= _WIDTH else [f"    {name}: self", f"        .{name},"]
+    return (*lines, "}")

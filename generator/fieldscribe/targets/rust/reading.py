@@ -1,0 +1,64 @@
+"""How a point is decoded."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from fieldscribe.targets.rust.literals import integer, type_name
+from fieldscribe.targets.rust.rules import count_path, decode_float, patterns
+from fieldscribe.targets.rust.views import ReadView
+
+if TYPE_CHECKING:
+    from fieldscribe.targets.rust.subjects import Subject
+
+_FUNCTIONS = {"coil": 1, "discrete": 2, "holding": 3, "input": 4}
+_COUNTS = {"i32": "i64", "u32": "i64", "i64": "i64", "u64": "i128"}
+
+
+def plain_count(raw: str) -> str:
+    """The integer that holds any raw number of a point without a scale, and numbers beyond."""
+    return _COUNTS.get(raw, "i32")
+
+
+def parameter(type_: str, name: str, *, used: bool) -> str:
+    """The last parameter of a function: what the point needs from others."""
+    return "(): ()" if type_ == "()" else f"{'with' if used else '_'}: Self::{name}"
+
+
+def read_view(subject: Subject, low: int, high: int) -> ReadView:
+    """Decoding of a point whose raw numbers are written within `low..=high`."""
+    point, raw, form, rule = subject.point, subject.raw, subject.form, subject.rule
+    unreal = [(one.low, one.high) for one in point.specials if one.no_value]
+    failing = narrows = False
+    count_type, scaled, count = "", "", ""
+    if form == "float":
+        value = f"f64::from(f{point.width}::from_bits(raw))" if raw == "u32" else "f64::from_bits(raw)"
+    elif form == "scaled" and rule is not None:
+        path = count_path(rule, point.decimals, raw, low, high)
+        value, count_type, (scaled, count) = decode_float(rule, raw), path.type, path.decode
+        failing = narrows = path.overflows
+    elif form == "scaled":
+        value, count_type, count, failing = "", "i64", f"decode_count::<{integer(10**point.decimals)}>", True
+    else:
+        value, count_type = _plain_value(subject), plain_count(raw)
+        count = "raw" if count_type == raw else f"{count_type}::from(raw)"
+    function, factors = point.places[0].function, subject.factors_type
+    return ReadView(
+        factors=factors,
+        parameter=parameter(factors, "Factors", used=bool(factors)),
+        failing=failing or bool(unreal),
+        narrows=narrows,
+        no_value=patterns(unreal, raw) if unreal else (),
+        value=value,
+        count_type=count_type,
+        scaled=scaled,
+        count=count,
+        function="" if function in (None, _FUNCTIONS.get(point.places[0].space)) else str(function),
+    )
+
+
+def _plain_value(subject: Subject) -> str:
+    if subject.enum is not None:
+        wide = "raw" if subject.carried == subject.raw else f"{subject.carried}::from(raw)"
+        return f"enums::{type_name(subject.enum.name)}::from({wide})"
+    return f"flags::{subject.name}::from(raw)" if subject.form == "flags" else "raw"

@@ -1,0 +1,95 @@
+"""What the modules of this target ask of a point again and again, worked out once."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from fieldscribe.targets.rust.literals import RAW_TYPES, type_name
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from fieldscribe.model import Device, Enum, Linear, Point
+
+
+@dataclass(frozen=True, slots=True)
+class Subject:
+    """A generated point: its form, its identifiers, what it needs; `rule` is the scale if it needs no other point."""
+
+    point: Point
+    form: str
+    raw: str
+    name: str
+    arguments: tuple[str, ...]
+    factors: tuple[str, ...]
+    limits: tuple[str, ...]
+    rule: Linear | None
+    enum: Enum | None
+    carried: str
+    """The raw type of the enum, which is wider than the point's own where points of several types share the enum."""
+
+    @property
+    def closed(self) -> bool:
+        """Whether only the enum's own numbers may be written."""
+        return self.enum is not None and self.enum.closed
+
+    @property
+    def with_type(self) -> str:
+        """The struct of all that writing needs."""
+        return f"with::{self.name}" if self.arguments else "()"
+
+    @property
+    def factors_type(self) -> str:
+        """The struct of all that the scale needs."""
+        if not self.factors:
+            return "()"
+        return f"with::{self.name}" if self.factors == self.arguments else f"with::{self.name}Factors"
+
+
+@dataclass(frozen=True, slots=True)
+class Scope:
+    """What the points of one device share: points, raw types and enums' raw types by name, the device's functions."""
+
+    points: Mapping[str, Point]
+    raw_types: Mapping[str, str]
+    enums: Mapping[str, str]
+    functions: frozenset[int]
+    subjects: tuple[Subject, ...]
+
+
+def scope_of(device: Device) -> Scope:
+    """The scope of a device, with its generated points."""
+    points: dict[str, Point] = {}
+    enums: dict[str, str] = {}
+    for point in device.points:
+        points.setdefault(point.name, point)
+        form = point.form
+        if form == "enum" and point.generated and point.enum is not None:
+            raw = RAW_TYPES[point.type]
+            known = enums.setdefault(point.enum.name, raw)
+            if known != raw:
+                enums[point.enum.name] = "i128" if "u64" in (known, raw) else "i64"
+    return Scope(
+        points,
+        {name: _raw_type(point, point.form) for name, point in points.items()},
+        enums,
+        frozenset(code.number for code in device.bus.functions),
+        tuple(_subject(point, enums) for point in device.points if point.generated),
+    )
+
+
+def _subject(point: Point, enums: Mapping[str, str]) -> Subject:
+    form = point.form
+    enum = point.enum if form == "enum" else None
+    raw = _raw_type(point, form)
+    factors = point.scale_arguments if point.scale is not None else ()
+    limits = point.limit_arguments
+    arguments = tuple(dict.fromkeys((*factors, *limits))) if factors or limits else ()
+    rule = point.scale[0].rule if point.scale is not None and len(point.scale) == 1 and not factors else None
+    carried = enums[enum.name] if enum is not None else raw
+    return Subject(point, form, raw, type_name(point.item), arguments, factors, limits, rule, enum, carried)
+
+
+def _raw_type(point: Point, form: str) -> str:
+    return "bool" if form == "bit" else RAW_TYPES[point.type]

@@ -1,0 +1,97 @@
+"""How a point is encoded, and what may be written."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from fieldscribe.targets.rust.literals import float_literal, integer, type_range
+from fieldscribe.targets.rust.reading import parameter, plain_count
+from fieldscribe.targets.rust.rules import count_path, encode_float, limit_views, merged, patterns
+from fieldscribe.targets.rust.views import CheckView, WriteView
+
+if TYPE_CHECKING:
+    from fieldscribe.model import Point
+    from fieldscribe.targets.rust.subjects import Scope, Subject
+
+_FUNCTIONS = {"coil": (5, 15), "holding": (6, 16)}
+
+
+def write_view(subject: Subject, low: int, high: int, scope: Scope) -> WriteView:
+    """Encoding of a point whose raw numbers are written within `low..=high`."""
+    point, raw, form, rule = subject.point, subject.raw, subject.form, subject.rule
+    kind, count_type, within, scaled, count = form, "", "", "", ""
+    if form == "float":
+        value = f"f{point.width}_bits"
+    elif form == "scaled" and rule is not None:
+        path = count_path(rule, point.decimals, raw, low, high)
+        value, count_type, (scaled, count) = encode_float(rule), path.type, path.encode
+        within = f"{path.low}, {path.high}"
+    elif form == "scaled":
+        kind, count_type, count = "run_time", "i64", f"encode_count::<{integer(10**point.decimals)}>"
+        value = "with" if subject.factors == subject.arguments else "with.factors()"
+    else:
+        kind, value, count_type = "plain", _plain_raw(subject), plain_count(raw)
+        count = "arithmetic::bit(count)?" if raw == "bool" else _held("count", closed=subject.closed)
+    function, address = _place(point, scope)
+    with_type = subject.with_type
+    return WriteView(
+        arguments=with_type,
+        parameter=parameter(with_type, "With", used=True),
+        passed="with" if subject.arguments else "()",
+        check=_check(subject, with_type, scope),
+        kind=kind,
+        value=value,
+        ranges=_float_ranges(point) if form == "float" else (),
+        count_type=count_type,
+        within=within,
+        scaled=scaled,
+        count=count,
+        function=function,
+        address=address,
+    )
+
+
+def _plain_raw(subject: Subject) -> str:
+    """A value as the raw number; an enum that several raw types share may carry what this one cannot hold."""
+    if subject.enum is not None and subject.carried != subject.raw:
+        return _held(f"{subject.carried}::from(value)", closed=subject.closed)
+    return f"{subject.raw}::from(value)" if subject.form in ("enum", "flags") else "value"
+
+
+def _held(number: str, *, closed: bool) -> str:
+    return f"arithmetic::held::<Self>({number}, runtime::Error::{'UnknownValue' if closed else 'OutOfRange'})?"
+
+
+def _float_ranges(point: Point) -> tuple[str, ...]:
+    """Conditions of which one holds if a value is within the limits; none if there are none."""
+    ends = [(float_literal(float(low)), float_literal(float(high))) for low, high in point.allowed.units]
+    return tuple(f"({low}..={high}).contains(&value)" for low, high in ends)
+
+
+def _check(subject: Subject, with_type: str, scope: Scope) -> CheckView:
+    point, raw = subject.point, subject.raw
+    report = "listed" if subject.closed else "allowed"
+    if subject.limits:
+        limits, conditions = limit_views(point, scope.points, frozenset(subject.arguments))
+        return CheckView(report, "raw", parameter(with_type, "With", used=True), conditions, limits)
+    unused = parameter(with_type, "With", used=False)
+    ends = ((one.low, one.high) for one in point.allowed.intervals)
+    numbers = [(low, high) for low, high in ends if isinstance(low, int) and isinstance(high, int)]
+    numbers = numbers or [(point.least, point.greatest)]
+    least, greatest = type_range(raw)
+    if subject.form == "float" or any(low <= least and greatest <= high for low, high in merged(numbers)):
+        return CheckView(report, "_", unused, (), ())
+    return CheckView(report, "raw", unused, patterns(numbers, raw), ())
+
+
+def _place(point: Point, scope: Scope) -> tuple[str, str]:
+    """Function and address that write the point, each empty where it is the usual one."""
+    first = point.places[0]
+    place = first if first.purpose == "write" else next((one for one in point.places if one.purpose == "write"), first)
+    one, many = _FUNCTIONS.get(place.space, (0, 0))
+    usual = one if point.words == 1 else many
+    function = place.function if place.purpose == "write" else None
+    if function is None:
+        function = many if usual not in scope.functions and many in scope.functions else usual
+    elsewhere = place is not first and place.addresses
+    return "" if function == usual else str(function), f"0x{min(place.addresses):04X}" if elsewhere else ""

@@ -1,0 +1,140 @@
+//! The clients over a transport of canned replies: what is sent, and what comes out.
+
+use std::collections::VecDeque;
+use std::future::Future;
+use std::pin::pin;
+use std::sync::Arc;
+use std::task::{Context, Poll, Wake, Waker};
+
+use fieldscribe_runtime::client::{AsyncClient, AsyncTransport, Client, ClientError, Transport};
+use fieldscribe_runtime::modbus::{crc, reply_length, Framing, ReplyError, Request};
+use sample_drive::{blocks, commands, enums, points, with, Error, Readable, PROFILE};
+
+/// Requests that came, and replies to give, as hexadecimal PDUs behind the unit.
+struct Line {
+    framing: Framing,
+    sent: Vec<String>,
+    replies: VecDeque<&'static str>,
+}
+
+impl Line {
+    fn new(framing: Framing, replies: &[&'static str]) -> Self {
+        Self { framing, sent: Vec::new(), replies: replies.iter().copied().collect() }
+    }
+
+    fn answer(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, &'static str> {
+        let (head, body) = match self.framing {
+            Framing::Rtu => request.split_at(0),
+            Framing::Tcp => request.split_at(6),
+        };
+        let end = body.len() - if self.framing == Framing::Rtu { 2 } else { 0 };
+        self.sent.push(body[..end].iter().map(|byte| format!("{byte:02x}")).collect());
+        if reply.is_empty() {
+            return Ok(0);
+        }
+        let text = self.replies.pop_front().ok_or("nothing came")?;
+        let body = (0..text.len()).step_by(2).map(|at| u8::from_str_radix(&text[at..at + 2], 16).unwrap());
+        let mut bytes: Vec<u8> = body.collect();
+        match self.framing {
+            Framing::Rtu => {
+                bytes.extend(crc(&bytes).to_le_bytes());
+                assert_eq!(reply_length(&bytes[..3]), Some(bytes.len()));
+            }
+            Framing::Tcp => {
+                let length = u8::try_from(bytes.len()).unwrap();
+                bytes.splice(0..0, [head[0], head[1], 0, 0, 0, length]);
+            }
+        }
+        reply[..bytes.len()].copy_from_slice(&bytes);
+        Ok(bytes.len())
+    }
+}
+
+impl Transport for Line {
+    type Error = &'static str;
+
+    fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Self::Error> {
+        self.answer(request, reply)
+    }
+}
+
+struct Slow(Line);
+
+impl AsyncTransport for Slow {
+    type Error = &'static str;
+
+    async fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Self::Error> {
+        let mut waited = false;
+        std::future::poll_fn(|context| {
+            if std::mem::replace(&mut waited, true) {
+                return Poll::Ready(());
+            }
+            context.waker().wake_by_ref();
+            Poll::Pending
+        })
+        .await;
+        self.0.answer(request, reply)
+    }
+}
+
+struct Busy;
+
+impl Wake for Busy {
+    fn wake(self: Arc<Self>) {}
+}
+
+fn finish<T>(future: impl Future<Output = T>) -> T {
+    let waker = Waker::from(Arc::new(Busy));
+    let mut future = pin!(future);
+    loop {
+        if let Poll::Ready(value) = future.as_mut().poll(&mut Context::from_waker(&waker)) {
+            return value;
+        }
+    }
+}
+
+fn reads_and_writes(framing: Framing) {
+    let replies = ["01030201f4", "0106102801f4", "01030201f4", "01030203e7", "0103023fff", "01062012ffff", "018302", "01030404d20001"];
+    let mut client = Client::new(Line::new(framing, &replies), &PROFILE, framing, 1);
+    assert_eq!(client.read::<points::BaseFrequency>(), Ok(50.0));
+    assert_eq!(client.write::<points::BaseFrequency>(50.0), Ok(()));
+    let ratio = with::VoltageSetpoint { voltage_ratio: 400 };
+    assert_eq!(client.read_with::<points::VoltageSetpoint>(ratio), Ok(500.0));
+    assert_eq!(client.read::<points::FrequencySource>(), Ok(enums::FrequencySource::Unknown(999)));
+    assert_eq!(client.update::<points::DelayClass>(3), Ok(()));
+    let refused = Err(ClientError::Reply(ReplyError::Exception(2)));
+    assert_eq!(client.read::<points::BaseFrequency>(), refused);
+    assert_eq!(client.write::<points::BaseFrequency>(401.0), Err(ClientError::Point(Error::OutOfRange)));
+    let block = blocks::MAIN.iter().find(|block| block.brings::<points::AccelerationTime>()).unwrap();
+    let reply = client.exchange(Request::block(1, block)).unwrap().unwrap();
+    let raw = reply.raw::<points::AccelerationTime>().unwrap();
+    assert_eq!(points::AccelerationTime::decode(raw), 808_714.25);
+    assert_eq!(reply.raw::<points::BaseFrequency>(), Err(Error::WrongLength));
+    assert_eq!(client.read::<points::BaseFrequency>(), Err(ClientError::Transport("nothing came")));
+    let sent = client.into_transport().sent;
+    assert_eq!(sent[1..3], ["0106102801f4", "010320080001"]);
+    assert_eq!(sent[4..6], ["010320120001", "01062012ffff"]);
+    assert_eq!(sent.len(), 9);
+}
+
+fn all_units_get_a_write_and_none_answers() {
+    let mut client = Client::new(Line::new(Framing::Rtu, &[]), &PROFILE, Framing::Rtu, 0);
+    assert_eq!(client.write::<points::BaseFrequency>(50.0), Ok(()));
+    assert!(client.exchange(Request::command(0, &commands::ENTER)).unwrap().is_none());
+    assert!(matches!(client.read::<points::BaseFrequency>(), Err(ClientError::Build(_))));
+    assert_eq!(client.into_transport().sent, ["0006102801f4", "000609000001"]);
+}
+
+fn waits_without_blocking() {
+    let line = Line::new(Framing::Tcp, &["01030201f4", "0106102801f4"]);
+    let mut client = AsyncClient::new(Slow(line), &PROFILE, Framing::Tcp, 1);
+    assert_eq!(finish(client.read::<points::BaseFrequency>()), Ok(50.0));
+    assert_eq!(finish(client.write::<points::BaseFrequency>(50.0)), Ok(()));
+}
+
+fn main() {
+    reads_and_writes(Framing::Rtu);
+    reads_and_writes(Framing::Tcp);
+    all_units_get_a_write_and_none_answers();
+    waits_without_blocking();
+}

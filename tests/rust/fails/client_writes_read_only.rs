@@ -1,0 +1,9 @@
+// error: E0277
+// The client offers no write of such a point either.
+
+use fieldscribe_runtime::client::{Client, Transport};
+use sample_drive::points::Running;
+
+pub fn wrong<T: Transport>(client: &mut Client<T>) {
+    let _ = client.write::<Running>(true);
+}

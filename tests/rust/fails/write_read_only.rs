@@ -1,0 +1,9 @@
+// error: E0277
+// A point that the device does not take has no request that writes it.
+
+use fieldscribe_runtime::modbus::Request;
+use sample_drive::points::Running;
+
+pub fn wrong() -> Request<'static> {
+    Request::write::<Running>(1, true)
+}

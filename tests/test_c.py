@@ -1,0 +1,342 @@
+"""Generated C: it compiles without a warning everywhere, passes every vector, and stays small."""
+
+from __future__ import annotations
+
+import json
+import platform
+import re
+from dataclasses import replace
+from itertools import product
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import pytest
+from c_device import SANITIZERS, STANDARDS, WARNINGS, conformance_source, driver, rare_device, write_c
+from fieldscribe.targets import c
+from models import FREQUENCY_SOURCE, point, sample_device
+from toolchains import compiled, run, succeed, tool
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from fieldscribe.model import Device
+
+GENERATED = Path(__file__).resolve().parents[1] / "generated"
+SHIPPED = sorted(path.stem for path in (GENERATED / "vectors").glob("*.json"))
+FLOATS: dict[str, tuple[str, ...]] = {"float": (), "no_float": ("-DFIELDSCRIBE_NO_FLOAT",)}
+CORE = ("c99", "c++17")
+COMPILERS = ("gcc", "clang")
+
+
+class Build(NamedTuple):
+    """One way to compile a conformance program."""
+
+    compiler: str
+    standard: str
+    floats: str
+    optimize: str
+    sanitized: bool
+
+    @property
+    def flags(self) -> tuple[str, ...]:
+        sanitizers = SANITIZERS[self.compiler] if self.sanitized else ()
+        return (*STANDARDS[self.standard], *WARNINGS, *FLOATS[self.floats], self.optimize, *sanitizers)
+
+
+def builds(standards: Iterable[str], optimize: str, sanitized: Iterable[str]) -> list[Build]:
+    """Both compilers with and without floating point, for those standards."""
+    of_all = product(("gcc", "clang"), standards, FLOATS)
+    return [Build(*one, optimize, one[1] in sanitized) for one in of_all]
+
+
+def named(build: Build) -> str:
+    return "-".join(map(str, build[:4]))
+
+
+@pytest.fixture(scope="session")
+def sample(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return write_c(sample_device(), tmp_path_factory.mktemp("sample"))
+
+
+@pytest.fixture(scope="session")
+def rare(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return write_c(rare_device(), tmp_path_factory.mktemp("rare"))
+
+
+@pytest.fixture(scope="session")
+def folders(sample: Path, rare: Path) -> dict[str, Path]:
+    """Where the generated files of a device are: the committed ones, or those of this run."""
+    return {**dict.fromkeys(SHIPPED, GENERATED), "sample_drive": sample, "rare": rare}
+
+
+def conforms(folder: Path, device: str, build: Build, out: Path) -> None:
+    """Runs all vectors and holds the counts against those of the file."""
+    compiler = driver(build.compiler, build.standard)
+    program = compiled(compiler, build.flags, conformance_source(folder, device), out / "conformance")
+    vectors = folder / "vectors" / f"{device}.json"
+    done = run([program, vectors])
+    assert done.returncode == 0, done.stdout + done.stderr
+    counts = json.loads(vectors.read_text("utf-8"))["counts"]
+    left_out = ("decode", "encode") if build.floats == "no_float" else ()
+    assert passed(done.stdout) == {kind: n for kind, n in counts.items() if n and kind not in left_out}
+
+
+def passed(output: str) -> dict[str, int]:
+    """How many vectors of each kind passed."""
+    rows = [line.split() for line in output.splitlines()]
+    return {row[0]: int(row[1]) for row in rows if row[0] != "total"}
+
+
+@pytest.mark.parametrize("build", builds(CORE, "-O1", CORE), ids=named)
+@pytest.mark.parametrize("device", ["sample_drive", "rare"])
+def test_models_conform(device: str, build: Build, folders: dict[str, Path], tmp_path: Path) -> None:
+    conforms(folders[device], device, build, tmp_path)
+
+
+@pytest.mark.parametrize("build", builds(CORE, "-O0", ["c99"]), ids=named)
+@pytest.mark.parametrize("device", SHIPPED)
+def test_shipped_devices_conform(device: str, build: Build, tmp_path: Path) -> None:
+    conforms(GENERATED, device, build, tmp_path)
+
+
+OTHERS = [name for name in STANDARDS if name not in CORE]
+
+
+@pytest.mark.full
+@pytest.mark.parametrize("build", builds(OTHERS, "-O0", OTHERS) + builds(STANDARDS, "-O2", ()), ids=named)
+@pytest.mark.parametrize("device", [*SHIPPED, "sample_drive", "rare"])
+def test_other_standards(device: str, build: Build, folders: dict[str, Path], tmp_path: Path) -> None:
+    conforms(folders[device], device, build, tmp_path)
+
+
+@pytest.mark.parametrize("device", [sample_device(), rare_device()], ids=lambda device: str(device.id))
+def test_every_identifier_is_one_thing(device: Device) -> None:
+    assert list(c.clashes(device)) == []
+
+
+def test_a_clash_is_found() -> None:
+    entries = (replace(FREQUENCY_SOURCE.entries[0], name="words"),)
+    points = (point("base", 1, enum=replace(FREQUENCY_SOURCE, name="base", entries=entries)),)
+    clash = replace(sample_device(points), frames=(), blocks={})
+    assert [identifier for identifier, *_ in c.clashes(clash)] == ["SAMPLE_DRIVE_BASE_WORDS"]
+
+
+FUSED = """
+#include "sample_drive.h"
+int main(void)
+{
+    volatile double value = -0.3; /* times ten it is -3 rounded, and a little more than that when the product is not */
+    int16_t raw = 0;
+    return sample_drive_temperature_encode(value, &raw) == SAMPLE_DRIVE_OK && raw == -1 ? 0 : 1;
+}
+"""
+
+
+@pytest.mark.parametrize("standard", ["c99", "gnu99"])
+@pytest.mark.parametrize("compiler", COMPILERS)
+def test_steps_are_never_fused(compiler: str, standard: str, sample: Path, tmp_path: Path) -> None:
+    """A fused multiply-add rounds once where two roundings are meant; GNU modes fuse unless they are kept from it."""
+    if platform.machine() != "x86_64" or " fma " not in Path("/proc/cpuinfo").read_text("utf-8"):
+        pytest.skip("needs an x86-64 processor with FMA")
+    (tmp_path / "fused.c").write_text(FUSED, encoding="utf-8")
+    flags = (f"-std={standard}", "-O2", "-mfma", "-ffp-contract=fast", "-I", str(sample / "c"))
+    succeed([compiled(compiler, flags, tmp_path / "fused.c", tmp_path / "fused")])
+
+
+@pytest.mark.parametrize("build", [*FLOATS.values(), ("-DFIELDSCRIBE_FLOAT32",)], ids=" ".join)
+@pytest.mark.parametrize("language", ["c99", "c++17"])
+def test_headers_have_no_clang_warning_at_all(
+    language: str, build: tuple[str, ...], sample: Path, rare: Path, tmp_path: Path
+) -> None:
+    left_out = "padded declaration-after-statement unused-function c++98-compat c++98-compat-pedantic old-style-cast"
+    flags = [*STANDARDS[language], "-Weverything", *(f"-Wno-{one}" for one in left_out.split()), *build, "-Werror"]
+    source = tmp_path / "headers.c"
+    source.write_text('#include "sample_drive_modbus.h"\n#include "rare_modbus.h"\n', encoding="utf-8")
+    folders = ["-I", str(sample / "c"), "-I", str(rare / "c")]
+    succeed([tool("clang"), *flags, "-fsyntax-only", "-Wno-zero-as-null-pointer-constant", *folders, source])
+
+
+def test_conformance_catches_each_kind(sample: Path, tmp_path: Path) -> None:
+    text, spoiled = spoil((sample / "vectors" / "sample_drive.json").read_text("utf-8"))
+    (tmp_path / "vectors.json").write_text(text, encoding="utf-8")
+    program = compiled("gcc", ["-std=c99"], conformance_source(sample, "sample_drive"), tmp_path / "conformance")
+    done = run([program, tmp_path / "vectors.json"])
+    assert done.returncode == 1
+    failed = {row[0]: int(row[3]) for row in map(str.split, done.stdout.splitlines())}
+    assert failed == {**spoiled, "total": sum(spoiled.values())}
+
+
+def spoil(text: str) -> tuple[str, dict[str, int]]:
+    """The vectors with the result of every one changed, and how many there are of each kind."""
+    results = {"decode": "float", "decode_count": "count", "encode": "raw", "encode_count": "raw", "name": "name"}
+    results |= {"special": "low", "flag": "number", "bits": "result", "words": "words", "address": "address"}
+    results |= {"block": "count"}
+    lines: list[str] = []
+    counts: dict[str, int] = {}
+    for line in text.splitlines():
+        if not line.startswith('{"kind"'):
+            lines.append(line)
+            continue
+        vector: dict[str, Any] = json.loads(line.rstrip(","))
+        kind = vector["kind"]
+        counts[kind] = counts.get(kind, 0) + 1
+        lines.append(json.dumps(changed(vector, results.get(kind, "status"))) + ("," if line.endswith(",") else ""))
+    return "\n".join(lines) + "\n", counts
+
+
+def changed(vector: dict[str, Any], key: str) -> dict[str, Any]:
+    old = vector.get(key)
+    if vector.get("status", "ok") != "ok" or key == "status":
+        return {**vector, "status": "no_case" if vector["status"] != "no_case" else "ok"}
+    if isinstance(old, int):
+        return {**vector, key: old + 1}
+    if isinstance(old, list):
+        return {**vector, key: [*old, 0]}
+    if key == "float":
+        return {**vector, key: f"{int(str(old), 16) ^ 1 << 62:016x}"}
+    return {**vector, key: "other" if old is None else None}
+
+
+def test_vectors_of_another_description_are_refused(sample: Path, tmp_path: Path) -> None:
+    text = (sample / "vectors" / "sample_drive.json").read_text("utf-8")
+    (tmp_path / "vectors.json").write_text(text.replace('"digest": "0', '"digest": "1'), encoding="utf-8")
+    program = compiled("gcc", ["-std=c99"], conformance_source(sample, "sample_drive"), tmp_path / "conformance")
+    assert run([program, tmp_path / "vectors.json"]).returncode == 1
+    assert run([program]).returncode == 2
+    assert run([program, tmp_path / "absent.json"]).returncode == 2
+
+
+def test_no_float_is_left(sample: Path, rare: Path, tmp_path: Path) -> None:
+    for folder, device in ((sample, "sample_drive"), (rare, "rare")):
+        command = [tool("gcc"), "-E", "-P", "-std=c99", "-ffreestanding", "-DFIELDSCRIBE_NO_FLOAT"]
+        text = succeed([*command, "-x", "c", folder / "c" / f"{device}_modbus.h"])
+        own = text[text.index("typedef enum") :]
+        assert not re.search(r"\b(double|float)\b|[0-9]\.[0-9]", own)
+
+
+FLOAT32 = """
+#include "sample_drive.h"
+int main(void)
+{
+    uint32_t at;
+    for (at = 0; at <= 65535U; ++at) {
+        const uint16_t raw = (uint16_t)at;
+        uint16_t again = 1;
+        sample_drive_real value = sample_drive_frequency_fine_decode(raw);
+        if (sample_drive_frequency_fine_encode(value, &again) != SAMPLE_DRIVE_OK || again != raw) {
+            return 1;
+        }
+        value = sample_drive_main_frequency_decode(raw); /* the old name of base_frequency */
+        if (raw <= SAMPLE_DRIVE_BASE_FREQUENCY_RAW_MAX &&
+            (sample_drive_base_frequency_encode(value, &again) != SAMPLE_DRIVE_OK || again != raw)) {
+            return 2;
+        }
+        if (sizeof(sample_drive_third_decode(raw)) != sizeof(sample_drive_real)) {
+            return 3;
+        }
+    }
+    return sizeof(sample_drive_acceleration_time_decode(1U)) == sizeof(double) ? 0 : 4;
+}
+"""
+
+
+@pytest.mark.parametrize("build", ["-DFIELDSCRIBE_FLOAT32", "-DFIELDSCRIBE_FLOAT64"])
+def test_every_raw_survives_the_value(build: str, sample: Path, tmp_path: Path) -> None:
+    (tmp_path / "trip.c").write_text(FLOAT32, encoding="utf-8")
+    flags = ("-std=c99", "-O2", *WARNINGS, build, "-I", str(sample / "c"))
+    succeed([compiled("gcc", flags, tmp_path / "trip.c", tmp_path / "trip")])
+
+
+NOISE = """
+#include <stdlib.h>
+#include "sample_drive_modbus.h"
+static uint32_t state = 1U;
+static uint32_t draw(void)
+{
+    state = (uint32_t)(((uint64_t)state * 48271U) % 2147483647U);
+    return state;
+}
+int main(void)
+{
+    static const uint8_t codes[] = {1, 2, 3, 4, 5, 6, 8, 15, 16, 43};
+    const uint16_t written[1] = {1U};
+    unsigned round_number;
+    for (round_number = 0; round_number < 200000U; ++round_number) {
+        const uint16_t count = (uint16_t)(draw() % 130U + 1U);
+        fieldscribe_modbus_request request = fieldscribe_modbus_read(1U, codes[draw() % 10U], 2U, count);
+        const size_t length = draw() % 24U;
+        uint8_t *const bytes = (uint8_t *)malloc(length + 1U);
+        uint8_t *const exact = bytes + 1;
+        uint16_t *const values = (uint16_t *)malloc(count * sizeof(uint16_t));
+        fieldscribe_modbus_reply reply;
+        size_t at;
+        const fieldscribe_modbus_framing framing = draw() % 2U != 0U ? FIELDSCRIBE_MODBUS_RTU : FIELDSCRIBE_MODBUS_TCP;
+        const size_t head = framing == FIELDSCRIBE_MODBUS_TCP ? 6U : 0U;
+        request.values = written;
+        for (at = 0; at < length; ++at) {
+            exact[at] = (uint8_t)(draw() & 0xFFU);
+        }
+        if (length > head + 4U && draw() % 4U != 0U) { /* mostly frames that get far */
+            exact[head] = 1U;
+            exact[head + 1U] = request.function;
+            exact[head + 2U] = (uint8_t)(length - head - (head != 0U ? 3U : 5U));
+            if (head != 0U) {
+                fieldscribe_modbus_put(exact, 0U);
+                fieldscribe_modbus_put(exact + 2, 0U);
+                fieldscribe_modbus_put(exact + 4, (uint16_t)(length - 6U));
+            } else {
+                const uint16_t crc = fieldscribe_modbus_crc(exact, length - 2U);
+                exact[length - 2U] = (uint8_t)(crc & 0xFFU);
+                exact[length - 1U] = (uint8_t)(crc >> 8);
+            }
+        }
+        (void)fieldscribe_modbus_parse(framing, &request, exact, length, values, count, &reply);
+        if (reply.count > count) {
+            return 1;
+        }
+        free(values);
+        free(bytes);
+    }
+    return 0;
+}
+"""
+
+
+@pytest.mark.parametrize("compiler", COMPILERS)
+def test_any_bytes_are_safe_to_parse(compiler: str, sample: Path, tmp_path: Path) -> None:
+    (tmp_path / "noise.c").write_text(NOISE, encoding="utf-8")
+    flags = ("-std=c99", "-O1", *WARNINGS, *SANITIZERS[compiler], "-I", str(sample / "c"))
+    succeed([compiled(compiler, flags, tmp_path / "noise.c", tmp_path / "noise")])
+
+
+FIRMWARE = """
+#define FIELDSCRIBE_NO_FLOAT
+#include "sample_drive.h"
+volatile int32_t wanted;
+volatile int32_t shown;
+volatile uint16_t wire;
+void start(void);
+void start(void)
+{
+    uint16_t raw = 0U;
+    if (sample_drive_base_frequency_encode_count(wanted, &raw) == SAMPLE_DRIVE_OK) {
+        wire = raw;
+    }
+    shown = sample_drive_base_frequency_decode_count(wire);
+    for (;;) {
+    }
+}
+"""
+
+
+def test_cortex_m0_image_is_small_and_without_float(sample: Path, tmp_path: Path) -> None:
+    (tmp_path / "firmware.c").write_text(FIRMWARE, encoding="utf-8")
+    flags = ("-mcpu=cortex-m0", "-mthumb", "-Os", "-std=c99", "-nostdlib", "-Wl,-e,start", "-I", str(sample / "c"))
+    image = compiled("arm-none-eabi-gcc", (*flags, *WARNINGS), tmp_path / "firmware.c", tmp_path / "firmware.elf")
+    symbols = succeed([tool("arm-none-eabi-nm"), image])
+    calls = succeed([tool("arm-none-eabi-objdump"), "-d", image])
+    assert "start" in symbols
+    assert not re.search(r"__aeabi_|__[a-z]*[sd]f[0-9]", symbols + calls)
+    text = int(succeed([tool("arm-none-eabi-size"), image]).splitlines()[1].split()[0])
+    print(f"Cortex-M0, -Os, one encode_count and one decode_count: .text {text} bytes")
+    assert text <= 40

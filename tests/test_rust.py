@@ -1,0 +1,175 @@
+"""Generated Rust: it passes every vector, is clean to clippy and rustfmt, never panics, and refuses misuse when compiled."""
+
+from __future__ import annotations
+
+import json
+import re
+import shutil
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pytest
+from models import sample_device
+from rust_crates import odd_device, rare_device, write_crate
+from toolchains import run, succeed, tool
+
+from fieldscribe.targets.rust.subjects import scope_of
+
+if TYPE_CHECKING:
+    import subprocess
+
+ROOT = Path(__file__).resolve().parents[1]
+SHIPPED = sorted(path.parents[1].name for path in (ROOT / "generated/rust").glob("*/tests/conformance.rs"))
+PROGRAMS = Path(__file__).resolve().parent / "rust"
+FAILS = sorted(path.stem for path in (PROGRAMS / "fails").glob("*.rs"))
+MODELS = {"sample_drive": sample_device, "rare": rare_device, "odd": odd_device}
+BARE = "thumbv6m-none-eabi"
+
+
+@pytest.fixture(scope="session")
+def workspace(tmp_path_factory: pytest.TempPathFactory, request: pytest.FixtureRequest) -> Path:
+    """One cargo workspace of all crates; what cargo builds stays in pytest's cache."""
+    out = tmp_path_factory.mktemp("rust")
+    for make in MODELS.values():
+        write_crate(make(), out)
+    for device in SHIPPED:
+        shutil.copytree(ROOT / "generated/rust" / device, out / "rust" / device)
+        shutil.copy(ROOT / "generated/vectors" / f"{device}.json", out / "vectors")
+    folder = out / "rust"
+    members = json.dumps(["fieldscribe_runtime", *MODELS, *SHIPPED])
+    (folder / "Cargo.toml").write_text(f'[workspace]\nresolver = "2"\nmembers = {members}\n', encoding="utf-8")
+    built = request.config.cache.mkdir("rust") if request.config.cache else out / "target"
+    (folder / ".cargo").mkdir()
+    (folder / ".cargo/config.toml").write_text(f"[build]\ntarget-dir = {json.dumps(str(built))}\n", encoding="utf-8")
+    return folder
+
+
+@pytest.fixture(scope="session")
+def libraries(workspace: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The crates of the models, compiled with optimization and checked arithmetic, as libraries and objects."""
+    out = tmp_path_factory.mktemp("libraries")
+    for name in ("fieldscribe_runtime", *MODELS):
+        done = rustc(workspace / name / "src/lib.rs", out, "--crate-name", name, "--emit=link,metadata,obj")
+        assert done.returncode == 0, done.stderr
+    return out
+
+
+def rustc(source: Path, out: Path, *flags: str) -> subprocess.CompletedProcess[str]:
+    """Compiles one file as a library, with the libraries of the folder at hand."""
+    known = [f"--extern={path.stem.removeprefix('lib')}={path}" for path in sorted(out.glob("lib*.rlib"))]
+    checked = ("-Copt-level=3", "-Cpanic=abort", "-Coverflow-checks=on", "-Ccodegen-units=1")
+    return run(
+        [tool("rustc"), "--edition=2021", "--crate-type=lib", *checked, "-L", out, *known, *flags, "--out-dir", out, source]
+    )
+
+
+def cargo(workspace: Path, *words: str) -> subprocess.CompletedProcess[str]:
+    """Runs cargo without the network, and with it where something was never fetched."""
+    done = run([tool("cargo"), "--offline", *words], cwd=workspace)
+    return done if done.returncode == 0 else run([tool("cargo"), *words], cwd=workspace)
+
+
+@pytest.mark.parametrize("device", [*MODELS, *SHIPPED])
+def test_conforms(workspace: Path, device: str) -> None:
+    done = cargo(workspace, "test", "--quiet", "--package", device, "--test", "conformance")
+    assert done.returncode == 0, done.stdout + done.stderr
+    counts = json.loads((workspace.parent / "vectors" / f"{device}.json").read_text("utf-8"))["counts"]
+    passed = dict(re.findall(r"^(\w+) (\d+) passed, 0 failed$", done.stdout, re.MULTILINE))
+    assert int(passed.pop("total")) == sum(counts.values())
+    assert {kind: int(n) for kind, n in passed.items()} == {kind: n for kind, n in counts.items() if n}
+
+
+def test_a_wrong_vector_is_noticed(workspace: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    text = (workspace.parent / "vectors/sample_drive.json").read_text("utf-8")
+    changed = re.sub(r'("kind": "address".*?"address": )0,', r"\g<1>1,", text, count=1)
+    assert changed != text
+    (tmp_path / "wrong.json").write_text(changed, encoding="utf-8")
+    monkeypatch.setenv("FIELDSCRIBE_VECTORS", str(tmp_path / "wrong.json"))
+    done = cargo(workspace, "test", "--quiet", "--package", "sample_drive", "--test", "conformance")
+    assert done.returncode != 0
+    assert re.search(r"^address \d+ passed, 1 failed$", done.stdout, re.MULTILINE)
+
+
+def test_clippy_has_nothing_to_say(workspace: Path) -> None:
+    flags = ("--", "-Dwarnings", "-Wclippy::pedantic")
+    done = cargo(workspace, "clippy", "--quiet", "--workspace", "--all-targets", *flags)
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_rustfmt_changes_nothing(workspace: Path) -> None:
+    tool("rustfmt")
+    assert not succeed([tool("cargo"), "fmt", "--all", "--check"], cwd=workspace)
+
+
+def test_documentation_builds_without_a_warning(workspace: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("RUSTDOCFLAGS", "-Dwarnings")
+    done = cargo(workspace, "doc", "--quiet", "--workspace", "--no-deps")
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+@pytest.mark.parametrize("name", FAILS)
+def test_misuse_does_not_compile(libraries: Path, name: str, tmp_path: Path) -> None:
+    source = PROGRAMS / "fails" / f"{name}.rs"
+    expected = source.read_text("utf-8").splitlines()[0].removeprefix("// error: ")
+    out = shutil.copytree(libraries, tmp_path / "out")
+    done = rustc(source, out, "--emit=metadata", "--error-format=short")
+    assert done.returncode != 0
+    assert set(re.findall(r"error\[(E\d+)\]", done.stderr)) == {expected}, done.stderr
+
+
+def test_clients_talk(libraries: Path, tmp_path: Path) -> None:
+    program = tmp_path / "client"
+    externs = [f"--extern={name}={libraries}/lib{name}.rlib" for name in ("fieldscribe_runtime", "sample_drive")]
+    words = [tool("rustc"), "--edition=2021", "-Cpanic=abort", "-L", libraries, *externs, "-o", program]
+    assert not succeed([*words, PROGRAMS / "client.rs"])
+    assert not succeed([program])
+
+
+@pytest.mark.parametrize("device", MODELS)
+def test_nothing_can_panic(libraries: Path, device: str, tmp_path: Path) -> None:
+    """With checked arithmetic the compiler proves every sum: no object calls what panics."""
+    out = shutil.copytree(libraries, tmp_path / "out")
+    probe = tmp_path / "probe.rs"
+    probe.write_text(probe_source(device), encoding="utf-8")
+    done = rustc(probe, out, "--emit=obj")
+    assert done.returncode == 0, done.stderr
+    for name in ("probe", device, "fieldscribe_runtime"):
+        assert b"panicking" not in (out / f"{name}.o").read_bytes(), name
+
+
+def probe_source(device: str) -> str:
+    """A crate that calls every function of every point."""
+    lines = ["#![no_std]", f"use {device}::{{BitGroup, CountReadable, CountWritable, Error, Point, Readable, Writable, runtime}};"]
+    for subject in scope_of(MODELS[device]()).subjects:
+        name, item = f"{device}::points::{subject.name}", subject.point.item
+        point, readable, writable = (f"<{name} as {trait}>" for trait in ("Point", "Readable", "Writable"))
+        words = f"<{point}::Raw as runtime::Raw>::Words"
+        bodies = {f"words_{item}(words: {words}) -> {point}::Raw": f"{point}::from_words(words)"}
+        if subject.point.bits:
+            bodies[f"insert_{item}(word: u16, raw: {point}::Raw) -> u16"] = f"<{name} as BitGroup>::insert(word, raw)"
+        if subject.point.readable:
+            what = f"(raw: {point}::Raw, with: {readable}::Factors) -> {readable}::Output"
+            bodies[f"decode_{item}{what}<{point}::Value>"] = f"{readable}::decode_with(raw, with)"
+            if subject.form != "float":
+                count = f"<{name} as CountReadable>"
+                bodies[f"decode_count_{item}{what}<{count}::Count>"] = f"{count}::decode_count_with(raw, with)"
+        if subject.point.writable:
+            what, result = f", with: {writable}::With)", f"Result<{point}::Raw, Error>"
+            bodies[f"encode_{item}(value: {point}::Value{what} -> {result}"] = f"{writable}::encode_with(value, with)"
+            if subject.form != "float":
+                count = f"<{name} as CountWritable>"
+                body = f"{count}::encode_count_with(count, with)"
+                bodies[f"encode_count_{item}(count: {count}::Count{what} -> {result}"] = body
+        lines += [f"#[inline(never)] pub fn {head} {{ {body} }}" for head, body in bodies.items()]
+    return "\n".join(lines) + "\n"
+
+
+def test_builds_for_a_bare_machine(workspace: Path, tmp_path: Path) -> None:
+    root = Path(succeed([tool("rustc"), "--print=sysroot"]).strip())
+    if not (root / "lib/rustlib" / BARE).is_dir():
+        pytest.skip(f"the core library for it is missing: install rustup target {BARE}")
+    for name in ("fieldscribe_runtime", *MODELS):
+        done = rustc(workspace / name / "src/lib.rs", tmp_path, "--crate-name", name, "--target", BARE)
+        assert done.returncode == 0, done.stderr
+
+
