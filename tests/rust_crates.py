@@ -6,12 +6,11 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from c_device import rare_points
-from fieldscribe.model import Entry, Enum, Flag, Place, ScaleCase, Special
+from fieldscribe.model import Entry, Enum, Flag, Limit, Place, ScaleCase, Special
 from fieldscribe.render import render
 from fieldscribe.resources import templates_dir
 from fieldscribe.targets import rust, vectors
 from models import allowed, entry, linear, point, sample_device, scaled, titles, value_of
-from models import Limit as RawLimit
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -21,6 +20,8 @@ if TYPE_CHECKING:
 HOSTILE = '*/ "#]\n#![cfg(no)] \u202e `x` [y](http://z) <b> {{ x }} \\'
 LONG = "a_point_whose_name_is_as_long_as_a_description_lets_names_be_xyz"
 ODD_ENTRIES = ("unknown", "other", "self", "none", "some", "ok", "err", "type", "a_1", "value_1_2", LONG)
+ODD_FLAGS = ("move", "loop", "self", "from_x", "as_y")
+ODD_NAMES = ("option", "ok", "err", "some", "none", "error", "point")
 
 
 def write_crate(device: Device, out: Path) -> Path:
@@ -39,8 +40,15 @@ def rare_device() -> Device:
     enums = tuple({one.enum.name: one.enum for one in points if one.enum is not None}.values())
     return replace(
         sample_device(points),
-        **{"id": "rare", "enums": enums, "blocks": {}, "frames": (), "commands": (), "errata": ()},
-        **{"title": {"en": HOSTILE}, "vendor": HOSTILE, "model": HOSTILE},
+        id="rare",
+        enums=enums,
+        blocks={},
+        frames=(),
+        commands=(),
+        errata=(),
+        title={"en": HOSTILE},
+        vendor=HOSTILE,
+        model=HOSTILE,
     )
 
 
@@ -50,23 +58,30 @@ def odd_points() -> tuple[Point, ...]:
     closed = Enum("option", titles("Closed"), (Entry(-3, "low", titles("Low"), None), entry(200, "high")), True)
     many = allowed(*((raw, raw) for raw in range(1000, 60000, 1733)), listed=True)
     flags = (
-        *(Flag(bit, 1, name, titles(name), bit % 2, ()) for bit, name in enumerate(("move", "loop", "self", "from_x", "as_y"))),
+        *(
+            Flag(bit, 1, name, titles(name), bit % 2, ())
+            for bit, name in enumerate(("move", "loop", "self", "from_x", "as_y"))
+        ),
         Flag(6, 4, "type", titles("T"), 1, (entry(3, "match"),)),
         Flag(10, 1, LONG, titles("L"), 0, ()),
         Flag(11, 2, f"{LONG}_too", titles("L"), 1, (entry(3, LONG),)),
     )
-    highest = RawLimit(linear(2, 0, value_of("type")), (("type", (0, 5)), (LONG, (1,))), 0, 900)
+    highest = Limit(linear(2, 0, value_of("type")), (("type", (0, 5)), (LONG, (1,))), 0, 900)
     by_long = (
         ScaleCase(LONG, 1, linear(3, "1/2", value_of("self"))),
         ScaleCase(None, None, linear("-1/7", 0, value_of("self", -1, slope=3, intercept=-6))),
     )
+    by_thirds = scaled("100/3", "-7/3")
     off = Special(60000, 60009, LONG, titles("Off"), False)
     gone = Special(65000, 65535, "gone", titles("Gone"), True)
     return (
         point("type", 0, allowed=allowed((0, 400))),
         point("self", 1, "s16", allowed=allowed((-5, 50))),
         point(LONG, 2, allowed=allowed((0, 1))),
-        *(point(name, 10 + place) for place, name in enumerate(("option", "ok", "err", "some", "none", "error", "point"))),
+        *(
+            point(name, 10 + place)
+            for place, name in enumerate(("option", "ok", "err", "some", "none", "error", "point"))
+        ),
         *(point(name, 20 + place, enum=shared) for place, name in enumerate(("result", "runtime"))),
         point("shared_byte", 22, "u8", bits=(3, 0), enum=shared, allowed=allowed((0, 10))),
         point("shared_long", 24, "s32", enum=shared),
@@ -78,7 +93,7 @@ def odd_points() -> tuple[Point, ...]:
         point("flagged", 32, "s16", flags=flags),
         point("whole_flag", 33, flags=(Flag(0, 16, "all", titles("All"), 1, ()),)),
         point("tiny_bits", 34, "s8", bits=(7, 4), allowed=allowed((-8, 7))),
-        point("ranges", 35, specials=(off, gone), scale=scaled("100/3", "-7/3"), decimals=2, allowed=allowed((0, 60009))),
+        point("ranges", 35, specials=(off, gone), scale=by_thirds, decimals=2, allowed=allowed((0, 60009))),
         point("negative", 36, "u32", scale=scaled("-1000", 4_000_000_000), decimals=3),
         point("wide", 40, "u64", scale=scaled(1000), decimals=3, allowed=allowed((0, 10**15))),
         point("steep", 44, "s64", scale=scaled("1/1000"), decimals=0, allowed=allowed((-(10**12), 10**12))),

@@ -1,22 +1,28 @@
-"""Generated Rust: it passes every vector, is clean to clippy and rustfmt, never panics, and refuses misuse when compiled."""
+"""Generated Rust: it passes every vector, is clean to clippy and rustfmt, never panics, and refuses misuse."""
 
 from __future__ import annotations
 
 import json
 import re
 import shutil
+from fractions import Fraction
+from math import floor
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
-from models import sample_device
+from fieldscribe.targets.rust.rules import count_path
+from fieldscribe.targets.rust.subjects import scope_of
+from models import linear, sample_device
 from rust_crates import odd_device, rare_device, write_crate
 from toolchains import run, succeed, tool
 
-from fieldscribe.targets.rust.subjects import scope_of
-
 if TYPE_CHECKING:
     import subprocess
+    from collections.abc import Iterator
+
+    from fieldscribe.targets.rust.rules import count_path
+from fieldscribe.targets.rust.subjects import Subject
 
 ROOT = Path(__file__).resolve().parents[1]
 SHIPPED = sorted(path.parents[1].name for path in (ROOT / "generated/rust").glob("*/tests/conformance.rs"))
@@ -59,7 +65,19 @@ def rustc(source: Path, out: Path, *flags: str) -> subprocess.CompletedProcess[s
     known = [f"--extern={path.stem.removeprefix('lib')}={path}" for path in sorted(out.glob("lib*.rlib"))]
     checked = ("-Copt-level=3", "-Cpanic=abort", "-Coverflow-checks=on", "-Ccodegen-units=1")
     return run(
-        [tool("rustc"), "--edition=2021", "--crate-type=lib", *checked, "-L", out, *known, *flags, "--out-dir", out, source]
+        [
+            tool("rustc"),
+            "--edition=2021",
+            "--crate-type=lib",
+            *checked,
+            "-L",
+            out,
+            *known,
+            *flags,
+            "--out-dir",
+            out,
+            source,
+        ]
     )
 
 
@@ -67,6 +85,25 @@ def cargo(workspace: Path, *words: str) -> subprocess.CompletedProcess[str]:
     """Runs cargo without the network, and with it where something was never fetched."""
     done = run([tool("cargo"), "--offline", *words], cwd=workspace)
     return done if done.returncode == 0 else run([tool("cargo"), *words], cwd=workspace)
+
+
+@pytest.mark.parametrize("ratio", ["10", "1/2", "3/7", "-7/5", "256", "1/100"])
+@pytest.mark.parametrize("offset", ["0", "5/2", "-4/3"])
+@pytest.mark.parametrize("ends", [(-9, 9), (0, 30), (3, 3), (-1, 0), (1, 2)])
+def test_counts_in_bounds_are_all_that_give_a_raw_number_in_bounds(
+    ratio: str, offset: str, ends: tuple[int, int]
+) -> None:
+    low, high = ends
+    rule = linear(ratio, offset)
+    path = count_path(rule, 1, "i16", low, high)
+    found = [count for count in range(-40000, 40000) if low <= nearest(rule, Fraction(count, 10)) <= high]
+    inside = range(int(path.low.replace("_", "")), int(path.high.replace("_", "")) + 1)
+    assert found == list(inside)
+
+
+def nearest(rule: Linear, value: Fraction) -> int:
+    exact = value * rule.ratio + rule.offset
+    return floor(abs(exact) + Fraction(1, 2)) * (1 if exact > 0 else -1)
 
 
 @pytest.mark.parametrize("device", [*MODELS, *SHIPPED])
@@ -120,7 +157,16 @@ def test_misuse_does_not_compile(libraries: Path, name: str, tmp_path: Path) -> 
 def test_clients_talk(libraries: Path, tmp_path: Path) -> None:
     program = tmp_path / "client"
     externs = [f"--extern={name}={libraries}/lib{name}.rlib" for name in ("fieldscribe_runtime", "sample_drive")]
-    words = [tool("rustc"), "--edition=2021", "-Cpanic=abort", "-L", libraries, *externs, "-o", program]
+    words: list[str | Path] = [
+        tool("rustc"),
+        "--edition=2021",
+        "-Cpanic=abort",
+        "-L",
+        libraries,
+        *externs,
+        "-o",
+        program,
+    ]
     assert not succeed([*words, PROGRAMS / "client.rs"])
     assert not succeed([program])
 
@@ -139,29 +185,38 @@ def test_nothing_can_panic(libraries: Path, device: str, tmp_path: Path) -> None
 
 def probe_source(device: str) -> str:
     """A crate that calls every function of every point."""
-    lines = ["#![no_std]", f"use {device}::{{BitGroup, CountReadable, CountWritable, Error, Point, Readable, Writable, runtime}};"]
+    names = "BitGroup, CountReadable, CountWritable, Error, Point, Readable, Writable, runtime"
+    lines = ["#![no_std]", f"use {device}::{{{names}}};"]
     for subject in scope_of(MODELS[device]()).subjects:
-        name, item = f"{device}::points::{subject.name}", subject.point.item
-        point, readable, writable = (f"<{name} as {trait}>" for trait in ("Point", "Readable", "Writable"))
-        words = f"<{point}::Raw as runtime::Raw>::Words"
-        bodies = {f"words_{item}(words: {words}) -> {point}::Raw": f"{point}::from_words(words)"}
-        if subject.point.bits:
-            bodies[f"insert_{item}(word: u16, raw: {point}::Raw) -> u16"] = f"<{name} as BitGroup>::insert(word, raw)"
-        if subject.point.readable:
-            what = f"(raw: {point}::Raw, with: {readable}::Factors) -> {readable}::Output"
-            bodies[f"decode_{item}{what}<{point}::Value>"] = f"{readable}::decode_with(raw, with)"
-            if subject.form != "float":
-                count = f"<{name} as CountReadable>"
-                bodies[f"decode_count_{item}{what}<{count}::Count>"] = f"{count}::decode_count_with(raw, with)"
-        if subject.point.writable:
-            what, result = f", with: {writable}::With)", f"Result<{point}::Raw, Error>"
-            bodies[f"encode_{item}(value: {point}::Value{what} -> {result}"] = f"{writable}::encode_with(value, with)"
-            if subject.form != "float":
-                count = f"<{name} as CountWritable>"
-                body = f"{count}::encode_count_with(count, with)"
-                bodies[f"encode_count_{item}(count: {count}::Count{what} -> {result}"] = body
-        lines += [f"#[inline(never)] pub fn {head} {{ {body} }}" for head, body in bodies.items()]
+        bodies = probes(subject, f"{device}::points::{subject.name}")
+        item = subject.point.item
+        lines += [f"#[inline(never)] pub fn {head.replace('(', f'_{item}(', 1)} {{ {body} }}" for head, body in bodies]
     return "\n".join(lines) + "\n"
+
+
+def probes(subject: Subject, name: str) -> Iterator[tuple[str, str]]:
+    """Heads and bodies of functions that call what a point offers; the name stands for the point's type."""
+    raw, value, words = (
+        f"<{name} as Point>::Raw",
+        f"<{name} as Point>::Value",
+        f"<{name} as Point>::Raw as runtime::Raw",
+    )
+    yield f"words(words: <{words}>::Words) -> {raw}", f"<{name} as Point>::from_words(words)"
+    if subject.point.bits:
+        yield f"insert(word: u16, raw: {raw}) -> u16", f"<{name} as BitGroup>::insert(word, raw)"
+    read, write = f"<{name} as Readable>", f"<{name} as Writable>"
+    if subject.point.readable:
+        head = f"(raw: {raw}, with: {read}::Factors) -> {read}::Output"
+        yield f"decode{head}<{value}>", f"{read}::decode_with(raw, with)"
+        if subject.form != "float":
+            count = f"<{name} as CountReadable>"
+            yield f"decode_count{head}<{count}::Count>", f"{count}::decode_count_with(raw, with)"
+    if subject.point.writable:
+        tail = f", with: {write}::With) -> Result<{raw}, Error>"
+        yield f"encode(value: {value}{tail}", f"{write}::encode_with(value, with)"
+        if subject.form != "float":
+            count = f"<{name} as CountWritable>"
+            yield f"encode_count(count: {count}::Count{tail}", f"{count}::encode_count_with(count, with)"
 
 
 def test_builds_for_a_bare_machine(workspace: Path, tmp_path: Path) -> None:
@@ -171,5 +226,3 @@ def test_builds_for_a_bare_machine(workspace: Path, tmp_path: Path) -> None:
     for name in ("fieldscribe_runtime", *MODELS):
         done = rustc(workspace / name / "src/lib.rs", tmp_path, "--crate-name", name, "--target", BARE)
         assert done.returncode == 0, done.stderr
-
-

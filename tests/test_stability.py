@@ -19,14 +19,14 @@ def compiled(folder: Path) -> dict[str, str]:
     report = Report()
     device = load_device(folder / "device.yaml", report)
     assert device is not None, report.findings
-    return {path: text for target in CODE for path, text in outputs(device, target)}
+    return {path: text for _, path, text in outputs(device, CODE)}
 
 
 @pytest.mark.parametrize(
     "change",
     [
-        lambda text: re.sub(r"en: [A-Z]\w+", "en: Something else", text),
-        lambda text: re.sub(r"de: [A-Z]\w+", "de: Anderes", text),
+        lambda text: re.sub(r"\ben: [A-Z]\w+", "en: Something else", text),
+        lambda text: re.sub(r"\bde: [A-Z]\w+", "de: Anderes", text),
         lambda text: re.sub(r"line: (\d+)", lambda found: f"line: {int(found[1]) + 7}", text),
         lambda text: "# a comment\n" + text,
     ],

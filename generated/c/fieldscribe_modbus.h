@@ -28,7 +28,8 @@ typedef enum fieldscribe_modbus_status {
     FIELDSCRIBE_MODBUS_BAD_UNIT,         /* not a unit of this device, or a broadcast that nobody may answer */
     FIELDSCRIBE_MODBUS_BAD_FUNCTION,     /* the device does not know the function */
     FIELDSCRIBE_MODBUS_BAD_COUNT,        /* no items, too many, or no values for them */
-    FIELDSCRIBE_MODBUS_BAD_ADDRESS,      /* the last item lies beyond FFFFh */
+    FIELDSCRIBE_MODBUS_BAD_ADDRESS,      /* the last item lies beyond FFFFh, or 08h has a sub-function but 0 */
+    FIELDSCRIBE_MODBUS_BAD_VALUE,        /* a coil that is neither 0 nor 1 */
     FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL, /* the caller's buffer does not hold the result */
     /* parsing */
     FIELDSCRIBE_MODBUS_SHORT_FRAME,
@@ -70,7 +71,7 @@ typedef struct fieldscribe_modbus_block {
 
 /*
  * A request. `values` has `count` items for functions that write: words, or 0 and 1 for coils. For 08h `address` is the
- * sub-function and values[0] the test data. `transaction` is used by TCP alone.
+ * sub-function (0) and values[0] the test data. `transaction` is used by TCP alone.
  */
 typedef struct fieldscribe_modbus_request {
     uint16_t transaction;
@@ -168,22 +169,29 @@ static inline fieldscribe_modbus_status fieldscribe_modbus_allows(
     const bool single = function == 0x05U || function == 0x06U || function == 0x08U;
     const bool everyone = request->unit == profile->broadcast && writes;
     size_t at = 0U;
-    if (!everyone && (request->unit == profile->broadcast || request->unit < profile->first_unit ||
-                         request->unit > profile->last_unit)) {
-        return FIELDSCRIBE_MODBUS_BAD_UNIT;
-    }
     while (at < profile->function_count && profile->functions[at].code != function) {
         ++at;
     }
     if (at == profile->function_count || !(fieldscribe_modbus_reads(function) || writes || single)) {
         return FIELDSCRIBE_MODBUS_BAD_FUNCTION;
     }
+    if (!everyone && (request->unit == profile->broadcast || request->unit < profile->first_unit ||
+                         request->unit > profile->last_unit)) {
+        return FIELDSCRIBE_MODBUS_BAD_UNIT;
+    }
     if (request->count == 0U || request->count > profile->functions[at].most || (single && request->count != 1U) ||
         (!fieldscribe_modbus_reads(function) && request->values == NULL)) {
         return FIELDSCRIBE_MODBUS_BAD_COUNT;
     }
-    if ((uint32_t)request->address + request->count > 0x10000U) {
+    if (function == 0x08U ? request->address != 0U : (uint32_t)request->address + request->count > 0x10000U) {
         return FIELDSCRIBE_MODBUS_BAD_ADDRESS;
+    }
+    if (function == 0x05U || function == 0x0FU) {
+        for (at = 0U; at < request->count; ++at) {
+            if (request->values[at] > 1U) {
+                return FIELDSCRIBE_MODBUS_BAD_VALUE;
+            }
+        }
     }
     return FIELDSCRIBE_MODBUS_OK;
 }
@@ -204,7 +212,7 @@ static inline void fieldscribe_modbus_put_values(
     }
     for (at = 0U; at < request->count; ++at) {
         if (request->values[at] != 0U) {
-            data[at / 8U] = (uint8_t)(data[at / 8U] | (1U << (at % 8U)));
+            data[at / 8U] = (uint8_t)(data[at / 8U] | ((uint32_t)1U << (at % 8U)));
         }
     }
 }
@@ -274,8 +282,11 @@ static inline fieldscribe_modbus_status fieldscribe_modbus_take(const fieldscrib
             return FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL;
         }
         for (at = 0U; at < request->count; ++at) {
-            values[at] = fieldscribe_modbus_reads_bits(function) ? (uint16_t)((pdu[2U + at / 8U] >> (at % 8U)) & 1U)
-                                                                 : fieldscribe_modbus_get(pdu + 2U + 2U * at);
+            if (fieldscribe_modbus_reads_bits(function)) {
+                values[at] = (uint16_t)(((uint32_t)pdu[2U + at / 8U] >> (at % 8U)) & 1U);
+            } else {
+                values[at] = fieldscribe_modbus_get(pdu + 2U + 2U * at);
+            }
         }
         reply->count = request->count;
         return FIELDSCRIBE_MODBUS_OK;

@@ -46,7 +46,7 @@ class Item:
 
 @dataclass(frozen=True, slots=True)
 class Heard:
-    """One frame in words. `kind`: request, reply, request_or_reply, exception, unreadable; `notes` are odd, not wrong."""
+    """One frame in words. `kind`: request, reply, request_or_reply, exception, unreadable; notes are not faults."""
 
     data: bytes
     framing: str

@@ -56,16 +56,23 @@ def description_files(device_file: Path) -> list[Path]:
     return [device_file, *sorted(others - {device_file})]
 
 
-def outputs(device: Device, target_name: str) -> Iterator[tuple[str, str]]:
-    """All files of one device for one target: path relative to the output folder, and text; the runtime last."""
+def outputs(device: Device, targets: Iterable[str]) -> Iterator[tuple[str, str, str]]:
+    """All files of a device: target, path relative to the output folder, and text; the runtime of each target last."""
+    from fieldscribe.plain import for_code
     from fieldscribe.render import render
     from fieldscribe.resources import templates_dir
-    from fieldscribe.targets import target
+    from fieldscribe.targets import FOR_PEOPLE, target
 
-    made = target(target_name)
-    yield from made.outputs(device, render)
-    for path, template in made.runtime(device):
-        yield path, (templates_dir() / template).read_text("utf-8")
+    plain: Device | None = None
+    for name in targets:
+        made = target(name)
+        if name not in FOR_PEOPLE:
+            plain = plain or for_code(device)
+        seen = device if name in FOR_PEOPLE or plain is None else plain
+        for path, text in made.outputs(seen, render):
+            yield name, path, text
+        for path, template in made.runtime(seen):
+            yield name, path, (templates_dir() / template).read_text("utf-8")
 
 
 def _compile(files: Files, report: Report) -> Device | None:

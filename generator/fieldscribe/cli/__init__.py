@@ -59,6 +59,10 @@ def main(argv: Sequence[str] | None = None) -> int:
     except BrokenPipeError:
         _forget_stdout()
         return _PIPE_CLOSED
+    except OSError as error:
+        where = "" if error.filename is None else f": {ascii(str(error.filename)[:200])[1:-1]}"
+        print(f"fieldscribe: {error.strerror or type(error).__name__}{where}", file=sys.stderr)
+        return USAGE
     except Exception as error:
         return _failed(error)
     return code
@@ -115,9 +119,18 @@ def _parser(prog: str, description: str, epilog: str) -> ArgumentParser:
         prog=prog,
         description=description[0].upper() + description[1:].rstrip(".") + ".",
         epilog=epilog,
-        formatter_class=RawDescriptionHelpFormatter,
+        formatter_class=lambda prog: RawDescriptionHelpFormatter(prog, width=_width()),
         allow_abbrev=False,
     )
+
+
+def _width() -> int:
+    """The columns of the terminal; argparse would import shutil with all its archive formats to ask."""
+    try:
+        columns = int(os.environ.get("COLUMNS", "0")) or os.get_terminal_size(sys.stdout.fileno()).columns
+    except (OSError, ValueError):
+        columns = 80
+    return max(40, min(columns, 120) - 2)
 
 
 def _forget_stdout() -> None:

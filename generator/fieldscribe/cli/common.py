@@ -159,10 +159,11 @@ def _device_file(arguments: Namespace) -> Path:
 
 
 def _roots(arguments: Namespace) -> list[Path]:
-    if arguments.descriptions is not None:
-        if not arguments.descriptions.is_dir():
-            raise StopError(f"there is no folder `{arguments.descriptions}`")
-        return [arguments.descriptions]
+    given: Path | None = arguments.descriptions
+    if given is not None:
+        if not given.is_dir():
+            raise StopError(f"there is no folder `{given}`")
+        return [given]
     from fieldscribe.resources import descriptions_dir
 
     return [LOCAL, descriptions_dir()]

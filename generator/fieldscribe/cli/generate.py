@@ -93,7 +93,9 @@ def _compile(arguments: Namespace, targets: tuple[str, ...], device_files: list[
             report.error("duplicate-device", message, Span(shown(device_file), 1, 1), f"give one {DEVICE_FILE} another `device`")
             continue
         seen[device.id] = device_file
-        files = {name: {path: text.encode() for path, text in outputs(device, name)} for name in targets}
+        files: dict[str, dict[str, bytes]] = {name: {} for name in targets}
+        for name, path, text in outputs(device, targets):
+            files[name][path] = text.encode()
         changes = compare(arguments.out, device.id, files)
         result.unchanged += changes.unchanged
         if arguments.check or arguments.list_outputs:

@@ -25,6 +25,9 @@ if TYPE_CHECKING:
 TARGETS = ("c", "python", "rust", "docs", "vectors")
 """All targets by name, in the order in which they are written."""
 
+FOR_PEOPLE = ("docs",)
+"""Targets that also see titles, notes and sources; the others see names only (plain.py)."""
+
 
 def target(name: str) -> Target:
     """The target of that name; its module is imported when first asked for."""

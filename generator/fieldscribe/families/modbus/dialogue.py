@@ -140,7 +140,7 @@ class ModbusListener:
         return replace(_heard(wrapped, "reply", f"reply, {area_text(area)}"), items=self._items(area), faults=faults)
 
     def _items(self, area: Area) -> tuple[Item, ...]:
-        """What an area says; points in the same frame, or heard before, serve as factors, what was given before them."""
+        """What an area says; factors are what was given, else points in the same frame, else what was heard before."""
         if area.function == 0x08:
             data = " ".join(f"{value:04X}h" for value in area.values or ())
             return (Item("", area.address, 1, f"test data {data}; the device sends it back unchanged"),)

@@ -132,6 +132,6 @@ def _off_by_one(book: AddressBook, area: Area) -> Iterator[str]:
         called = f"{area.address} is its {line(keys[0]).capitalize()} number; " if keys else ""
         below = hex_text(area.address - 1)
         yield (
-            f"no point starts at {hex_text(area.address)}, but one less, {below}, is {label(point)}: {called}on the wire "
-            "addresses count from 0, so this frame may be one too high"
+            f"no point starts at {hex_text(area.address)}, but one less, {below}, is {label(point)}: {called}on "
+            "the wire addresses count from 0, so this frame may be one too high"
         )

@@ -39,7 +39,7 @@ def device_view(device: Device) -> tuple[DeviceView, Scope]:
     )
     view = DeviceView(
         head=head_lines(device),
-        title=c_comment(f"{device.vendor} {device.model} ({device.title['en']})"),
+        title=c_comment(f"{device.vendor} {device.model}"),
         file=f"{device.id}.h",
         guard=f"{scope.upper}_H",
         prefix=scope.prefix,

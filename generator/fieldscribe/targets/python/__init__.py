@@ -67,5 +67,4 @@ def _head(device: Device) -> Mapping[str, object]:
             "SPDX-License-Identifier: 0BSD",
         ),
         "product": python_doc(f"{device.vendor} {device.model}"),
-        "title": python_doc(device.title["en"]),
     }

@@ -141,7 +141,7 @@ def _doc(point: Point, errata: Mapping[str, Erratum], by_name: Mapping[str, Poin
     for one in point.errata:
         erratum = errata[one]
         facts = f"printed: {erratum.printed.rstrip('.')}; taken: {erratum.taken.rstrip('.')}"
-        text = f"Erratum {erratum.id} ({erratum.certainty}), {facts}. {erratum.why}"
+        text = f"Erratum {erratum.id} ({erratum.certainty}), {facts}."
         lines += ("", *_wrapped(python_doc(text)))
     return tuple(lines)
 

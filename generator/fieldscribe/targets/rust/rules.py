@@ -115,7 +115,9 @@ def run_time_rules(point: Point, points: Mapping[str, Point]) -> tuple[RuleView,
         held = "" if case.point is None else _raw_of(case.point)
         # Exponents last: a zero factor is reported before an exponent that is out of its bounds.
         factors = sorted(case.rule.factors, key=lambda factor: factor.ten_to)
-        found.append(_rule(case.rule, held, integer(case.raw or 0), [_factor(one, points, limit=False) for one in factors]))
+        found.append(
+            _rule(case.rule, held, integer(case.raw or 0), [_factor(one, points, limit=False) for one in factors])
+        )
         if case.point is None:
             break
     return tuple(found)
@@ -190,8 +192,9 @@ def _limit(local: str, limit: Limit, points: Mapping[str, Point], arguments: fro
 
 
 def _rule(rule: Linear, held: str, code: str, factors: list[FactorView]) -> RuleView:
-    numbers = (rule.ratio.numerator, rule.ratio.denominator, rule.offset.numerator, rule.offset.denominator)
-    return RuleView(held, code, ", ".join(map(integer, numbers)), tuple(factors))
+    ratio = f"{integer(rule.ratio.numerator)}, {integer(rule.ratio.denominator)}"
+    offset = f"{integer(rule.offset.numerator)}, {integer(rule.offset.denominator)}" if rule.offset else ""
+    return RuleView(held, code, ratio, offset, tuple(factors))
 
 
 def _factor(factor: Factor, points: Mapping[str, Point], *, limit: bool) -> FactorView:

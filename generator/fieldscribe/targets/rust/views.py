@@ -17,11 +17,12 @@ class FactorView:
 
 @dataclass(frozen=True, slots=True)
 class RuleView:
-    """A rule that holds where a raw number (empty: always) is a code: its constants and its factors."""
+    """A rule that holds where a raw number (empty: always) is a code: ratio, offset (or empty), factors."""
 
     held: str
     code: str
-    constants: str
+    ratio: str
+    offset: str
     factors: tuple[FactorView, ...]
 
 
@@ -65,16 +66,21 @@ class ReadView:
 
 @dataclass(frozen=True, slots=True)
 class WriteView:
-    """Encoding: the check, and how a value (`kind` says by which steps) and a count become a raw number."""
+    """Encoding: the check, and how a value (`kind` says by which steps) and a count become a raw number.
+
+    `bounded` says that counts within their bounds need no check.
+    """
 
     arguments: str
     parameter: str
     passed: str
     check: CheckView
     kind: str
+    bounded: bool
     value: str
     ranges: tuple[str, ...]
     count_type: str
+    count_parameter: str
     within: str
     scaled: str
     count: str

@@ -32,6 +32,7 @@ def write_view(subject: Subject, low: int, high: int, scope: Scope) -> WriteView
     else:
         kind, value, count_type = "plain", _plain_raw(subject), plain_count(raw)
         count = "arithmetic::bit(count)?" if raw == "bool" else _held("count", closed=subject.closed)
+    bounded = not subject.limits and len(merged(_numbers(point))) == 1
     function, address = _place(point, scope)
     with_type = subject.with_type
     return WriteView(
@@ -40,9 +41,11 @@ def write_view(subject: Subject, low: int, high: int, scope: Scope) -> WriteView
         passed="with" if subject.arguments else "()",
         check=_check(subject, with_type, scope),
         kind=kind,
+        bounded=bounded,
         value=value,
         ranges=_float_ranges(point) if form == "float" else (),
         count_type=count_type,
+        count_parameter=parameter(with_type, "With", used=kind != "scaled" or not bounded),
         within=within,
         scaled=scaled,
         count=count,
@@ -75,13 +78,18 @@ def _check(subject: Subject, with_type: str, scope: Scope) -> CheckView:
         limits, conditions = limit_views(point, scope.points, frozenset(subject.arguments))
         return CheckView(report, "raw", parameter(with_type, "With", used=True), conditions, limits)
     unused = parameter(with_type, "With", used=False)
-    ends = ((one.low, one.high) for one in point.allowed.intervals)
-    numbers = [(low, high) for low, high in ends if isinstance(low, int) and isinstance(high, int)]
-    numbers = numbers or [(point.least, point.greatest)]
+    numbers = _numbers(point)
     least, greatest = type_range(raw)
     if subject.form == "float" or any(low <= least and greatest <= high for low, high in merged(numbers)):
         return CheckView(report, "_", unused, (), ())
     return CheckView(report, "raw", unused, patterns(numbers, raw), ())
+
+
+def _numbers(point: Point) -> list[tuple[int, int]]:
+    """The intervals that no other point sets; all that the bits hold where the manual says none."""
+    ends = ((one.low, one.high) for one in point.allowed.intervals)
+    numbers = [(low, high) for low, high in ends if isinstance(low, int) and isinstance(high, int)]
+    return numbers or [(point.least, point.greatest)]
 
 
 def _place(point: Point, scope: Scope) -> tuple[str, str]:

@@ -1,0 +1,429 @@
+// SPDX-License-Identifier: 0BSD
+//! Exact arithmetic: rounding to nearest with halves away from zero, and scales whose factors are read at run time.
+
+use crate::{Error, Point, Raw, Writable};
+
+macro_rules! round {
+    ($name:ident, $integer:ty, $limit:literal) => {
+        /// The integer nearest to `number`, halves away from zero; none if the type cannot hold it.
+        #[must_use]
+        #[allow(
+            clippy::cast_possible_truncation,
+            clippy::cast_precision_loss,
+            clippy::cast_lossless,
+            reason = "the bounds are checked first; a number beyond 53 bits is whole, and its cast is exact"
+        )]
+        #[inline]
+        pub fn $name(number: f64) -> Option<$integer> {
+            // Within the bounds the cast cuts off the fraction alone; NaN is within nothing.
+            if !(-$limit..$limit).contains(&number) {
+                return None;
+            }
+            let whole = number as $integer;
+            let rest = number - whole as f64;
+            if rest >= 0.5 {
+                whole.checked_add(1)
+            } else if rest <= -0.5 {
+                whole.checked_sub(1)
+            } else {
+                Some(whole)
+            }
+        }
+    };
+}
+
+round!(round_i32, i32, 2_147_483_648.5);
+round!(round_i64, i64, 9_223_372_036_854_775_808.0);
+round!(round_i128, i128, 36_893_488_147_419_103_232.0);
+
+macro_rules! div_round {
+    ($name:ident, $integer:ty, $magnitude:ty) => {
+        /// `dividend / DIVISOR`, rounded to nearest, halves away from zero.
+        #[must_use]
+        #[inline]
+        pub const fn $name<const DIVISOR: $magnitude>(dividend: $integer) -> $integer {
+            // At most 2^(n-1) plus half of a divisor below 2^n: the sum has n bits, nothing wraps.
+            let sum = dividend.unsigned_abs().wrapping_add(DIVISOR / 2);
+            let Some(quotient) = sum.checked_div(DIVISOR) else {
+                return 0;
+            };
+            if dividend < 0 {
+                (0 as $integer).wrapping_sub_unsigned(quotient)
+            } else {
+                (0 as $integer).wrapping_add_unsigned(quotient)
+            }
+        }
+    };
+}
+
+div_round!(div_round_i32, i32, u32);
+div_round!(div_round_i64, i64, u64);
+div_round!(div_round_i128, i128, u128);
+
+/// The binary64 number nearest to an integer.
+#[must_use]
+#[expect(clippy::cast_precision_loss, reason = "nearest is what is asked for")]
+#[inline]
+pub const fn to_f64(integer: i64) -> f64 {
+    integer as f64
+}
+
+/// The binary64 number nearest to an unsigned integer.
+#[must_use]
+#[expect(clippy::cast_precision_loss, reason = "nearest is what is asked for")]
+#[inline]
+pub const fn unsigned_to_f64(integer: u64) -> f64 {
+    integer as f64
+}
+
+/// A bit out of a count.
+///
+/// # Errors
+/// [`Error::OutOfRange`] if it is neither 0 nor 1.
+#[inline]
+pub const fn bit(count: i32) -> Result<bool, Error> {
+    match count {
+        0 => Ok(false),
+        1 => Ok(true),
+        _ => Err(Error::OutOfRange),
+    }
+}
+
+/// `number`, if it is in `low..=high`.
+///
+/// # Errors
+/// [`Error::OutOfRange`] if it is not.
+#[inline]
+pub fn within<T: PartialOrd + Copy>(number: T, low: T, high: T) -> Result<T, Error> {
+    if number >= low && number <= high {
+        Ok(number)
+    } else {
+        Err(Error::OutOfRange)
+    }
+}
+
+/// `number`, unless it is not a number.
+///
+/// # Errors
+/// [`Error::NotANumber`].
+#[inline]
+pub fn number(number: f64) -> Result<f64, Error> {
+    if number.is_nan() {
+        Err(Error::NotANumber)
+    } else {
+        Ok(number)
+    }
+}
+
+/// The last step of encoding: the nearest raw number, checked.
+///
+/// # Errors
+/// What [`Writable::check_with`] says; [`Error::NotANumber`]; [`Error::OutOfRange`] if the type cannot hold the number.
+#[inline]
+pub fn nearest<P: Writable>(scaled: f64, with: P::With) -> Result<P::Raw, Error> {
+    let raw = P::Raw::round(number(scaled)?).ok_or(Error::OutOfRange)?;
+    checked::<P>(raw, with)
+}
+
+/// A number of the point's raw type.
+///
+/// # Errors
+/// `otherwise`, if the type cannot hold the number.
+#[inline]
+pub fn held<P: Point>(number: impl TryInto<P::Raw>, otherwise: Error) -> Result<P::Raw, Error> {
+    number.try_into().map_err(|_| otherwise)
+}
+
+/// A count as an `i64`.
+///
+/// # Errors
+/// [`Error::Overflow`] if it does not fit.
+#[inline]
+pub fn narrow(count: i128) -> Result<i64, Error> {
+    i64::try_from(count).map_err(|_| Error::Overflow)
+}
+
+/// A raw number, if it may be written.
+///
+/// # Errors
+/// What [`Writable::check_with`] says.
+#[inline]
+pub fn checked<P: Writable>(raw: P::Raw, with: P::With) -> Result<P::Raw, Error> {
+    P::check_with(raw, with)?;
+    Ok(raw)
+}
+
+/// The last step of the integer path: a raw number of the point's type, checked.
+///
+/// # Errors
+/// What [`Writable::check_with`] says; [`Error::OutOfRange`] if the type cannot hold the number.
+#[inline]
+pub fn store<P: Writable>(raw: impl TryInto<P::Raw>, with: P::With) -> Result<P::Raw, Error> {
+    checked::<P>(held::<P>(raw, Error::OutOfRange)?, with)
+}
+
+/// The bits of the binary32 number nearest to `value`, ties to even.
+///
+/// # Errors
+/// [`Error::NotANumber`]; [`Error::OutOfRange`] for infinity and what becomes infinity.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "rounding to binary32 is what is asked for"
+)]
+#[inline]
+pub fn f32_bits(value: f64) -> Result<u32, Error> {
+    let single = number(value)? as f32;
+    if single.is_finite() {
+        Ok(single.to_bits())
+    } else {
+        Err(Error::OutOfRange)
+    }
+}
+
+/// The bits of a binary64 number.
+///
+/// # Errors
+/// [`Error::NotANumber`]; [`Error::OutOfRange`] for infinity.
+#[inline]
+pub fn f64_bits(value: f64) -> Result<u64, Error> {
+    if number(value)?.is_finite() {
+        Ok(value.to_bits())
+    } else {
+        Err(Error::OutOfRange)
+    }
+}
+
+/// The bits of the group in `word`, right-aligned.
+#[must_use]
+#[inline]
+pub const fn extract(word: u16, shift: u32, mask: u16) -> u16 {
+    match (word & mask).checked_shr(shift) {
+        Some(bits) => bits,
+        None => 0,
+    }
+}
+
+/// The bits of the group in `word` as a number in two's complement, right-aligned, the sign in all upper bits.
+#[must_use]
+#[inline]
+pub const fn extract_signed(word: u16, shift: u32, mask: u16) -> u16 {
+    let above = mask.leading_zeros();
+    let Some(left) = (word & mask).checked_shl(above) else {
+        return 0;
+    };
+    match i16::from_be_bytes(left.to_be_bytes()).checked_shr(above + shift) {
+        Some(bits) => u16::from_be_bytes(bits.to_be_bytes()),
+        None => 0,
+    }
+}
+
+/// `word` with the group replaced by the low bits of `bits`.
+#[must_use]
+#[inline]
+pub const fn insert(word: u16, shift: u32, mask: u16, bits: u16) -> u16 {
+    match bits.checked_shl(shift) {
+        Some(placed) => (word & !mask) | (placed & mask),
+        None => word,
+    }
+}
+
+/// An exponent, if it is in `low..=high`, where its point may be.
+///
+/// # Errors
+/// [`Error::Overflow`] if it is not.
+#[inline]
+pub fn exponent(raw: i64, low: i64, high: i64) -> Result<i64, Error> {
+    within(raw, low, high).map_err(|_| Error::Overflow)
+}
+
+/// `raw * slope + intercept`: what a factor takes from a point.
+///
+/// # Errors
+/// [`Error::Overflow`].
+#[inline]
+pub fn line(raw: i64, slope: i64, intercept: i64) -> Result<i64, Error> {
+    let product = raw.checked_mul(slope).ok_or(Error::Overflow)?;
+    product.checked_add(intercept).ok_or(Error::Overflow)
+}
+
+/// A scale with factors that are read at run time: `raw = value * num / den + offset`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Rule {
+    num: i64,
+    den: i64,
+    offset_num: i64,
+    offset_den: i64,
+}
+
+impl Rule {
+    /// `raw = value * num / den + offset_num / offset_den`; both denominators are positive.
+    #[must_use]
+    #[inline]
+    pub const fn new(num: i64, den: i64, offset_num: i64, offset_den: i64) -> Self {
+        Self {
+            num,
+            den,
+            offset_num,
+            offset_den,
+        }
+    }
+
+    /// The rule with one more factor.
+    ///
+    /// # Errors
+    /// [`Error::ZeroFactor`] if it is zero; [`Error::Overflow`].
+    #[inline]
+    pub fn times(self, factor: i64) -> Result<Self, Error> {
+        if factor == 0 {
+            return Err(Error::ZeroFactor);
+        }
+        self.limited_by(factor)
+    }
+
+    /// The rule of a limit with one more factor, which may be zero.
+    ///
+    /// # Errors
+    /// [`Error::Overflow`].
+    #[inline]
+    pub fn limited_by(self, factor: i64) -> Result<Self, Error> {
+        let num = self.num.checked_mul(factor).ok_or(Error::Overflow)?;
+        Ok(Self { num, ..self })
+    }
+
+    /// The rule with one more divisor.
+    ///
+    /// # Errors
+    /// [`Error::ZeroFactor`] if it is zero; [`Error::Overflow`].
+    #[inline]
+    pub fn over(self, divisor: i64) -> Result<Self, Error> {
+        if divisor == 0 {
+            return Err(Error::ZeroFactor);
+        }
+        let den = self.den.checked_mul(divisor).ok_or(Error::Overflow)?;
+        Ok(Self { den, ..self })
+    }
+
+    /// The rule times ten to the power of `exponent`.
+    ///
+    /// # Errors
+    /// [`Error::Overflow`].
+    #[inline]
+    pub fn times_ten_to(self, exponent: i64) -> Result<Self, Error> {
+        let digits = u32::try_from(exponent.unsigned_abs()).map_err(|_| Error::Overflow)?;
+        let power = 10_i64.checked_pow(digits).ok_or(Error::Overflow)?;
+        if exponent < 0 {
+            self.over(power)
+        } else {
+            self.times(power)
+        }
+    }
+
+    /// The rule divided by ten to the power of `exponent`.
+    ///
+    /// # Errors
+    /// [`Error::Overflow`].
+    #[inline]
+    pub fn over_ten_to(self, exponent: i64) -> Result<Self, Error> {
+        self.times_ten_to(exponent.checked_neg().ok_or(Error::Overflow)?)
+    }
+
+    /// The raw number before rounding; each step is rounded to binary64.
+    #[must_use]
+    #[inline]
+    pub fn encode(self, value: f64) -> f64 {
+        let product = value * to_f64(self.num);
+        let quotient = product / to_f64(self.den);
+        quotient + to_f64(self.offset_num) / to_f64(self.offset_den)
+    }
+
+    /// The value: the binary64 number nearest to the exact one.
+    ///
+    /// # Errors
+    /// [`Error::Overflow`]; [`Error::ZeroFactor`].
+    #[inline]
+    pub fn decode(self, raw: i64) -> Result<f64, Error> {
+        let (num, den) = self.turned(raw, 1)?;
+        Ok(to_f64(num) / to_f64(den))
+    }
+
+    /// The raw number of a count of `1 / PER_UNIT` units.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] if the raw number is beyond every type.
+    #[inline]
+    pub fn encode_count<const PER_UNIT: i64>(self, count: i64) -> Result<i64, Error> {
+        let den = product([self.den, PER_UNIT, self.offset_den]);
+        let scaled = product([count, self.num, self.offset_den]);
+        let offset = product([self.offset_num, self.den, PER_UNIT]);
+        let sum = scaled
+            .zip(offset)
+            .and_then(|(scaled, offset)| scaled.checked_add(offset));
+        sum.zip(den)
+            .and_then(|(sum, den)| divide(sum, den))
+            .ok_or(Error::OutOfRange)
+    }
+
+    /// The value in counts of `1 / PER_UNIT` units.
+    ///
+    /// # Errors
+    /// [`Error::Overflow`]; [`Error::ZeroFactor`].
+    #[inline]
+    pub fn decode_count<const PER_UNIT: i64>(self, raw: i64) -> Result<i64, Error> {
+        let (num, den) = self.turned(raw, PER_UNIT)?;
+        divide(num, den).ok_or(Error::Overflow)
+    }
+
+    /// The rule applied to 1, rounded: a limit.
+    ///
+    /// # Errors
+    /// [`Error::Overflow`].
+    #[inline]
+    pub fn limit(self) -> Result<i64, Error> {
+        let den = product([self.den, self.offset_den, 1]);
+        let scaled = product([self.num, self.offset_den, 1]);
+        let offset = product([self.offset_num, self.den, 1]);
+        let sum = scaled
+            .zip(offset)
+            .and_then(|(scaled, offset)| scaled.checked_add(offset));
+        sum.zip(den)
+            .and_then(|(sum, den)| divide(sum, den))
+            .ok_or(Error::Overflow)
+    }
+
+    /// `(raw - offset) * den * times / num` as a fraction with a positive denominator.
+    #[inline]
+    fn turned(self, raw: i64, times: i64) -> Result<(i64, i64), Error> {
+        if self.num == 0 {
+            return Err(Error::ZeroFactor);
+        }
+        let shifted =
+            product([raw, self.offset_den, 1]).and_then(|raw| raw.checked_sub(self.offset_num));
+        let num =
+            product([shifted.ok_or(Error::Overflow)?, self.den, times]).ok_or(Error::Overflow)?;
+        let den = product([self.num, self.offset_den, 1]).ok_or(Error::Overflow)?;
+        if den < 0 {
+            let num = num.checked_neg().ok_or(Error::Overflow)?;
+            Ok((num, den.checked_neg().ok_or(Error::Overflow)?))
+        } else {
+            Ok((num, den))
+        }
+    }
+}
+
+#[inline]
+fn product([a, b, c]: [i64; 3]) -> Option<i64> {
+    a.checked_mul(b)?.checked_mul(c)
+}
+
+/// The quotient, rounded to nearest, halves away from zero; none for a zero divisor or a result beyond the type.
+#[inline]
+fn divide(dividend: i64, divisor: i64) -> Option<i64> {
+    let half = divisor.unsigned_abs() / 2;
+    let sum = dividend.unsigned_abs().checked_add(half)?;
+    let quotient = sum.checked_div(divisor.unsigned_abs())?;
+    if (dividend < 0) == (divisor < 0) {
+        i64::try_from(quotient).ok()
+    } else {
+        0_i64.checked_sub_unsigned(quotient)
+    }
+}

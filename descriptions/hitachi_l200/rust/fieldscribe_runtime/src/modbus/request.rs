@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: 0BSD
+//! Requests and their frames.
+
+use super::function::{is_read, read_function, write_function, writes};
+use super::{crc, Block, BuildError, Command, Framing, Profile};
+use crate::{BitGroup, Readable, Whole, Writable};
+
+/// What a request writes.
+#[derive(Clone, Copy, Debug)]
+enum Values<'a> {
+    Own([u16; 4], usize),
+    Lent(&'a [u16]),
+}
+
+impl Values<'_> {
+    fn as_slice(&self) -> &[u16] {
+        match self {
+            Self::Own(words, count) => words.get(..*count).unwrap_or(words),
+            Self::Lent(words) => words,
+        }
+    }
+}
+
+/// A request: what is asked of which unit. It is built into a frame, and it parses the reply to that frame.
+#[derive(Clone, Copy, Debug)]
+pub struct Request<'a> {
+    pub(super) framing: Framing,
+    pub(super) transaction: u16,
+    pub(super) unit: u8,
+    pub(super) function: u8,
+    pub(super) address: u16,
+    pub(super) count: u16,
+    values: Values<'a>,
+}
+
+impl Request<'static> {
+    /// A request that reads `count` items.
+    #[must_use]
+    pub const fn new(unit: u8, function: u8, address: u16, count: u16) -> Self {
+        Self {
+            framing: Framing::Rtu,
+            transaction: 0,
+            unit,
+            function,
+            address,
+            count,
+            values: Values::Own([0; 4], 0),
+        }
+    }
+
+    /// A request that reads a point.
+    #[must_use]
+    pub fn read<P: Readable>(unit: u8) -> Self {
+        let function = P::READ_FUNCTION.unwrap_or(read_function(P::SPACE));
+        Self::new(unit, function, P::ADDRESS, P::WORDS)
+    }
+
+    /// A request that writes a point's raw number.
+    #[must_use]
+    pub fn write<P: Writable + Whole>(unit: u8, raw: P::Raw) -> Self {
+        let usual = write_function(P::SPACE, P::WORDS);
+        let function = P::WRITE_FUNCTION.unwrap_or(usual);
+        Self::own(unit, function, P::WRITE_ADDRESS, P::to_words(raw).as_ref())
+    }
+
+    /// A request that writes a word back with a group of its bits replaced.
+    #[must_use]
+    pub fn update<P: Writable + BitGroup>(unit: u8, word: u16, raw: P::Raw) -> Self {
+        let usual = write_function(P::SPACE, P::WORDS);
+        let function = P::WRITE_FUNCTION.unwrap_or(usual);
+        Self::own(unit, function, P::WRITE_ADDRESS, &[P::insert(word, raw)])
+    }
+
+    /// A request that reads a block.
+    #[must_use]
+    pub const fn block(unit: u8, block: &Block) -> Self {
+        Self::new(unit, block.function, block.address, block.count)
+    }
+
+    /// A request that gives a command.
+    #[must_use]
+    pub fn command(unit: u8, command: &Command) -> Self {
+        let value = command.value.unwrap_or(1);
+        Self::own(unit, command.function, command.address, &[value])
+    }
+
+    fn own(unit: u8, function: u8, address: u16, values: &[u16]) -> Self {
+        let mut words = [0; 4];
+        let mut count = 0;
+        for (place, value) in words.iter_mut().zip(values) {
+            *place = *value;
+            count += 1;
+        }
+        Self {
+            values: Values::Own(words, usize::from(count)),
+            ..Self::new(unit, function, address, count)
+        }
+    }
+}
+
+impl<'a> Request<'a> {
+    /// A request that writes words, or bits as 0 and 1.
+    #[must_use]
+    pub fn write_values(unit: u8, function: u8, address: u16, values: &'a [u16]) -> Self {
+        Self {
+            framing: Framing::Rtu,
+            transaction: 0,
+            unit,
+            function,
+            address,
+            count: u16::try_from(values.len()).unwrap_or(u16::MAX),
+            values: Values::Lent(values),
+        }
+    }
+
+    /// The same request over TCP, as this transaction.
+    #[must_use]
+    pub const fn tcp(self, transaction: u16) -> Self {
+        Self {
+            framing: Framing::Tcp,
+            transaction,
+            ..self
+        }
+    }
+
+    /// The unit that is asked.
+    #[must_use]
+    pub const fn unit(&self) -> u8 {
+        self.unit
+    }
+
+    /// Writes the frame into `buffer` and gives its length in bytes.
+    ///
+    /// # Errors
+    /// Whatever the device would not take, and a buffer that is too small.
+    pub fn build(&self, profile: &Profile, buffer: &mut [u8]) -> Result<usize, BuildError> {
+        self.check(profile)?;
+        let mut frame = Writer { buffer, length: 0 };
+        if self.framing == Framing::Tcp {
+            let length = self
+                .pdu_length(profile.pad_coil_bytes_even)
+                .saturating_add(1);
+            frame.words([self.transaction, 0, length])?;
+        }
+        frame.bytes([self.unit, self.function])?;
+        frame.words([self.address])?;
+        self.build_data(profile, &mut frame)?;
+        if self.framing == Framing::Rtu {
+            let crc = crc(frame.written());
+            frame.bytes(crc.to_le_bytes())?;
+        }
+        Ok(frame.length)
+    }
+
+    fn check(&self, profile: &Profile) -> Result<(), BuildError> {
+        let most = profile.most(self.function).ok_or(BuildError::BadFunction)?;
+        let (least, greatest) = profile.units;
+        let fits = if profile.is_broadcast(self.unit) {
+            writes(self.function)
+        } else {
+            (least..=greatest).contains(&self.unit)
+        };
+        if !fits {
+            return Err(BuildError::BadUnit);
+        }
+        let values = self.values.as_slice();
+        let missing = !is_read(self.function) && values.len() != usize::from(self.count);
+        if self.count == 0 || self.count > most || missing {
+            return Err(BuildError::BadCount);
+        }
+        let strange = self.function == 8 && self.address != 0;
+        if strange || self.address.checked_add(self.count - 1).is_none() {
+            return Err(BuildError::BadAddress);
+        }
+        let bits = matches!(self.function, 5 | 15);
+        if bits && values.iter().any(|value| *value > 1) {
+            return Err(BuildError::BadValue);
+        }
+        Ok(())
+    }
+
+    fn build_data(&self, profile: &Profile, frame: &mut Writer<'_>) -> Result<(), BuildError> {
+        let values = self.values.as_slice();
+        match self.function {
+            5 | 6 | 8 => frame.words([self.echo_value()]),
+            15 => {
+                let bytes = coil_bytes(self.count, profile.pad_coil_bytes_even);
+                frame.words([self.count])?;
+                frame.bytes([bytes])?;
+                let packed = values.chunks(8).map(pack).chain(core::iter::repeat(0));
+                packed
+                    .take(usize::from(bytes))
+                    .try_for_each(|byte| frame.bytes([byte]))
+            }
+            16 => {
+                frame.words([self.count])?;
+                frame.bytes([low_byte(self.count.saturating_mul(2))])?;
+                values.iter().try_for_each(|value| frame.words([*value]))
+            }
+            _ => frame.words([self.count]),
+        }
+    }
+
+    fn pdu_length(&self, pad_coil_bytes_even: bool) -> u16 {
+        match self.function {
+            15 => u16::from(coil_bytes(self.count, pad_coil_bytes_even)).saturating_add(6),
+            16 => self.count.saturating_mul(2).saturating_add(6),
+            _ => 5,
+        }
+    }
+
+    /// The value as functions 05h, 06h and 08h send it, and as the device repeats it.
+    pub(super) fn echo_value(&self) -> u16 {
+        match (self.function, self.values.as_slice().first()) {
+            (_, None) | (5, Some(0)) => 0,
+            (5, Some(_)) => 0xFF00,
+            (_, Some(value)) => *value,
+        }
+    }
+}
+
+fn coil_bytes(count: u16, pad_even: bool) -> u8 {
+    let bytes = count.div_ceil(8);
+    low_byte(if pad_even {
+        bytes.saturating_add(bytes % 2)
+    } else {
+        bytes
+    })
+}
+
+fn pack(bits: &[u16]) -> u8 {
+    bits.iter()
+        .rev()
+        .fold(0, |byte, bit| byte << 1 | u8::from(*bit != 0))
+}
+
+const fn low_byte(word: u16) -> u8 {
+    let [_, low] = word.to_be_bytes();
+    low
+}
+
+/// Fills a buffer from its start.
+struct Writer<'a> {
+    buffer: &'a mut [u8],
+    length: usize,
+}
+
+impl Writer<'_> {
+    fn bytes<const N: usize>(&mut self, bytes: [u8; N]) -> Result<(), BuildError> {
+        let rest = self
+            .buffer
+            .get_mut(self.length..)
+            .ok_or(BuildError::BufferTooSmall)?;
+        let place = rest
+            .first_chunk_mut::<N>()
+            .ok_or(BuildError::BufferTooSmall)?;
+        *place = bytes;
+        self.length += N;
+        Ok(())
+    }
+
+    fn words<const N: usize>(&mut self, words: [u16; N]) -> Result<(), BuildError> {
+        words
+            .iter()
+            .try_for_each(|word| self.bytes(word.to_be_bytes()))
+    }
+
+    fn written(&self) -> &[u8] {
+        self.buffer.get(..self.length).unwrap_or_default()
+    }
+}

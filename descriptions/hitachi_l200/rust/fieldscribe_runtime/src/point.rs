@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: 0BSD
+//! What a point is. Each point of a device is a type that implements [`Point`] and what its access allows.
+
+use crate::arithmetic::{insert, Rule};
+use crate::{Error, Raw};
+
+/// Where an address counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Space {
+    /// Coils: bits that are read and written.
+    Coil,
+    /// Discrete inputs: bits that are read.
+    Discrete,
+    /// Input registers: words that are read.
+    Input,
+    /// Holding registers: words that are read and written.
+    Holding,
+    /// A space of another family.
+    Other(&'static str),
+}
+
+impl Space {
+    /// The space's name in the description.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Coil => "coil",
+            Self::Discrete => "discrete",
+            Self::Input => "input",
+            Self::Holding => "holding",
+            Self::Other(name) => name,
+        }
+    }
+}
+
+/// One addressable datum of a device.
+pub trait Point {
+    /// The number on the wire.
+    type Raw: Raw;
+    /// What the number means.
+    type Value;
+    /// The point's name in the description.
+    const NAME: &'static str;
+    /// The manual's own code for the point.
+    const CODE: Option<&'static str> = None;
+    /// Where the address counts.
+    const SPACE: Space;
+    /// The zero-based address on the wire, the lowest if the point has several words.
+    const ADDRESS: u16;
+    /// How many words, or bits of a bit space, the point takes.
+    const WORDS: u16 = 1;
+    /// The symbol of the value's unit; empty for a plain number.
+    const UNIT: &'static str = "";
+    /// The least raw number that the manual allows.
+    const RAW_MIN: Self::Raw = <Self::Raw as Raw>::MIN;
+    /// The greatest raw number that the manual allows.
+    const RAW_MAX: Self::Raw = <Self::Raw as Raw>::MAX;
+
+    /// The raw number from the point's words, in the order of their addresses.
+    fn from_words(words: <Self::Raw as Raw>::Words) -> Self::Raw {
+        Self::Raw::from_words(words)
+    }
+
+    /// The raw number from received words, in the order of their addresses.
+    ///
+    /// # Errors
+    /// [`Error::WrongLength`] unless there are exactly the point's words.
+    fn from_received(mut received: impl Iterator<Item = u16>) -> Result<Self::Raw, Error> {
+        let mut words = <Self::Raw as Raw>::Words::default();
+        for word in words.as_mut() {
+            *word = received.next().ok_or(Error::WrongLength)?;
+        }
+        match received.next() {
+            Some(_) => Err(Error::WrongLength),
+            None => Ok(Self::from_words(words)),
+        }
+    }
+}
+
+/// A point that has its words for itself, so that writing them touches nothing else.
+pub trait Whole: Point {
+    /// The point's words in the order of their addresses.
+    fn to_words(raw: Self::Raw) -> <Self::Raw as Raw>::Words {
+        raw.into_words()
+    }
+}
+
+/// A point that is a group of bits in a word which it shares with others.
+pub trait BitGroup: Point<Raw: Raw<Words = [u16; 1]>> {
+    /// How far the group lies above bit 0.
+    const SHIFT: u32;
+    /// The group's bits in the word.
+    const MASK: u16;
+
+    /// The group's number in `word`.
+    #[must_use]
+    fn extract(word: u16) -> Self::Raw {
+        Self::from_words([word])
+    }
+
+    /// `word` with the group's number replaced; bits that the group does not have are cut off.
+    fn insert(word: u16, raw: Self::Raw) -> u16 {
+        let [bits] = raw.into_words();
+        insert(word, Self::SHIFT, Self::MASK, bits)
+    }
+}
+
+/// A point whose scale needs the raw numbers of other points.
+pub trait Scaled: Point {
+    /// The raw numbers that the scale needs.
+    type Factors: Copy;
+
+    /// The scale that holds now.
+    ///
+    /// # Errors
+    /// [`Error::NoCase`], [`Error::ZeroFactor`], [`Error::Overflow`].
+    fn rule(with: Self::Factors) -> Result<Rule, Error>;
+}
+
+/// What decoding gives: the value where it cannot fail, else a result.
+pub trait Decoded<V> {
+    /// The value as a result.
+    ///
+    /// # Errors
+    /// Why the raw number has no value.
+    fn into_result(self) -> Result<V, Error>;
+}
+
+impl<V> Decoded<V> for V {
+    fn into_result(self) -> Result<V, Error> {
+        Ok(self)
+    }
+}
+
+impl<V> Decoded<V> for Result<V, Error> {
+    fn into_result(self) -> Result<V, Error> {
+        self
+    }
+}
+
+/// A point that the device answers with.
+pub trait Readable: Point {
+    /// The raw numbers of other points that the scale needs; `()` if it needs none.
+    type Factors: Copy;
+    /// `V` where decoding cannot fail, else `Result<V, Error>`.
+    type Output<V>: Decoded<V>;
+    /// The function that reads the point, where it is not the usual one of its space.
+    const READ_FUNCTION: Option<u8> = None;
+
+    /// The value of a raw number, whatever the device may send.
+    fn decode_with(raw: Self::Raw, with: Self::Factors) -> Self::Output<Self::Value>;
+
+    /// The value of a raw number, for a point whose scale needs no other.
+    fn decode(raw: Self::Raw) -> Self::Output<Self::Value>
+    where
+        Self: Readable<Factors = ()>,
+    {
+        Self::decode_with(raw, ())
+    }
+}
+
+/// A point that the device takes.
+pub trait Writable: Point {
+    /// The raw numbers of other points that the scale or the limits need; `()` if they need none.
+    type With: Copy;
+    /// The function that writes the point, where it is not the usual one of its space.
+    const WRITE_FUNCTION: Option<u8> = None;
+    /// The address that takes the point.
+    const WRITE_ADDRESS: u16 = Self::ADDRESS;
+
+    /// Whether the raw number may be written.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`], [`Error::UnknownValue`], and [`Error::ZeroFactor`] for a limit that divides by zero.
+    fn check_with(raw: Self::Raw, with: Self::With) -> Result<(), Error>;
+
+    /// The raw number of a value: nearest, halves away from zero, then checked.
+    ///
+    /// # Errors
+    /// What [`Writable::check_with`] says; [`Error::NotANumber`], [`Error::NoCase`], [`Error::ZeroFactor`].
+    fn encode_with(value: Self::Value, with: Self::With) -> Result<Self::Raw, Error>;
+
+    /// As [`Writable::check_with`], for a point that needs no other.
+    ///
+    /// # Errors
+    /// The same.
+    fn check(raw: Self::Raw) -> Result<(), Error>
+    where
+        Self: Writable<With = ()>,
+    {
+        Self::check_with(raw, ())
+    }
+
+    /// As [`Writable::encode_with`], for a point that needs no other.
+    ///
+    /// # Errors
+    /// The same.
+    fn encode(value: Self::Value) -> Result<Self::Raw, Error>
+    where
+        Self: Writable<With = ()>,
+    {
+        Self::encode_with(value, ())
+    }
+}
+
+/// Decoding in integers: the value as a count of the point's smallest decimal step, or the plain raw number.
+pub trait CountReadable: Readable {
+    /// The integer that holds a count.
+    type Count;
+
+    /// The count nearest to the value, halves away from zero.
+    fn decode_count_with(raw: Self::Raw, with: Self::Factors) -> Self::Output<Self::Count>;
+
+    /// As [`CountReadable::decode_count_with`], for a point whose scale needs no other.
+    fn decode_count(raw: Self::Raw) -> Self::Output<Self::Count>
+    where
+        Self: Readable<Factors = ()>,
+    {
+        Self::decode_count_with(raw, ())
+    }
+}
+
+/// Encoding in integers: from a count of the point's smallest decimal step, or from the plain raw number.
+pub trait CountWritable: Writable {
+    /// The integer that holds a count; wider than what is allowed.
+    type Count;
+
+    /// The raw number of a count: nearest, halves away from zero, then checked.
+    ///
+    /// # Errors
+    /// As [`Writable::encode_with`].
+    fn encode_count_with(count: Self::Count, with: Self::With) -> Result<Self::Raw, Error>;
+
+    /// As [`CountWritable::encode_count_with`], for a point that needs no other.
+    ///
+    /// # Errors
+    /// The same.
+    fn encode_count(count: Self::Count) -> Result<Self::Raw, Error>
+    where
+        Self: Writable<With = ()>,
+    {
+        Self::encode_count_with(count, ())
+    }
+}
+
+/// What a check of a range says.
+///
+/// # Errors
+/// [`Error::OutOfRange`] if it does not hold.
+#[inline]
+pub const fn allowed(holds: bool) -> Result<(), Error> {
+    if holds {
+        Ok(())
+    } else {
+        Err(Error::OutOfRange)
+    }
+}
+
+/// What a check of a closed enum says.
+///
+/// # Errors
+/// [`Error::UnknownValue`] if it does not hold.
+#[inline]
+pub const fn listed(holds: bool) -> Result<(), Error> {
+    if holds {
+        Ok(())
+    } else {
+        Err(Error::UnknownValue)
+    }
+}
+
+/// What a check for raw numbers that mean `no value` says.
+///
+/// # Errors
+/// [`Error::NoValue`] if it does not hold.
+#[inline]
+pub const fn has_value(holds: bool) -> Result<(), Error> {
+    if holds {
+        Ok(())
+    } else {
+        Err(Error::NoValue)
+    }
+}

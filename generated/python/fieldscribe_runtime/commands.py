@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: 0BSD
+"""Named constant writes, such as storing the parameters."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, overload
+
+from .errors import AccessError
+
+if TYPE_CHECKING:
+    from .device import AsyncDevice, Device
+    from .facts import Place
+    from .session import Session, Steps
+
+
+class Command:
+    """A write that makes the device do something; without a `value` any number does."""
+
+    def __init__(self, *, at: Place, value: int | None = None) -> None:
+        self.at = at
+        self.value = value
+        self.name = ""
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self.name = name
+
+    @overload
+    def __get__(self, device: None, owner: object) -> Command: ...
+    @overload
+    def __get__(self, device: Device, owner: object) -> CommandHandle: ...
+    @overload
+    def __get__(self, device: AsyncDevice, owner: object) -> AsyncCommandHandle: ...
+    def __get__(self, device: Device | AsyncDevice | None, owner: object) -> object:
+        return self if device is None else device.command(self)
+
+    def __set__(self, device: object, value: object) -> None:
+        raise AttributeError("a command is not assigned to: use its send method")
+
+    def steps(self, device: Session, value: int | None) -> Steps[None]:
+        """The write, carried out by a device."""
+        if self.value is not None and value not in (None, self.value):
+            raise AccessError(f"{self.name} is the number {self.value}, not {value}")
+        return device.put_steps(self.at, (self.value if self.value is not None else value or 0,))
+
+
+class CommandHandle:
+    """A command of a device."""
+
+    def __init__(self, command: Command, device: Device) -> None:
+        self._command = command
+        self._device = device
+
+    def send(self, value: int | None = None) -> None:
+        """Give the command; `value` only where any number does."""
+        self._device.run(self._command.steps(self._device, value))
+
+
+class AsyncCommandHandle:
+    """A command of an async device."""
+
+    def __init__(self, command: Command, device: AsyncDevice) -> None:
+        self._command = command
+        self._device = device
+
+    async def send(self, value: int | None = None) -> None:
+        """Give the command; `value` only where any number does."""
+        await self._device.run(self._command.steps(self._device, value))

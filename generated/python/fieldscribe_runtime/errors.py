@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: 0BSD
+"""Everything that can go wrong, as exceptions: one base class, and `status` names the case."""
+
+from __future__ import annotations
+
+
+class FieldscribeError(Exception):
+    """Base of all errors of generated devices; `status` is a stable name for programs."""
+
+    status: str = "error"
+
+
+class CodecError(FieldscribeError, ValueError):
+    """A value or raw number cannot be converted; `point` says which point it was meant for."""
+
+    point: str | None = None
+
+    def __str__(self) -> str:
+        reason = super().__str__()
+        return reason if self.point is None else f"{self.point}: {reason}"
+
+
+class RangeError(CodecError):
+    """The number may not be written."""
+
+    status = "out_of_range"
+
+
+class NotANumberError(CodecError):
+    """The value is NaN."""
+
+    status = "not_a_number"
+
+
+class UnknownValueError(CodecError):
+    """The number is none of the named ones, and only those may be written."""
+
+    status = "unknown_value"
+
+
+class ZeroFactorError(CodecError):
+    """Another point that the scale or a limit needs is zero."""
+
+    status = "zero_factor"
+
+
+class NoCaseError(CodecError):
+    """No scale fits the numbers of the points that choose it."""
+
+    status = "no_case"
+
+
+class ResultOverflowError(CodecError):
+    """The result is too large to be represented."""
+
+    status = "overflow"
+
+
+class NoValueError(CodecError):
+    """The raw number is a code that means "there is no value"."""
+
+    status = "no_value"
+
+
+class WrongLengthError(CodecError):
+    """Too few or too many words for this point."""
+
+    status = "wrong_length"
+
+
+class MissingRawError(CodecError):
+    """The conversion needs the raw number of another point, and `raws` does not hold it."""
+
+    status = "missing_raw"
+
+
+class AccessError(FieldscribeError):
+    """The device does not offer this: another variant, or a bit group that cannot be read back."""
+
+    status = "no_access"
+
+
+class RequestError(FieldscribeError, ValueError):
+    """The request cannot be sent to this device; `status` says why (bad_unit, bad_count, ...)."""
+
+    def __init__(self, status: str, message: str) -> None:
+        super().__init__(message)
+        self.status = status
+
+
+class FrameError(FieldscribeError):
+    """The reply is not a good answer to the request; `status` says why (bad_crc, short_frame, echo_mismatch, ...)."""
+
+    def __init__(self, status: str, message: str) -> None:
+        super().__init__(message)
+        self.status = status
+
+
+class ExceptionReplyError(FrameError):
+    """The device refused the request with an exception `code`; `name` is the manual's name for it, where known."""
+
+    def __init__(self, code: int, name: str | None = None) -> None:
+        super().__init__("exception", f"the device answered exception {code:02X}h" + (f" ({name})" if name else ""))
+        self.code = code
+        self.name = name

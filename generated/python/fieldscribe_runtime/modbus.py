@@ -1,0 +1,200 @@
+# SPDX-License-Identifier: 0BSD
+"""Modbus requests and replies as bytes, RTU and TCP, without any I/O. Any bytes of any length are safe to parse."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from .errors import ExceptionReplyError, FrameError, RequestError
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+READ_COILS, READ_DISCRETE, READ_HOLDING, READ_INPUT = 0x01, 0x02, 0x03, 0x04
+WRITE_COIL, WRITE_REGISTER, DIAGNOSTICS, WRITE_COILS, WRITE_REGISTERS = 0x05, 0x06, 0x08, 0x0F, 0x10
+
+BIT_READS = frozenset({READ_COILS, READ_DISCRETE})
+READS = frozenset({READ_COILS, READ_DISCRETE, READ_HOLDING, READ_INPUT})
+SINGLE_WRITES = frozenset({WRITE_COIL, WRITE_REGISTER})
+BLOCK_WRITES = frozenset({WRITE_COILS, WRITE_REGISTERS})
+WRITES = SINGLE_WRITES | BLOCK_WRITES
+ECHOES = frozenset({WRITE_COIL, WRITE_REGISTER, DIAGNOSTICS})
+
+RTU, TCP = "rtu", "tcp"
+
+
+@dataclass(frozen=True, slots=True)
+class Profile:
+    """What a device takes: functions with the most items of one request, unit numbers, and its peculiarities."""
+
+    functions: Mapping[int, int]
+    units: tuple[int, int] = (1, 247)
+    broadcast: int | None = 0
+    pad_coil_bytes_even: bool = False
+    exceptions: Mapping[int, str] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class Request:
+    """One request. Reads name `count`, writes `values`; a loop-back test (08h) sends values[0] to `address` 0."""
+
+    unit: int
+    function: int
+    address: int
+    count: int = 0
+    values: tuple[int, ...] = ()
+
+    @property
+    def items(self) -> int:
+        """How many registers or bits it is about."""
+        return self.count if self.function in READS else len(self.values)
+
+
+def _crc_table() -> tuple[int, ...]:
+    table = []
+    for byte in range(256):
+        value = byte
+        for _ in range(8):
+            value = value >> 1 ^ (0xA001 if value & 1 else 0)
+        table.append(value)
+    return tuple(table)
+
+
+_CRC = _crc_table()
+
+
+def crc(data: bytes) -> int:
+    """The CRC-16 of RTU frames; it travels low byte first."""
+    value = 0xFFFF
+    for byte in data:
+        value = value >> 8 ^ _CRC[(value ^ byte) & 0xFF]
+    return value
+
+
+def check_request(request: Request, profile: Profile) -> None:
+    """Raises RequestError if the device does not take such a request."""
+    low, high = profile.units
+    most = profile.functions.get(request.function)
+    if most is None:
+        raise RequestError("bad_function", f"the device has no function {request.function:02X}h")
+    if request.unit == profile.broadcast:
+        if request.function not in WRITES:
+            raise RequestError("bad_unit", f"function {request.function:02X}h cannot be sent to all units")
+    elif not low <= request.unit <= high:
+        raise RequestError("bad_unit", f"unit {request.unit} is outside {low}..{high}")
+    if not 1 <= request.items <= most:
+        raise RequestError("bad_count", f"function {request.function:02X}h takes 1..{most} items, not {request.items}")
+    last = 0 if request.function == DIAGNOSTICS else 0x10000 - request.items
+    if not 0 <= request.address <= last:
+        raise RequestError("bad_address", f"{request.items} items from {request.address} on are outside 0..65535")
+    largest = 1 if request.function in (WRITE_COIL, WRITE_COILS) else 0xFFFF
+    if not all(0 <= value <= largest for value in request.values):
+        raise RequestError("bad_value", f"values must be in 0..{largest}")
+
+
+def _words(*words: int) -> bytes:
+    return b"".join(word.to_bytes(2, "big") for word in words)
+
+
+def _pdu(request: Request, profile: Profile) -> bytes:
+    head = bytes([request.function]) + _words(request.address)
+    if request.function in READS:
+        return head + _words(request.count)
+    if request.function == WRITE_COIL:
+        return head + _words(0xFF00 if request.values[0] else 0)
+    if request.function not in BLOCK_WRITES:
+        return head + _words(request.values[0])
+    data = _words(*request.values)
+    if request.function == WRITE_COILS:
+        size = (len(request.values) + 7) // 8
+        size += size % 2 if profile.pad_coil_bytes_even else 0
+        data = sum(value << place for place, value in enumerate(request.values)).to_bytes(size, "little")
+    return head + _words(len(request.values)) + bytes([len(data)]) + data
+
+
+def build(request: Request, profile: Profile, framing: str = RTU, transaction: int = 0) -> bytes:
+    """The bytes of a request; raises RequestError if the device does not take it."""
+    check_request(request, profile)
+    pdu = _pdu(request, profile)
+    if framing == TCP:
+        return _words(transaction & 0xFFFF, 0, len(pdu) + 1) + bytes([request.unit]) + pdu
+    frame = bytes([request.unit]) + pdu
+    return frame + crc(frame).to_bytes(2, "little")
+
+
+def reply_size(received: bytes, framing: str = RTU) -> int | None:
+    """How long the reply is whose first bytes are `received`; None while that cannot be told. For transports."""
+    if framing == TCP:
+        return 6 + int.from_bytes(received[4:6], "big") if len(received) >= 6 else None
+    if len(received) < 3:
+        return None
+    if received[1] & 0x80:
+        return 5
+    return 5 + received[2] if received[1] in READS else 8
+
+
+def parse(
+    request: Request, reply: bytes, profile: Profile, framing: str = RTU, transaction: int = 0
+) -> tuple[int, ...]:
+    """What a reply to `request` brings: words, bits as 0 or 1, the echoed value, or nothing for a block write.
+
+    Raises FrameError for everything that is no good answer; its subclass ExceptionReplyError carries the device's code.
+    """
+    pdu = _open_tcp(request, reply, transaction & 0xFFFF) if framing == TCP else _open_rtu(request, reply)
+    if pdu[0] != request.function:
+        raise ExceptionReplyError(pdu[1], profile.exceptions.get(pdu[1]))
+    return _answer(request, pdu, profile)
+
+
+def _open_rtu(request: Request, reply: bytes) -> bytes:
+    if len(reply) < 5:
+        raise FrameError("short_frame", f"{len(reply)} bytes are too few for a reply")
+    if reply[1] & 0x7F == request.function:
+        _check_size(len(reply), reply_size(reply) or 0)
+    if crc(reply[:-2]) != int.from_bytes(reply[-2:], "little"):
+        raise FrameError("bad_crc", "the CRC of the reply is wrong")
+    _check_address(request, reply[0], reply[1])
+    return reply[1:-2]
+
+
+def _open_tcp(request: Request, reply: bytes, transaction: int) -> bytes:
+    if len(reply) < 9:
+        raise FrameError("short_frame", f"{len(reply)} bytes are too few for a reply")
+    if reply[2:4] != b"\0\0":
+        raise FrameError("bad_protocol", "the protocol number is not 0")
+    _check_size(len(reply), 6 + int.from_bytes(reply[4:6], "big"))
+    if int.from_bytes(reply[:2], "big") != transaction:
+        raise FrameError("wrong_transaction", "the reply belongs to another request")
+    _check_address(request, reply[6], reply[7])
+    if reply[7] & 0x80 or request.function not in READS:
+        _check_size(len(reply) - 7, 2 if reply[7] & 0x80 else 5)
+    return reply[7:]
+
+
+def _check_size(size: int, expected: int) -> None:
+    if size != expected:
+        status = "short_frame" if size < expected else "long_frame"
+        raise FrameError(status, f"the reply has {size} bytes where {expected} belong")
+
+
+def _check_address(request: Request, unit: int, function: int) -> None:
+    if unit != request.unit:
+        raise FrameError("wrong_unit", f"unit {unit} answered instead of {request.unit}")
+    if function & 0x7F != request.function:
+        raise FrameError("wrong_function", f"the reply is for function {function:02X}h")
+
+
+def _answer(request: Request, pdu: bytes, profile: Profile) -> tuple[int, ...]:
+    if request.function in READS:
+        bits = request.function in BIT_READS
+        size = (request.count + 7) // 8 if bits else request.count * 2
+        data = pdu[2:]
+        if pdu[1] != size or len(data) != size:
+            raise FrameError("bad_byte_count", f"the reply has {pdu[1]} data bytes where {size} belong")
+        if bits:
+            return tuple(data[place >> 3] >> (place & 7) & 1 for place in range(request.count))
+        return tuple(int.from_bytes(data[place : place + 2], "big") for place in range(0, size, 2))
+    if pdu != _pdu(request, profile)[:5]:
+        raise FrameError("echo_mismatch", "the reply does not repeat the request")
+    return request.values if request.function in ECHOES else ()

@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: 0BSD
+"""Reads of consecutive addresses that respect a device's limits and holes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from .modbus import READ_COILS, READ_DISCRETE, READ_HOLDING, READ_INPUT, READS, Profile
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Iterable
+
+    from .facts import Place
+
+_READS = {"coil": READ_COILS, "discrete": READ_DISCRETE, "holding": READ_HOLDING, "input": READ_INPUT}
+
+
+@dataclass(frozen=True, slots=True)
+class Block:
+    """One read: `count` words or bits from `address` on."""
+
+    space: str
+    function: int
+    address: int
+    count: int
+
+    def covers(self, place: Place) -> bool:
+        """Whether the block brings all of a place."""
+        last = max(place.addresses)
+        return self.space == place.space and self.address <= place.address and last < self.address + self.count
+
+
+def read_function(place: Place) -> int:
+    """The function that reads a place."""
+    return place.function if place.function in READS else _READS[place.space]
+
+
+def plan(places: Iterable[Place], profile: Profile, bridges: Collection[tuple[str, int]] = ()) -> tuple[Block, ...]:
+    """The fewest reads, from the lowest address on, that bring all places.
+
+    A read never splits a place, never asks for more than the function allows, and touches no address that was not asked
+    for, except those in `bridges` (space and address of other points that are known to be readable).
+    """
+    blocks: list[Block] = []
+    for place in sorted(set(places), key=lambda one: (one.space, read_function(one), one.address, one.span)):
+        function = read_function(place)
+        last = blocks[-1] if blocks else None
+        if last is not None and last.space == place.space and last.function == function:
+            end = last.address + last.count
+            count = max(end, place.address + place.span) - last.address
+            known = all((place.space, address) in bridges for address in range(end, place.address))
+            if known and count <= profile.functions.get(function, 1):
+                blocks[-1] = Block(place.space, function, last.address, count)
+                continue
+        blocks.append(Block(place.space, function, place.address, place.span))
+    return tuple(blocks)

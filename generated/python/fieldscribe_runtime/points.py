@@ -1,0 +1,182 @@
+# SPDX-License-Identifier: 0BSD
+"""Points: pure conversion between values, raw numbers and words."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
+
+from .errors import CodecError, WrongLengthError
+from .rules import NO_RAWS, Limit, Raws, high_end, low_end
+
+if TYPE_CHECKING:
+    import enum
+    from collections.abc import Mapping, Sequence
+
+    from .facts import Facts
+    from .forms import Allowed, Form, Type
+
+R_co = TypeVar("R_co", covariant=True)
+W_contra = TypeVar("W_contra", contravariant=True)
+
+
+class Point:
+    """One addressable datum. Its methods need no device; what can be read or written comes with the subclasses."""
+
+    _form: Form[Any, Any]
+    facts: Facts
+
+    @property
+    def label(self) -> str:
+        """Code and name, for messages."""
+        return f"{self.facts.code} {self.facts.item}" if self.facts.code else self.facts.item
+
+    @property
+    def wire(self) -> Type:
+        """The wire type."""
+        return self._form.wire
+
+    @property
+    def width(self) -> int:
+        """How many bits the raw number has."""
+        return self.wire.bits if self.facts.bits is None else self.facts.bits[0] - self.facts.bits[1] + 1
+
+    @property
+    def names(self) -> type[enum.IntEnum | enum.IntFlag] | None:
+        """The class that names its numbers or its flags, where there is one."""
+        return self._form.names
+
+    @property
+    def decimals(self) -> int:
+        """Counts are in units of 10^-decimals."""
+        return self._form.decimals
+
+    @property
+    def specials(self) -> Mapping[str, tuple[int, int]]:
+        """Raw numbers (first, last) that are no quantity, by name."""
+        return {**self._form.no_value, **self.facts.specials}
+
+    @property
+    def allowed(self) -> Allowed:
+        """The raw numbers that may be written."""
+        return (self.wire.limits(self.width),) if self.facts.allowed is None else self.facts.allowed
+
+    @property
+    def scale_needs(self) -> tuple[str, ...]:
+        """The points whose raw numbers decoding needs."""
+        return self._form.needs
+
+    @property
+    def limit_needs(self) -> tuple[str, ...]:
+        """The points whose raw numbers checking needs."""
+        bounds = [bound for interval in self.facts.allowed or () for bound in interval if isinstance(bound, Limit)]
+        names = [name for limit in bounds for name in (*(one.point for one in limit.rule.factors), *limit.unless)]
+        return tuple(dict.fromkeys(names))
+
+    def name_of(self, raw: int) -> str | None:
+        """The description's name for a raw number; None if it has none."""
+        return self._form.name_of(raw)
+
+    def from_words(self, words: Sequence[int]) -> int:
+        """The raw number in unsigned words (or bits) in ascending order of address; raises WrongLengthError."""
+        addresses = self.facts.at.addresses
+        if len(words) != len(addresses):
+            raise self._named(WrongLengthError(f"takes {len(addresses)} words, not {len(words)}"))
+        if self.facts.bits is not None:
+            return self.extract(words[0])
+        by_address = dict(zip(sorted(addresses), words, strict=True))
+        pattern = 0
+        for address in addresses:
+            pattern = pattern << 16 | by_address[address] & 0xFFFF
+        return self.wire.number(pattern, self.wire.bits)
+
+    def to_words(self, raw: int) -> tuple[int, ...]:
+        """The unsigned words of a raw number in ascending order of address."""
+        addresses = (self.facts.write_at or self.facts.at).addresses
+        by_address = {address: raw >> 16 * part & 0xFFFF for part, address in enumerate(reversed(addresses))}
+        return tuple(by_address[address] for address in sorted(addresses))
+
+    def extract(self, word: int) -> int:
+        """The raw number of a bit group, from its whole word."""
+        return self.wire.number(word >> self._lowest_bit, self.width)
+
+    def insert(self, word: int, raw: int) -> int:
+        """The whole word with this bit group replaced."""
+        mask = (1 << self.width) - 1
+        return word & ~(mask << self._lowest_bit) | (raw & mask) << self._lowest_bit
+
+    @property
+    def _lowest_bit(self) -> int:
+        return 0 if self.facts.bits is None else self.facts.bits[1]
+
+    def _named(self, error: CodecError) -> CodecError:
+        error.point = self.label
+        return error
+
+
+class Decoding(Point, Generic[R_co]):
+    """The pure functions of a point that can be read."""
+
+    def decode(self, raw: int, raws: Raws = NO_RAWS) -> R_co:
+        """The value of a raw number; `raws` holds the raw numbers of the points that the scale needs.
+
+        Raises ZeroFactorError, NoCaseError, ResultOverflowError and MissingRawError, none of them without such points.
+        """
+        try:
+            value: R_co = self._form.decode(raw, raws)
+        except CodecError as error:
+            raise self._named(error) from None
+        return value
+
+    def decode_count(self, raw: int, raws: Raws = NO_RAWS) -> int:
+        """The value as an integer count of 10^-decimals units; raises NoValueError for a "no value" code."""
+        try:
+            return self._form.decode_count(raw, raws)
+        except CodecError as error:
+            raise self._named(error) from None
+
+
+class Encoding(Point, Generic[W_contra]):
+    """The pure functions of a point that can be written."""
+
+    def encode(self, value: W_contra, raws: Raws = NO_RAWS) -> int:
+        """The raw number for a value; `raws` holds the raw numbers of the points that scale and limits need.
+
+        Raises RangeError, UnknownValueError, NotANumberError, ZeroFactorError, NoCaseError and MissingRawError.
+        """
+        try:
+            raw = self._form.encode(value, self.allowed, raws)
+            if raw is None:
+                raise self._refusal(f"{value:.12g}" if isinstance(value, float) else f"{value!s}", raws)
+        except CodecError as error:
+            raise self._named(error) from None
+        return raw
+
+    def encode_count(self, count: int, raws: Raws = NO_RAWS) -> int:
+        """The raw number for an integer count of 10^-decimals units, by integers alone; raises as `encode`."""
+        try:
+            raw = self._form.encode_count(count, self.allowed, raws)
+            if raw is None:
+                raise self._refusal(f"{count / 10**self.decimals:.12g}" if self.decimals else str(count), raws)
+        except CodecError as error:
+            raise self._named(error) from None
+        return raw
+
+    def check(self, raw: int, raws: Raws = NO_RAWS) -> None:
+        """Raises RangeError or UnknownValueError (or ZeroFactorError) if this raw number may not be written."""
+        try:
+            if self._form.checked(raw, self.allowed, raws) is None:
+                raise self._form.refused(f"raw {raw} is {self._form.choices() or self._raw_bounds(raws)}")
+        except CodecError as error:
+            raise self._named(error) from None
+
+    def _raw_bounds(self, raws: Raws) -> str:
+        return "outside " + " or ".join(f"{low_end(low, raws)}..{high_end(high, raws)}" for low, high in self.allowed)
+
+    def _refusal(self, shown: str, raws: Raws) -> CodecError:
+        unit = f" {self.facts.unit}" if self.facts.unit else ""
+        choices = self._form.choices()
+        if choices is None:
+            ends = [(low_end(low, raws), high_end(high, raws)) for low, high in self.allowed]
+            texts = [(self._form.shown(low, raws), self._form.shown(high, raws)) for low, high in ends]
+            choices = "outside " + " or ".join(low if low == high else f"{low}..{high}" for low, high in texts)
+        return self._form.refused(f"{shown}{unit} is {choices}{unit}")

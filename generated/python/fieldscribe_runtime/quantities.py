@@ -1,0 +1,162 @@
+# SPDX-License-Identifier: 0BSD
+"""Forms whose raw number is not the value: scaled quantities, IEEE 754 numbers, and codes for "there is no value"."""
+
+from __future__ import annotations
+
+import math
+import operator
+import struct
+from typing import TYPE_CHECKING, TypeVar
+
+from .errors import NotANumberError, NoValueError
+from .forms import Form
+from .rules import Case, Rule, chosen
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from .forms import Allowed, Type
+    from .rules import Raws
+
+R = TypeVar("R")
+W = TypeVar("W")
+
+
+class Scaled(Form[float, float]):
+    """A quantity: raw = value by a rule, or by the first of several cases that fits."""
+
+    def __init__(self, wire: Type, rule: Rule | tuple[Case, ...], *, decimals: int) -> None:
+        self.wire = wire
+        self.rule = rule
+        self.decimals = decimals
+        cases = (Case(None, None, rule),) if isinstance(rule, Rule) else rule
+        names = [name for case in cases for name in (case.point, *(factor.point for factor in case.rule.factors))]
+        self.needs = tuple(dict.fromkeys(name for name in names if name is not None))
+
+    def _rule(self, raws: Raws) -> Rule:
+        return self.rule if isinstance(self.rule, Rule) else chosen(self.rule, raws)
+
+    def decode(self, raw: int, raws: Raws) -> float:
+        """The binary64 nearest to the exact value."""
+        return self._rule(raws).decode(raw, raws)
+
+    def encode(self, value: float, allowed: Allowed, raws: Raws) -> int | None:
+        """Rounded to nearest, halves away from zero, then checked."""
+        if math.isnan(value):
+            raise NotANumberError("the value is NaN")
+        raw = self._rule(raws).encode(value, raws)
+        return None if raw is None else self.checked(raw, allowed, raws)
+
+    def decode_count(self, raw: int, raws: Raws) -> int:
+        """The count nearest to the exact value, by integers alone."""
+        return self._rule(raws).decode_count(raw, self.decimals, raws)
+
+    def encode_count(self, count: int, allowed: Allowed, raws: Raws) -> int | None:
+        """As `encode`, by integers alone."""
+        raw = self._rule(raws).encode_count(operator.index(count), self.decimals, raws)
+        return self.checked(raw, allowed, raws)
+
+    def shown(self, raw: int, raws: Raws) -> str:
+        """The value, as people read it."""
+        return f"{self.decode(raw, raws):.12g}"
+
+
+class Floating(Form[float, float]):
+    """An IEEE 754 number (`F32` or `F64`): the raw number is its bit pattern; limits are in the unit."""
+
+    def __init__(self, wire: Type, *, units: tuple[tuple[float, float], ...] = ()) -> None:
+        self.wire = wire
+        self.units = units
+        self._pack, self._word = ("<f", "<I") if wire.bits == 32 else ("<d", "<Q")
+
+    def decode(self, raw: int, raws: Raws) -> float:
+        """The number that the bits are."""
+        value: float = struct.unpack(self._pack, struct.pack(self._word, raw))[0]
+        return value
+
+    def encode(self, value: float, allowed: Allowed, raws: Raws) -> int | None:
+        """Limits are checked before the conversion, which rounds to nearest, ties to even."""
+        if not self._fits(value):
+            return None
+        try:
+            pattern: int = struct.unpack(self._word, struct.pack(self._pack, value))[0]
+        except OverflowError:
+            return None
+        return pattern
+
+    def _fits(self, value: float) -> bool:
+        if math.isnan(value):
+            raise NotANumberError("the value is NaN")
+        inside = any(low <= value <= high for low, high in self.units) if self.units else True
+        return inside and math.isfinite(value)
+
+    def checked(self, raw: int, allowed: Allowed, raws: Raws) -> int | None:
+        """The same bits if they are a number within the limits."""
+        inside = 0 <= raw < 1 << self.wire.bits
+        return raw if inside and self._fits(self.decode(raw, raws)) else None
+
+    def decode_count(self, raw: int, raws: Raws) -> int:
+        """There is none: raises TypeError."""
+        raise TypeError("a floating-point pattern has no integer path")
+
+    def encode_count(self, count: int, allowed: Allowed, raws: Raws) -> int | None:
+        """There is none: raises TypeError."""
+        raise TypeError("a floating-point pattern has no integer path")
+
+    def shown(self, raw: int, raws: Raws) -> str:
+        """The number, as people read it."""
+        return f"{self.decode(raw, raws):.12g}"
+
+    def choices(self) -> str | None:
+        """The limits in the unit."""
+        return "outside " + " or ".join(f"{low:.12g}..{high:.12g}" for low, high in self.units) if self.units else None
+
+
+class OrNone(Form[R | None, W]):
+    """Another form in which some raw numbers, by name, mean "there is no value"; those decode to None."""
+
+    def __init__(self, form: Form[R, W], no_value: Mapping[str, tuple[int, int]]) -> None:
+        self.form = form
+        self.no_value = no_value
+        self.wire = form.wire
+        self.needs = form.needs
+        self.decimals = form.decimals
+        self.names = form.names
+        self.refused = form.refused
+
+    def _missing(self, raw: int) -> bool:
+        return any(low <= raw <= high for low, high in self.no_value.values())
+
+    def decode(self, raw: int, raws: Raws) -> R | None:
+        """None for the codes, else as in the form."""
+        return None if self._missing(raw) else self.form.decode(raw, raws)
+
+    def decode_count(self, raw: int, raws: Raws) -> int:
+        """As in the form; raises NoValueError, because a count has no room for "no value"."""
+        if self._missing(raw):
+            raise NoValueError(f"raw {raw} means that there is no value")
+        return self.form.decode_count(raw, raws)
+
+    def encode(self, value: W, allowed: Allowed, raws: Raws) -> int | None:
+        """As in the form."""
+        return self.form.encode(value, allowed, raws)
+
+    def encode_count(self, count: int, allowed: Allowed, raws: Raws) -> int | None:
+        """As in the form."""
+        return self.form.encode_count(count, allowed, raws)
+
+    def checked(self, raw: int, allowed: Allowed, raws: Raws) -> int | None:
+        """As in the form."""
+        return self.form.checked(raw, allowed, raws)
+
+    def shown(self, raw: int, raws: Raws) -> str:
+        """As in the form."""
+        return self.form.shown(raw, raws)
+
+    def choices(self) -> str | None:
+        """As in the form."""
+        return self.form.choices()
+
+    def name_of(self, raw: int) -> str | None:
+        """As in the form."""
+        return self.form.name_of(raw)

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: 0BSD
+//! What the modules that fieldscribe generates have in common: the traits of a point, exact arithmetic, Modbus frames.
+//!
+//! Nothing here allocates, does input or output, or panics.
+
+#![no_std]
+#![forbid(unsafe_code)]
+
+pub mod arithmetic;
+pub mod client;
+pub mod modbus;
+mod point;
+mod raw;
+
+pub use arithmetic::Rule;
+pub use point::{
+    allowed, has_value, listed, BitGroup, CountReadable, CountWritable, Decoded, Point, Readable,
+    Scaled, Space, Whole, Writable,
+};
+pub use raw::Raw;
+
+use core::fmt;
+
+/// Why a number could not be encoded, decoded or checked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Error {
+    /// The raw number is outside what the manual allows.
+    OutOfRange,
+    /// The value is not a number.
+    NotANumber,
+    /// The closed enum has no such number.
+    UnknownValue,
+    /// A factor that is read at run time is zero.
+    ZeroFactor,
+    /// No case of the scale holds.
+    NoCase,
+    /// The result does not fit its type.
+    Overflow,
+    /// The device says that there is no value.
+    NoValue,
+    /// There are more or fewer words than the point has.
+    WrongLength,
+}
+
+impl Error {
+    /// The error's name as the conformance vectors have it.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::OutOfRange => "out_of_range",
+            Self::NotANumber => "not_a_number",
+            Self::UnknownValue => "unknown_value",
+            Self::ZeroFactor => "zero_factor",
+            Self::NoCase => "no_case",
+            Self::Overflow => "overflow",
+            Self::NoValue => "no_value",
+            Self::WrongLength => "wrong_length",
+        }
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(match self {
+            Self::OutOfRange => "the raw number is outside what is allowed",
+            Self::NotANumber => "the value is not a number",
+            Self::UnknownValue => "the enum has no such number",
+            Self::ZeroFactor => "a factor is zero",
+            Self::NoCase => "no case of the scale holds",
+            Self::Overflow => "the result does not fit its type",
+            Self::NoValue => "the device has no value",
+            Self::WrongLength => "the point has another number of words",
+        })
+    }
+}
+
+impl core::error::Error for Error {}

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: 0BSD
+//! Why a request cannot be built, and why bytes are no reply.
+
+use core::fmt;
+
+/// Why a request cannot be built.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum BuildError {
+    /// The unit is outside the device's range, or is the broadcast unit and the function does not write.
+    BadUnit,
+    /// The device does not know the function.
+    BadFunction,
+    /// There are no items, more than the device takes, or values are missing.
+    BadCount,
+    /// The items end beyond the last address.
+    BadAddress,
+    /// A bit is neither 0 nor 1.
+    BadValue,
+    /// The caller's buffer is too small.
+    BufferTooSmall,
+}
+
+impl BuildError {
+    /// The error's name as the conformance vectors have it.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::BadUnit => "bad_unit",
+            Self::BadFunction => "bad_function",
+            Self::BadCount => "bad_count",
+            Self::BadAddress => "bad_address",
+            Self::BadValue => "bad_value",
+            Self::BufferTooSmall => "buffer_too_small",
+        }
+    }
+}
+
+impl fmt::Display for BuildError {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(match self {
+            Self::BadUnit => "the device has no such unit number",
+            Self::BadFunction => "the device does not know the function",
+            Self::BadCount => "the device does not take that many items",
+            Self::BadAddress => "the items end beyond the last address",
+            Self::BadValue => "a bit is neither 0 nor 1",
+            Self::BufferTooSmall => "the buffer is too small",
+        })
+    }
+}
+
+impl core::error::Error for BuildError {}
+
+/// Why bytes are no reply to a request.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum ReplyError {
+    /// The request's own function is none of Modbus.
+    BadFunction,
+    /// Bytes are missing.
+    ShortFrame,
+    /// There are more bytes than the frame has.
+    LongFrame,
+    /// The checksum is wrong.
+    BadCrc,
+    /// The protocol number of the TCP head is not 0.
+    BadProtocol,
+    /// The reply belongs to another transaction.
+    WrongTransaction,
+    /// Another unit replied.
+    WrongUnit,
+    /// The reply is to another function.
+    WrongFunction,
+    /// The device refused, with this code.
+    Exception(u8),
+    /// The byte count is not what the request asked for.
+    BadByteCount,
+    /// What was written is not what the reply repeats.
+    EchoMismatch,
+}
+
+impl ReplyError {
+    /// The error's name as the conformance vectors have it.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::BadFunction => "bad_function",
+            Self::ShortFrame => "short_frame",
+            Self::LongFrame => "long_frame",
+            Self::BadCrc => "bad_crc",
+            Self::BadProtocol => "bad_protocol",
+            Self::WrongTransaction => "wrong_transaction",
+            Self::WrongUnit => "wrong_unit",
+            Self::WrongFunction => "wrong_function",
+            Self::Exception(_) => "exception",
+            Self::BadByteCount => "bad_byte_count",
+            Self::EchoMismatch => "echo_mismatch",
+        }
+    }
+}
+
+impl fmt::Display for ReplyError {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::BadFunction => formatter.write_str("the function is none of Modbus"),
+            Self::ShortFrame => formatter.write_str("the frame is too short"),
+            Self::LongFrame => formatter.write_str("the frame is too long"),
+            Self::BadCrc => formatter.write_str("the checksum is wrong"),
+            Self::BadProtocol => formatter.write_str("the protocol number is not 0"),
+            Self::WrongTransaction => formatter.write_str("the reply is to another transaction"),
+            Self::WrongUnit => formatter.write_str("another unit replied"),
+            Self::WrongFunction => formatter.write_str("the reply is to another function"),
+            Self::Exception(code) => write!(formatter, "the device refused with exception {code}"),
+            Self::BadByteCount => formatter.write_str("the byte count is not what was asked for"),
+            Self::EchoMismatch => formatter.write_str("the reply repeats something else"),
+        }
+    }
+}
+
+impl core::error::Error for ReplyError {}

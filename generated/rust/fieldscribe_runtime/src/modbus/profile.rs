@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: 0BSD
+//! What the frames need to know of a device, as constants of the generated code.
+
+use super::function::longest_count;
+use crate::{Readable, Space};
+
+/// A function that a device knows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Function {
+    /// The number in the frame.
+    pub number: u8,
+    /// The largest count of items in one request.
+    pub most: u16,
+}
+
+impl Function {
+    /// A function and the largest count of items in one request.
+    #[must_use]
+    pub const fn new(number: u8, most: u16) -> Self {
+        Self { number, most }
+    }
+}
+
+/// What the frames need to know of a device.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Profile {
+    functions: &'static [Function],
+    pub(super) units: (u8, u8),
+    broadcast: Option<u8>,
+    pub(super) pad_coil_bytes_even: bool,
+}
+
+impl Profile {
+    /// The functions, the least and the greatest unit, the unit that means all, whether 0Fh pads its bytes to an even count.
+    #[must_use]
+    pub const fn new(
+        functions: &'static [Function],
+        units: (u8, u8),
+        broadcast: Option<u8>,
+        pad_coil_bytes_even: bool,
+    ) -> Self {
+        Self {
+            functions,
+            units,
+            broadcast,
+            pad_coil_bytes_even,
+        }
+    }
+
+    /// Whether the device knows the function.
+    #[must_use]
+    pub fn knows(&self, function: u8) -> bool {
+        self.most(function).is_some()
+    }
+
+    /// Whether a frame to this unit goes to all units, so that none answers.
+    #[must_use]
+    pub fn is_broadcast(&self, unit: u8) -> bool {
+        self.broadcast == Some(unit)
+    }
+
+    pub(super) fn most(&self, function: u8) -> Option<u16> {
+        let known = self.functions.iter().find(|one| one.number == function)?;
+        Some(known.most.min(longest_count(function)?))
+    }
+}
+
+/// A read of consecutive addresses that keeps to the device's limits and holes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Block {
+    /// Where the addresses count.
+    pub space: Space,
+    /// The function that reads them.
+    pub function: u8,
+    /// The first address.
+    pub address: u16,
+    /// How many items.
+    pub count: u16,
+}
+
+impl Block {
+    /// `count` items from `address`.
+    #[must_use]
+    pub const fn new(space: Space, function: u8, address: u16, count: u16) -> Self {
+        Self {
+            space,
+            function,
+            address,
+            count,
+        }
+    }
+
+    /// Whether the block brings the point.
+    #[must_use]
+    pub fn brings<P: Readable>(&self) -> bool {
+        let offset = P::ADDRESS.checked_sub(self.address);
+        let end = offset.and_then(|offset| offset.checked_add(P::WORDS));
+        self.space == P::SPACE && end.is_some_and(|end| end <= self.count)
+    }
+}
+
+/// A named constant write. The value is none where any does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Command {
+    /// The function that writes it.
+    pub function: u8,
+    /// The address that takes it.
+    pub address: u16,
+    /// What to write.
+    pub value: Option<u16>,
+}
+
+impl Command {
+    /// A write of `value`, or of anything, to `address`.
+    #[must_use]
+    pub const fn new(function: u8, address: u16, value: Option<u16>) -> Self {
+        Self {
+            function,
+            address,
+            value,
+        }
+    }
+}

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: 0BSD
+//! Replies out of frames.
+
+use super::function::{is_read, longest_count};
+use super::{crc, Framing, ReplyError, Request};
+use crate::{Error, Point};
+
+#[derive(Clone, Copy, Debug)]
+enum Items<'a> {
+    Words(&'a [u8]),
+    Bits(&'a [u8]),
+    Echo(u16),
+}
+
+/// What a device answered: words, or bits as 0 and 1, from the address that was asked for.
+#[derive(Clone, Copy, Debug)]
+pub struct Reply<'a> {
+    address: u16,
+    count: u16,
+    items: Items<'a>,
+}
+
+impl Reply<'_> {
+    /// How many items the reply brings; none for a write of several items.
+    #[must_use]
+    pub const fn count(&self) -> u16 {
+        self.count
+    }
+
+    /// The word, or the bit, of that place in the reply.
+    #[must_use]
+    pub fn item(&self, place: u16) -> Option<u16> {
+        if place >= self.count {
+            return None;
+        }
+        let place = usize::from(place);
+        match self.items {
+            Items::Words(bytes) => {
+                let start = place.checked_mul(2)?;
+                let word = bytes.get(start..)?.first_chunk::<2>()?;
+                Some(u16::from_be_bytes(*word))
+            }
+            Items::Bits(bytes) => Some(u16::from(bytes.get(place / 8)? >> (place % 8) & 1)),
+            Items::Echo(value) => Some(value),
+        }
+    }
+
+    /// All items in their order.
+    pub fn items(&self) -> impl Iterator<Item = u16> + '_ {
+        (0..self.count).map_while(|place| self.item(place))
+    }
+
+    /// The raw number of a point that the reply brings.
+    ///
+    /// # Errors
+    /// [`Error::WrongLength`] if the reply does not bring all of the point.
+    pub fn raw<P: Point>(&self) -> Result<P::Raw, Error> {
+        let offset = P::ADDRESS
+            .checked_sub(self.address)
+            .ok_or(Error::WrongLength)?;
+        let end = offset.checked_add(P::WORDS).ok_or(Error::WrongLength)?;
+        P::from_received((offset..end).map_while(|place| self.item(place)))
+    }
+}
+
+impl Request<'_> {
+    /// What a reply to this request says. Any bytes at any length are safe.
+    ///
+    /// # Errors
+    /// Why the bytes are no such reply, or the exception that the device answers with.
+    pub fn parse<'b>(&self, bytes: &'b [u8]) -> Result<Reply<'b>, ReplyError> {
+        if longest_count(self.function).is_none() {
+            return Err(ReplyError::BadFunction);
+        }
+        let pdu = match self.framing {
+            Framing::Rtu => self.unwrap_rtu(bytes)?,
+            Framing::Tcp => self.unwrap_tcp(bytes)?,
+        };
+        let (&function, data) = pdu.split_first().ok_or(ReplyError::ShortFrame)?;
+        if function & 0x7F != self.function {
+            return Err(ReplyError::WrongFunction);
+        }
+        if function != self.function {
+            return Err(match data {
+                [] => ReplyError::ShortFrame,
+                [code] => ReplyError::Exception(*code),
+                _ => ReplyError::LongFrame,
+            });
+        }
+        if is_read(function) {
+            self.parse_read(data)
+        } else {
+            self.parse_echo(data)
+        }
+    }
+
+    fn unwrap_rtu<'b>(&self, bytes: &'b [u8]) -> Result<&'b [u8], ReplyError> {
+        let &[unit, function, count, _, _, ..] = bytes else {
+            return Err(ReplyError::ShortFrame);
+        };
+        if function & 0x7F == self.function {
+            check_length(bytes.len(), rtu_length(function, count))?;
+        }
+        let (body, sent) = bytes
+            .split_last_chunk::<2>()
+            .map_or((bytes, [0; 2]), |(body, sent)| (body, *sent));
+        if crc(body) != u16::from_le_bytes(sent) {
+            return Err(ReplyError::BadCrc);
+        }
+        if unit != self.unit {
+            return Err(ReplyError::WrongUnit);
+        }
+        Ok(body.get(1..).unwrap_or_default())
+    }
+
+    fn unwrap_tcp<'b>(&self, bytes: &'b [u8]) -> Result<&'b [u8], ReplyError> {
+        let &[t1, t0, p1, p0, l1, l0, unit, _, _, ..] = bytes else {
+            return Err(ReplyError::ShortFrame);
+        };
+        if [p1, p0] != [0, 0] {
+            return Err(ReplyError::BadProtocol);
+        }
+        check_length(bytes.len(), usize::from(u16::from_be_bytes([l1, l0])) + 6)?;
+        if u16::from_be_bytes([t1, t0]) != self.transaction {
+            return Err(ReplyError::WrongTransaction);
+        }
+        if unit != self.unit {
+            return Err(ReplyError::WrongUnit);
+        }
+        Ok(bytes.get(7..).unwrap_or_default())
+    }
+
+    fn parse_read<'b>(&self, data: &'b [u8]) -> Result<Reply<'b>, ReplyError> {
+        let (&count, data) = data.split_first().ok_or(ReplyError::BadByteCount)?;
+        let wide = self.function > 2;
+        let asked = if wide {
+            self.count.saturating_mul(2)
+        } else {
+            self.count.div_ceil(8)
+        };
+        if u16::from(count) != asked || data.len() != usize::from(count) {
+            return Err(ReplyError::BadByteCount);
+        }
+        let items = if wide {
+            Items::Words(data)
+        } else {
+            Items::Bits(data)
+        };
+        Ok(self.reply(items, self.count))
+    }
+
+    fn parse_echo(&self, data: &[u8]) -> Result<Reply<'static>, ReplyError> {
+        check_length(data.len(), 4)?;
+        let &[a1, a0, v1, v0] = data else {
+            return Err(ReplyError::ShortFrame);
+        };
+        let several = matches!(self.function, 15 | 16);
+        let sent = if several {
+            self.count
+        } else {
+            self.echo_value()
+        };
+        if u16::from_be_bytes([a1, a0]) != self.address || u16::from_be_bytes([v1, v0]) != sent {
+            return Err(ReplyError::EchoMismatch);
+        }
+        let value = if self.function == 5 {
+            u16::from(sent != 0)
+        } else {
+            sent
+        };
+        Ok(self.reply(Items::Echo(value), u16::from(!several)))
+    }
+
+    const fn reply<'b>(&self, items: Items<'b>, count: u16) -> Reply<'b> {
+        Reply {
+            address: self.address,
+            count,
+            items,
+        }
+    }
+}
+
+/// The length of an RTU reply as far as its first bytes tell; none if there are too few or the function is unknown.
+///
+/// With it a transport knows when a reply is complete without waiting for silence on the line.
+#[must_use]
+pub fn reply_length(head: &[u8]) -> Option<usize> {
+    match head {
+        [_, function, ..] if longest_count(function & 0x7F).is_none() => None,
+        [_, function @ (1..=4), count, ..] => Some(rtu_length(*function, *count)),
+        [_, 1..=4] => None,
+        [_, function, ..] => Some(rtu_length(*function, 0)),
+        _ => None,
+    }
+}
+
+fn rtu_length(function: u8, count: u8) -> usize {
+    match function {
+        1..=4 => usize::from(count) + 5,
+        0x80.. => 5,
+        _ => 8,
+    }
+}
+
+const fn check_length(length: usize, expected: usize) -> Result<(), ReplyError> {
+    if length < expected {
+        Err(ReplyError::ShortFrame)
+    } else if length > expected {
+        Err(ReplyError::LongFrame)
+    } else {
+        Ok(())
+    }
+}

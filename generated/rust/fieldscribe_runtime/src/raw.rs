@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: 0BSD
+//! The types that raw numbers have.
+
+use crate::arithmetic::{round_i128, round_i32, round_i64};
+
+mod sealed {
+    pub trait Sealed {}
+}
+
+/// A raw number: an integer, a bit, or the bit pattern of a floating-point number.
+pub trait Raw: Copy + PartialOrd + sealed::Sealed {
+    /// The 16-bit words that hold the number.
+    type Words: Copy + Default + AsRef<[u16]> + AsMut<[u16]>;
+    /// The smallest number of the type.
+    const MIN: Self;
+    /// The largest number of the type.
+    const MAX: Self;
+    /// The number in words, the high part first.
+    fn into_words(self) -> Self::Words;
+    /// The number from words, the high part first.
+    fn from_words(words: Self::Words) -> Self;
+    /// The integer nearest to `number`, halves away from zero; none if the type cannot hold it.
+    fn round(number: f64) -> Option<Self>;
+    /// The number as an `i64`; a `u64` beyond it becomes `i64::MAX`.
+    fn to_i64(self) -> i64;
+}
+
+/// One byte lies in the low half of its word.
+macro_rules! byte {
+    ($type:ty) => {
+        impl sealed::Sealed for $type {}
+
+        impl Raw for $type {
+            type Words = [u16; 1];
+            const MIN: Self = <$type>::MIN;
+            const MAX: Self = <$type>::MAX;
+
+            fn into_words(self) -> [u16; 1] {
+                let [low] = self.to_be_bytes();
+                [u16::from(low)]
+            }
+
+            #[inline]
+            fn from_words([word]: [u16; 1]) -> Self {
+                let [_, low] = word.to_be_bytes();
+                Self::from_be_bytes([low])
+            }
+
+            #[inline]
+            fn round(number: f64) -> Option<Self> {
+                Self::try_from(round_i32(number)?).ok()
+            }
+
+            #[inline]
+            fn to_i64(self) -> i64 {
+                i64::from(self)
+            }
+        }
+    };
+}
+
+macro_rules! words {
+    ($type:ty, $count:literal, [$($word:ident $high:ident $low:ident),+], $round:ident, $wide:expr) => {
+        impl sealed::Sealed for $type {}
+
+        impl Raw for $type {
+            type Words = [u16; $count];
+            const MIN: Self = <$type>::MIN;
+            const MAX: Self = <$type>::MAX;
+
+            fn into_words(self) -> [u16; $count] {
+                let [$($high, $low),+] = self.to_be_bytes();
+                [$(u16::from_be_bytes([$high, $low])),+]
+            }
+
+            fn from_words([$($word),+]: [u16; $count]) -> Self {
+                $(let [$high, $low] = $word.to_be_bytes();)+
+                Self::from_be_bytes([$($high, $low),+])
+            }
+
+            #[inline]
+            fn round(number: f64) -> Option<Self> {
+                Self::try_from($round(number)?).ok()
+            }
+
+            #[inline]
+            fn to_i64(self) -> i64 {
+                $wide(self)
+            }
+        }
+    };
+}
+
+byte!(u8);
+byte!(i8);
+words!(u16, 1, [a a1 a0], round_i32, i64::from);
+words!(i16, 1, [a a1 a0], round_i32, i64::from);
+words!(u32, 2, [a a1 a0, b b1 b0], round_i64, i64::from);
+words!(i32, 2, [a a1 a0, b b1 b0], round_i32, i64::from);
+words!(i64, 4, [a a1 a0, b b1 b0, c c1 c0, d d1 d0], round_i64, i64::from);
+words!(u64, 4, [a a1 a0, b b1 b0, c c1 c0, d d1 d0], round_i128, |raw| {
+    i64::try_from(raw).unwrap_or(i64::MAX)
+});
+
+impl sealed::Sealed for bool {}
+
+impl Raw for bool {
+    type Words = [u16; 1];
+    const MIN: Self = false;
+    const MAX: Self = true;
+
+    fn into_words(self) -> [u16; 1] {
+        [u16::from(self)]
+    }
+
+    #[inline]
+    fn from_words([word]: [u16; 1]) -> Self {
+        word != 0
+    }
+
+    #[inline]
+    fn round(number: f64) -> Option<Self> {
+        match round_i32(number) {
+            Some(0) => Some(false),
+            Some(1) => Some(true),
+            _ => None,
+        }
+    }
+
+    #[inline]
+    fn to_i64(self) -> i64 {
+        i64::from(self)
+    }
+}

@@ -1,0 +1,70 @@
+"""The device as code may know it: names in place of titles, no notes, no places in the manual, no reasons for errata.
+
+What is for people changes often, and must not touch vendored code when it does; it reaches the documentation only.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import lru_cache
+
+from fieldscribe.model import Device, Entry, Enum, Flag, Point, Source, Special, Titles
+
+_NOWHERE = Source("", None, None, None)
+
+
+def for_code(device: Device) -> Device:
+    """The same device without anything that is only for people."""
+    enums = {id(enum): _enum(enum) for enum in device.enums}
+    return replace(
+        device,
+        title={},
+        note={},
+        documents=(),
+        bus=replace(
+            device.bus,
+            note={},
+            functions=tuple(replace(code, title=_plain(code.name)) for code in device.bus.functions),
+            exceptions=tuple(replace(code, title=_plain(code.name)) for code in device.bus.exceptions),
+        ),
+        groups=tuple(replace(group, title=_plain(group.name), note={}, source=_NOWHERE) for group in device.groups),
+        points=tuple(_point(point, enums) for point in device.points),
+        enums=tuple(enums.values()),
+        commands=tuple(replace(one, title=_plain(one.name), note={}, source=_NOWHERE) for one in device.commands),
+        frames=tuple(replace(one, title=_plain(one.name), source=_NOWHERE) for one in device.frames),
+        errata=tuple(replace(one, why="", where="", source=_NOWHERE) for one in device.errata),
+    )
+
+
+def _point(point: Point, enums: dict[int, Enum]) -> Point:
+    return replace(
+        point,
+        title=_plain(point.item),
+        note={},
+        source=_NOWHERE,
+        enum=point.enum and (enums.get(id(point.enum)) or _enum(point.enum)),
+        flags=tuple(_flag(flag) for flag in point.flags),
+        specials=tuple(_special(special) for special in point.specials),
+    )
+
+
+def _enum(enum: Enum) -> Enum:
+    return replace(enum, title=_plain(enum.name), entries=tuple(_entry(entry) for entry in enum.entries))
+
+
+def _entry(entry: Entry) -> Entry:
+    return replace(entry, title=_plain(entry.name))
+
+
+def _flag(flag: Flag) -> Flag:
+    return replace(flag, title=_plain(flag.name), values=tuple(_entry(entry) for entry in flag.values))
+
+
+def _special(special: Special) -> Special:
+    return replace(special, title=_plain(special.name))
+
+
+@lru_cache(maxsize=65536)
+def _plain(name: str) -> Titles:
+    """`base_frequency` as `Base frequency`."""
+    return {"en": name.replace("_", " ").capitalize()}

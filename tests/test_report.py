@@ -1,0 +1,122 @@
+"""Findings as people and machines see them."""
+
+from __future__ import annotations
+
+import time
+from typing import TYPE_CHECKING
+
+import pytest
+from fieldscribe.diagnostics import Diagnostic, Span
+from fieldscribe.report import as_data, as_lines, columns, split_lines, summary, visible
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+FILES = {
+    "a.yaml": ["fieldscribe: 1", "points:", "- {name: x, at: 1028h}", "- {name: y, at: 1028h}"],
+    "long.yaml": ["x" * 5000 + "HERE" + "y" * 5000],
+    "wide.yaml": ["title: 温度 bad"],
+    "hostile.yaml": ["title: \x1b[31mred\u202e bad"],
+    "tab.yaml": ["\tbad"],
+}
+
+
+def _read(name: str) -> Sequence[str] | None:
+    return FILES.get(name)
+
+
+def _text(*findings: Diagnostic) -> list[str]:
+    return ["".join(piece for _, piece in one) for one in as_lines(findings, _read)]
+
+
+def test_a_finding_in_full() -> None:
+    one = Diagnostic(
+        "address-overlap",
+        "`y` is at the address of `x`",
+        Span("a.yaml", 4, 16, 5),
+        "say so with `bits`",
+        ((Span("a.yaml", 3, 16, 5), "`x` is here"),),
+    )
+    assert _text(one) == [
+        "error[address-overlap]: `y` is at the address of `x`",
+        " --> a.yaml:4:16",
+        "4 | - {name: y, at: 1028h}",
+        "  |                ^^^^^",
+        " ::: a.yaml:3:16: `x` is here",
+        "3 | - {name: x, at: 1028h}",
+        "  |                ^^^^^",
+        "  = hint: say so with `bits`",
+        "",
+    ]
+
+
+@pytest.mark.parametrize(
+    "span", [Span("none.yaml", 1, 1), Span("a.yaml", 99, 1), Span("a.yaml", 0, 0), Span("a.yaml", 1, 900, 50)]
+)
+def test_places_that_are_not_there(span: Span) -> None:
+    lines = _text(Diagnostic("x", "m", span))
+    assert lines[0] == "error[x]: m"
+
+
+def test_long_lines_are_cut_around_the_place() -> None:
+    lines = _text(Diagnostic("x", "m", Span("long.yaml", 1, 5001, 4)))
+    assert len(lines[2]) < 140
+    at = lines[3].index("^")
+    assert lines[2][at : at + 4] == "HERE"
+    assert lines[3].count("^") == 4
+
+
+def test_marks_stand_below_wide_characters() -> None:
+    lines = _text(Diagnostic("x", "m", Span("wide.yaml", 1, 11, 3)))
+    assert columns(lines[3][: lines[3].index("^")]) == columns(lines[2][: lines[2].index("bad")])
+
+
+def test_nothing_in_a_file_reaches_the_terminal() -> None:
+    lines = _text(Diagnostic("x", "odd \x1b]0;title\x07", Span("hostile.yaml", 1, 17, 3), "\u2066hint"))
+    text = "\n".join(lines)
+    assert "\x1b" not in text
+    assert "\u202e" not in text
+    assert "\u2066" not in text
+    assert "<U+001B>[31mred<U+202E> bad" in lines[2]
+
+
+def test_tabs_have_a_width() -> None:
+    lines = _text(Diagnostic("x", "m", Span("tab.yaml", 1, 2, 3)))
+    assert lines[2].index("bad") == lines[3].index("^")
+
+
+def test_visible_keeps_what_is_seen() -> None:
+    assert visible("Größe °C 温度") == "Größe °C 温度"
+    assert visible("a\udc80\x7f\u2028") == "a<U+DC80><U+007F><U+2028>"
+
+
+def test_summary() -> None:
+    wrong = [Diagnostic("x", "m", Span(name, 1, 1)) for name in ("a", "b", "b")]
+    odd = Diagnostic("x", "m", Span("a", 1, 1), severity="warning")
+    assert summary([*wrong, odd]) == "3 errors in 2 files; 1 warning"
+    assert summary(wrong[:1]) == "1 error in 1 file"
+    assert summary([odd, odd]) == "2 warnings"
+    assert summary([]) == ""
+
+
+def test_data() -> None:
+    (one,) = as_data([Diagnostic("x", "m", Span("a", 1, 2, 3), None, ((Span("b", 4, 5), "there"),))])
+    assert one == {
+        "rule": "x",
+        "severity": "error",
+        "message": "m",
+        **{"file": "a", "line": 1, "column": 2, "width": 3},
+        "hint": None,
+        "related": [{"message": "there", "file": "b", "line": 4, "column": 5, "width": 1}],
+    }
+
+
+def test_lines_are_counted_as_yaml_counts_them() -> None:
+    assert split_lines("a\r\nb\rc\nd\x85e\u2028f\x0cg") == ["a", "b", "c", "d", "e", "f\x0cg"]
+
+
+def test_thousands_of_findings_are_quick() -> None:
+    findings = [Diagnostic("x", f"m{n}", Span("long.yaml", 1, n + 1, 4), "hint") for n in range(5000)]
+    started = time.perf_counter()
+    assert sum(1 for _ in as_lines(findings, _read)) == 30000
+    assert time.perf_counter() - started < 2
