@@ -105,7 +105,10 @@ def test_data() -> None:
         "rule": "x",
         "severity": "error",
         "message": "m",
-        **{"file": "a", "line": 1, "column": 2, "width": 3},
+        "file": "a",
+        "line": 1,
+        "column": 2,
+        "width": 3,
         "hint": None,
         "related": [{"message": "there", "file": "b", "line": 4, "column": 5, "width": 1}],
     }

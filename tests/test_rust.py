@@ -5,15 +5,17 @@ from __future__ import annotations
 import json
 import re
 import shutil
+from collections import Counter
 from fractions import Fraction
 from math import floor
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
+from fieldscribe.targets.rust.identifiers import identifiers
 from fieldscribe.targets.rust.rules import count_path
 from fieldscribe.targets.rust.subjects import scope_of
-from models import linear, sample_device
+from models import linear, point, sample_device
 from rust_crates import odd_device, rare_device, write_crate
 from toolchains import run, succeed, tool
 
@@ -21,8 +23,8 @@ if TYPE_CHECKING:
     import subprocess
     from collections.abc import Iterator
 
-    from fieldscribe.targets.rust.rules import count_path
-from fieldscribe.targets.rust.subjects import Subject
+    from fieldscribe.model import Device, Linear
+    from fieldscribe.targets.rust.subjects import Subject
 
 ROOT = Path(__file__).resolve().parents[1]
 SHIPPED = sorted(path.parents[1].name for path in (ROOT / "generated/rust").glob("*/tests/conformance.rs"))
@@ -87,7 +89,7 @@ def cargo(workspace: Path, *words: str) -> subprocess.CompletedProcess[str]:
     return done if done.returncode == 0 else run([tool("cargo"), *words], cwd=workspace)
 
 
-@pytest.mark.parametrize("ratio", ["10", "1/2", "3/7", "-7/5", "256", "1/100"])
+@pytest.mark.parametrize("ratio", ["10", "1/2", "3/7", "-7/5", "256"])
 @pytest.mark.parametrize("offset", ["0", "5/2", "-4/3"])
 @pytest.mark.parametrize("ends", [(-9, 9), (0, 30), (3, 3), (-1, 0), (1, 2)])
 def test_counts_in_bounds_are_all_that_give_a_raw_number_in_bounds(
@@ -96,7 +98,7 @@ def test_counts_in_bounds_are_all_that_give_a_raw_number_in_bounds(
     low, high = ends
     rule = linear(ratio, offset)
     path = count_path(rule, 1, "i16", low, high)
-    found = [count for count in range(-40000, 40000) if low <= nearest(rule, Fraction(count, 10)) <= high]
+    found = [count for count in range(-1000, 1000) if low <= nearest(rule, Fraction(count, 10)) <= high]
     inside = range(int(path.low.replace("_", "")), int(path.high.replace("_", "")) + 1)
     assert found == list(inside)
 
@@ -104,6 +106,16 @@ def test_counts_in_bounds_are_all_that_give_a_raw_number_in_bounds(
 def nearest(rule: Linear, value: Fraction) -> int:
     exact = value * rule.ratio + rule.offset
     return floor(abs(exact) + Fraction(1, 2)) * (1 if exact > 0 else -1)
+
+
+def clashes(device: Device) -> list[str]:
+    seen = Counter((namespace, name) for namespace, name, _ in identifiers(device))
+    return [name for (_, name), count in seen.items() if count > 1]
+
+
+def test_clashing_names_are_found() -> None:
+    assert not any(clashes(make()) for make in MODELS.values())
+    assert clashes(sample_device((point("a_b1", 0), point("a_b_1", 1)))) == ["AB1"]
 
 
 @pytest.mark.parametrize("device", [*MODELS, *SHIPPED])
@@ -130,7 +142,12 @@ def test_a_wrong_vector_is_noticed(workspace: Path, tmp_path: Path, monkeypatch:
 def test_clippy_has_nothing_to_say(workspace: Path) -> None:
     flags = ("--", "-Dwarnings", "-Wclippy::pedantic")
     done = cargo(workspace, "clippy", "--quiet", "--workspace", "--all-targets", *flags)
-    assert (done.returncode, done.stderr) == (0, "")
+    assert done.returncode == 0, done.stderr
+
+
+def test_examples_of_the_runtime_run(workspace: Path) -> None:
+    done = cargo(workspace, "test", "--quiet", "--package", "fieldscribe_runtime")
+    assert done.returncode == 0, done.stdout + done.stderr
 
 
 def test_rustfmt_changes_nothing(workspace: Path) -> None:
@@ -141,7 +158,7 @@ def test_rustfmt_changes_nothing(workspace: Path) -> None:
 def test_documentation_builds_without_a_warning(workspace: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("RUSTDOCFLAGS", "-Dwarnings")
     done = cargo(workspace, "doc", "--quiet", "--workspace", "--no-deps")
-    assert (done.returncode, done.stderr) == (0, "")
+    assert done.returncode == 0, done.stderr
 
 
 @pytest.mark.parametrize("name", FAILS)

@@ -7,6 +7,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from fieldscribe.cache import cache_dir
 from fieldscribe.resources import templates_dir
 
 if TYPE_CHECKING:
@@ -18,14 +19,16 @@ Render = Callable[[str, Mapping[str, object]], str]
 
 @lru_cache(maxsize=1)
 def _environment(folder: Path) -> Environment:
-    from jinja2 import Environment, FileSystemLoader, StrictUndefined
+    from jinja2 import Environment, FileSystemBytecodeCache, FileSystemLoader, StrictUndefined
 
+    compiled = cache_dir("templates")
     return Environment(
         loader=FileSystemLoader(folder),
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
         keep_trailing_newline=True,
+        bytecode_cache=FileSystemBytecodeCache(str(compiled)) if compiled else None,
         autoescape=False,  # the targets' views hold finished text: every literal and comment passed text.py
     )
 

@@ -13,6 +13,7 @@ from hashlib import sha256
 from pathlib import Path
 
 from fieldscribe import __version__
+from fieldscribe.cache import cache_dir
 from fieldscribe.resources import templates_dir
 
 _PACKAGE = Path(__file__).resolve().parent
@@ -34,8 +35,11 @@ def digest_of(inputs: Iterable[Path], words: Iterable[str]) -> str:
 
 def remembered(out: Path, digest: str) -> list[str] | None:
     """The outputs of the last run, if it had this digest and none of them was touched since; else None."""
+    place = _place(out)
+    if place is None:
+        return None
     try:
-        memory = json.loads(_place(out).read_bytes())
+        memory = json.loads(place.read_bytes())
         if memory["digest"] != digest:
             return None
         outputs: dict[str, list[int]] = memory["outputs"]
@@ -50,10 +54,11 @@ def remembered(out: Path, digest: str) -> list[str] | None:
 
 def remember(out: Path, digest: str, outputs: Iterable[str]) -> None:
     """Keep the digest and the state of the outputs; quietly does nothing where there is no place for it."""
+    place = _place(out)
+    if place is None:
+        return
     try:
         left = {path: [status.st_size, status.st_mtime_ns] for path in outputs for status in (os.stat(out / path),)}
-        place = _place(out)
-        place.parent.mkdir(parents=True, exist_ok=True)
         temporary = place.with_suffix(f".{os.getpid()}")
         temporary.write_text(json.dumps({"digest": digest, "outputs": left}), "utf-8")
         temporary.replace(place)
@@ -61,9 +66,9 @@ def remember(out: Path, digest: str, outputs: Iterable[str]) -> None:
         return
 
 
-def _place(out: Path) -> Path:
-    base = os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")
-    return Path(base) / "fieldscribe" / f"{sha256(str(out.resolve()).encode()).hexdigest()[:24]}.json"
+def _place(out: Path) -> Path | None:
+    folder = cache_dir("runs")
+    return folder and folder / f"{sha256(str(out.resolve()).encode()).hexdigest()[:24]}.json"
 
 
 def _add_tree(update: object, root: Path) -> None:

@@ -17,6 +17,7 @@ def run_checks(subject: Subject) -> None:
         every_point_has_a_source,
         frames_agree,
         functions_agree,
+        meanings_do_not_compete,
         names_do_not_clash,
         printed_facts_agree,
         references_exist,
@@ -24,6 +25,7 @@ def run_checks(subject: Subject) -> None:
 
     checks: tuple[Callable[[Subject], None], ...] = (
         every_point_has_a_source.check,
+        meanings_do_not_compete.check,
         addresses_do_not_overlap.check,
         enums_fit_their_range.check,
         defaults_are_allowed.check,

@@ -10,6 +10,9 @@ from fieldscribe.model import Point
 from fieldscribe.resolve.points import Resolved
 
 
+_LONGEST = 30
+
+
 def check(subject: Subject) -> None:
     """Defaults that the range excludes."""
     for resolved in subject.resolved:
@@ -32,7 +35,8 @@ def _fault(point: Point, default: Fraction) -> str | None:
     else:
         raw = default * point.scale[0].rule.ratio + point.scale[0].rule.offset
     if raw.denominator != 1:
-        return f"it lies between two raw numbers (raw {number_text(raw)})"
+        shown = number_text(raw)
+        return f"it lies between two raw numbers{f' (raw {shown})' if len(shown) < _LONGEST else ''}"
     if any(special.low <= raw <= special.high for special in point.specials):
         return None
     return None if inside(raw.numerator, point.allowed) else f"the range does not allow its raw number {raw}"

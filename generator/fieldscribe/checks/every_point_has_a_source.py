@@ -3,6 +3,14 @@
 from __future__ import annotations
 
 from fieldscribe.checks.subject import Subject
+from fieldscribe.language.nodes import Map
+from fieldscribe.resolve.drafts import Draft
+
+
+def _broken(draft: Draft) -> tuple[str, ...]:
+    """What had the wrong shape in the source itself."""
+    source = draft.get("source")
+    return source.broken if isinstance(source, Map) else ()
 
 
 def check(subject: Subject) -> None:
@@ -14,7 +22,7 @@ def check(subject: Subject) -> None:
         if document is None:
             span = draft.span("source")
             subject.scope.unknown("unknown-document", "document", source.document, span, documents, "documents")
-        elif {"source", "section", "page", "line"} & draft.failed:
+        elif {"source", "section", "page", "line"} & {*draft.failed, *_broken(draft)}:
             continue
         elif source.section is None and source.page is None:
             hint = "give `source: {document: …, section: …}` for the group, or `section` for the point"

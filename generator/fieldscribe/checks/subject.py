@@ -69,6 +69,8 @@ class Subject:
             said = erratum.raw["taken"].get(key) if isinstance(erratum.raw["taken"], Map) else None
             if said is None or (taken is not None and not (right(said) if right else same(said, taken))):
                 wrong = f"the erratum takes {_shown(said)} for `{key}`, the facts say {_shown(taken)}"
+                if said is None:
+                    wrong = f"the erratum does not say what was taken for `{key}`"
                 self.report.error(
                     "erratum-differs", wrong, erratum.raw.span("taken"), f"write `taken: {{{key}: {_shown(taken)}}}`"
                 )

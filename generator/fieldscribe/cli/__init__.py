@@ -52,8 +52,6 @@ def main(argv: Sequence[str] | None = None) -> int:
     try:
         code = _dispatch(list(sys.argv[1:] if argv is None else argv))
         sys.stdout.flush()
-    except SystemExit as stop:  # argparse leaves by this
-        return stop.code if isinstance(stop.code, int) else USAGE
     except KeyboardInterrupt:
         return _INTERRUPTED
     except BrokenPipeError:
@@ -77,7 +75,10 @@ def _dispatch(argv: list[str]) -> int:
     command.add_arguments(parser)
     # a value such as `-5Hz` is no option: none of ours starts with a digit
     words = [f" {word}" if word[:1] == "-" and word[1:2] in _DIGITS else word for word in argv[1:]]
-    arguments = parser.parse_intermixed_args(words)
+    try:
+        arguments = parser.parse_intermixed_args(words)
+    except SystemExit as stop:
+        return _left(stop)
     from fieldscribe.cli.common import StopError
 
     try:
@@ -101,9 +102,17 @@ def _overview(argv: list[str]) -> int:
         from fieldscribe.cli.common import unknown_command
 
         return unknown_command(argv[0], COMMANDS)
-    parser.parse_args(argv)
+    try:
+        parser.parse_args(argv)
+    except SystemExit as stop:
+        return _left(stop)
     parser.print_help(sys.stderr)
     return USAGE
+
+
+def _left(stop: SystemExit) -> int:
+    """The exit code that argparse leaves with, which has said why."""
+    return stop.code if isinstance(stop.code, int) else USAGE
 
 
 def _command(name: str) -> Command:

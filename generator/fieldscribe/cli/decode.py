@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 HELP = "say what frames from the line mean"
 EXAMPLE = """examples:
   fieldscribe decode hitachi_l200 "05 06 10 28 01 F4 0C 91"
-  fieldscribe decode hitachi_l200 080100060005 1C91 --format json
+  fieldscribe decode hitachi_l200 0801000600051C91 --format json
   fieldscribe decode hitachi_l200 "08 01 01 17 12 1A" --request "08 01 00 06 00 05 1C 91"
 
 Each FRAME is one argument; a reply is read by the request before it."""

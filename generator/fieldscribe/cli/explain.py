@@ -46,8 +46,8 @@ def run(arguments: Namespace) -> int:
     found += explain_others(device, arguments.what)
     if not found:
         hint = did_you_mean(near(device, arguments.what))
-        if number_of(arguments.what) is not None:
-            hint = hint.replace("did you mean", "its neighbours are").rstrip("?")
+        if number_of(arguments.what.rpartition(":")[2].strip()) is not None:
+            hint = hint.replace("did you mean", "described near it:").rstrip("?")
         raise StopError(f"{device.id} has no code, name or address `{quoted(arguments.what)}`", hint)
     if arguments.format == "json":
         readings = [{"readings": readings, **told.as_data()} for readings, told in found]

@@ -37,6 +37,20 @@ _FORMS = {
 """What the patterns of the schema mean, in words."""
 
 
+_MEANT = {
+    **dict.fromkeys(("address", "adress", "addr", "register", "offset", "wire"), "at"),
+    **dict.fromkeys(("scaling", "factor", "formula", "resolution", "gain"), "scale"),
+    **dict.fromkeys(("min", "max", "minimum", "maximum", "limits", "values"), "range"),
+    **dict.fromkeys(("datatype", "data_type", "format"), "type"),
+    **dict.fromkeys(("description", "label", "text", "desc"), "title"),
+    **dict.fromkeys(("choices", "options", "states"), "enum"),
+    **dict.fromkeys(("id", "number"), "code"),
+    **dict.fromkeys(("rights", "mode"), "access"),
+    "reason": "why",
+}
+"""Keys that people try, and what they mean here."""
+
+
 def quoted(text: str) -> str:
     """A stranger's text as messages repeat it: short."""
     return f"`{text}`" if len(text) <= 60 else f"`{text[:57]}…`"
@@ -53,8 +67,14 @@ def shown(value: Any) -> str:
     return f"the {'text' if isinstance(value, str) else 'number'} {quoted(str(value))}"
 
 
-def type_hint(value: Any, accepted: Collection[type], example: Any) -> str:
+def type_hint(value: Any, accepted: Collection[type], example: Any, pattern: str | None) -> str:
     """What to do about a value of the wrong type."""
+    if value is None:
+        return "fill it in, or leave the key out"
+    if int in accepted and isinstance(value, Decimal | bool):
+        return _whole_hint(value, example)
+    if pattern is not None and not re.search(pattern, str(value)) and not isinstance(value, Map | Seq):
+        return form_hint(str(value), pattern)
     if str in accepted and isinstance(value, int | Decimal | bool):
         return f'quote it: "{str(value).lower() if isinstance(value, bool) else value}"'
     if isinstance(value, str) and (int in accepted or Decimal in accepted):
@@ -64,6 +84,13 @@ def type_hint(value: Any, accepted: Collection[type], example: Any) -> str:
     if bool in accepted:
         return "write true or false"
     return f"for example {_example(example)}" if example is not None else KEYS_PAGE
+
+
+def _whole_hint(value: Decimal | bool, example: Any) -> str:
+    digits, power = str(value).partition("E")[::2]
+    if power and "." not in digits:
+        return f"write {digits}E{power.lstrip('+')}h if hexadecimal is meant, the digits in full if not"
+    return f"for example {_example(example)}" if isinstance(value, bool) else "write it without a decimal point"
 
 
 def _number_hint(value: str, fractions: bool) -> str:
@@ -92,7 +119,10 @@ def form_hint(value: str, pattern: str) -> str:
     hint = _FORMS[pattern][1] if pattern in _FORMS else KEYS_PAGE
     if pattern != _NAME:
         return hint
-    suggestion = re.sub(r"[^a-z0-9]+", "_", re.sub(r"([a-z0-9])([A-Z])", r"\1_\2", value[:60]).lower()).strip("_")
+    import unicodedata
+
+    plain = unicodedata.normalize("NFKD", value[:60]).encode("ascii", "ignore").decode()
+    suggestion = re.sub(r"[^a-z0-9]+", "_", re.sub(r"([a-z0-9])([A-Z])", r"\1_\2", plain).lower()).strip("_")
     return f"write `{suggestion}`" if re.fullmatch(_NAME, suggestion) else hint
 
 
@@ -100,6 +130,9 @@ def key_hint(key: str, known: Collection[str], patterns: Iterable[str]) -> str:
     """What an unknown key may have meant."""
     if key == "<<":
         return "merge keys are not part of YAML 1.2: write the keys out, or share them under `formats`"
+    meant = _MEANT.get(key.lower())
+    if meant in known:
+        return f"did you mean `{meant}`?"
     forms = [pattern for pattern in patterns if pattern != "^x-"]
     near = nearest(key, tuple(known))
     if near is not None:
@@ -117,5 +150,6 @@ def nearest(word: str, known: tuple[str, ...]) -> str | None:
 
     if len(word) > _LONGEST_COMPARED:
         return None
-    near = difflib.get_close_matches(word.lower(), known[:_MOST_COMPARED], 1, 0.6)
-    return near[0] if near else None
+    by_folded = {one.lower(): one for one in reversed(known[:_MOST_COMPARED])}
+    near = difflib.get_close_matches(word.lower(), by_folded, 1, 0.6)
+    return by_folded[near[0]] if near else None

@@ -94,8 +94,9 @@ class _Compiler:
         for name in types:
             for python_type in _PYTHON_TYPES[name]:
                 by_type.setdefault(python_type, self._typed(name, node))
-        wanted = " or ".join(_WORDS[name] for name in types)
-        return _by_type(by_type, wanted, next(iter(node.get("examples", ())), None)) if types else _any
+        wanted = " or ".join(_WORDS[name] for name in types if name != "integer" or "number" not in types)
+        example = next(iter(node.get("examples", ())), None)
+        return _by_type(by_type, wanted, example, node.get("pattern")) if types else _any
 
     def _typed(self, name: str, node: Mapping[str, Any]) -> Check:
         if name == "object":
@@ -129,7 +130,7 @@ def _any(_value: Any, _holder: Map | Seq, _at: Any, _report: Report) -> bool:
     return True
 
 
-def _by_type(by_type: Mapping[type, Check], wanted: str, example: Any) -> Check:
+def _by_type(by_type: Mapping[type, Check], wanted: str, example: Any, pattern: str | None) -> Check:
     def check(value: Any, holder: Map | Seq, at: Any, report: Report) -> bool:
         found = by_type.get(type(value))
         if found is not None:
@@ -138,7 +139,7 @@ def _by_type(by_type: Mapping[type, Check], wanted: str, example: Any) -> Check:
             "wrong-type",
             f"{shown(value)} stands where {wanted} belongs",
             holder.span(at),
-            type_hint(value, by_type, example),
+            type_hint(value, by_type, example, pattern),
         )
         return False
 
@@ -242,7 +243,7 @@ class _Object:
                 broken.append(key)
         complete = self._complete(value, holder, at, report)
         for key in broken:
-            self._drop(value, key)
+            self._drop(value, key, holder is value)
         fine = complete and not any(key in broken for key in self.required) and len(value) >= self.least
         value.verdict = (self, fine)
         return fine
@@ -265,9 +266,12 @@ class _Object:
             report.error("too-few", "the mapping is empty", holder.span(at), "fill it or leave the key out")
         return not missing and len(value) >= self.least
 
-    def _drop(self, value: Map, key: str) -> None:
+    def _drop(self, value: Map, key: str, is_file: bool) -> None:
         lost = value.file.lost
-        lost.add(f"*{key}" if key in self.properties else key)
+        if is_file or key == "points":
+            lost.add(f"*{key}")  # a whole section
+        if key not in self.properties:
+            lost.add(key)
         _lose(value[key], lost)
         del value[key]
         value.broken += (key,)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from fractions import Fraction
 
@@ -9,11 +10,12 @@ from fieldscribe.exact import number_text
 from fieldscribe.language.formula import FormulaError, evaluate, parse_expression
 from fieldscribe.language.formula.syntax import names
 from fieldscribe.language.nodes import Map
-from fieldscribe.language.numbers import NumberError, parse_integer
 from fieldscribe.model import TYPES, Place
 from fieldscribe.resolve.drafts import Draft
 from fieldscribe.resolve.scope import Scope
 from fieldscribe.resolve.values import formula_finding, formula_value, integer
+
+_FORMULA = re.compile(r"[A-Za-z0-9_)]\s*[-+*/]|\(|\bbase\b")
 
 WIRE = "wire"
 """The name of the address on the wire in formulas of `numbering`."""
@@ -50,15 +52,14 @@ class Places:
         return None
 
     def _computed(self, draft: Draft, text: str) -> int | None:
-        try:
-            return parse_integer(text)
-        except NumberError:
-            pass  # it may be a formula; if not, the formula's finding says why
         span = draft.span("at")
+        if _FORMULA.search(text) is None:
+            return integer(text, span, self.report)
         base = self._base(draft)
         if base is None:
             return None
-        exact = formula_value(text, base, span, self.report)
+        known = "`base` is where a record is used: it is known in the points of a record only" if not base else ""
+        exact = formula_value(text, base, span, self.report, known)
         if exact is None:
             return None
         if exact.denominator != 1:

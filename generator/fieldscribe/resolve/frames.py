@@ -45,8 +45,8 @@ def frames_of(scope: Scope, bus: Bus, index: Index, points: Mapping[str, Point])
                 scope.unknown("unknown-frame", "frame", answers, raw.span("answers"), list(result), "frames", hint)
             continue
         digits = "".join(str(raw["bytes"]).split())
-        if len(digits) % 2:
-            message = "the bytes have an odd number of digits"
+        if len(digits) % 2 or not digits:
+            message = "the bytes have an odd number of digits" if digits else "the frame has no bytes"
             scope.report.error("bad-number", message, raw.span("bytes"), "write two digits for each byte")
             continue
         result[name] = OpenFrame(

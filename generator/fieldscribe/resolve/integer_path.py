@@ -19,7 +19,7 @@ def decimals_of(draft: Draft, cases: tuple[ScaleCase, ...] | None, bounds: Bound
     said: int | None = draft.get("decimals")
     report = bounds.scales.scope.report
     if cases is None:
-        if said and "scale" not in draft.failed and draft.get("scale") is None:
+        if said and "scale" not in draft.failed and draft.get("scale") is None and not draft.floating:
             message = "`decimals` belongs to a scale, and the raw number is the value here"
             report.error("integer-path", message, draft.span("decimals"), "leave it out, or give the `scale`")
         return 0

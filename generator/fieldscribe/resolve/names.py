@@ -45,10 +45,11 @@ class Index:
     def unknown(self, word: str, span: Span) -> None:
         """A finding for a word that means no point, or too many."""
         several = self.by_code.get(word, [])
-        hint = None
         if several:
-            hint = f"`{word}` is the code of {len(several)} points; name one of them, such as `{several[0].name}`"
-        self.scope.unknown("unknown-point", "point", word, span, [*self.by_name, *self.by_code], "points", hint)
+            message = f"`{word}` is the code of {len(several)} points"
+            self.scope.report.error("unknown-point", message, span, f"name one of them, such as `{several[0].name}`")
+            return
+        self.scope.unknown("unknown-point", "point", word, span, [*self.by_name, *self.by_code], "points")
 
 
 def index_of(scope: Scope, drafts: list[Draft]) -> Index:

@@ -7,7 +7,7 @@ from fractions import Fraction
 
 from fieldscribe.language.formula import FormulaError, condition_names, parse_condition
 from fieldscribe.language.nodes import Map
-from fieldscribe.model import TYPES, Point, ScaleCase, Special, Unit
+from fieldscribe.model import TYPES, Enum, Point, ScaleCase, Special, Unit
 from fieldscribe.resolve.addresses import Places
 from fieldscribe.resolve.allowed import Ranges
 from fieldscribe.resolve.bounds import Bounds
@@ -96,7 +96,7 @@ def _point(scope: Scope, draft: Draft, shape: Shape, places: Places, ranges: Ran
         scale=cases,
         decimals=decimals_of(draft, cases, ranges.bounds),
         allowed=ranges.allowed(draft, enum),
-        default=_default(scope, draft),
+        default=_default(scope, draft, enum),
         steps=_steps(scope, draft),
         enum=enum,
         flags=flags_of(scope, draft, shape.width),
@@ -146,8 +146,12 @@ def _unit(scope: Scope, draft: Draft) -> Unit:
     return found or PLAIN
 
 
-def _default(scope: Scope, draft: Draft) -> Fraction | None:
+def _default(scope: Scope, draft: Draft, enum: Enum | None) -> Fraction | None:
+    """The factory setting in the unit; of an enum also by name."""
     raw = draft.get("default")
+    for entry in enum.entries if enum is not None else ():
+        if entry.name == raw:
+            return Fraction(entry.raw)
     return None if raw is None else number(raw, draft.span("default"), scope.report)
 
 

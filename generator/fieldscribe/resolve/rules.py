@@ -108,9 +108,11 @@ class Scales:
 
     def _static(self, used: Draft, name: str, place: Span) -> Linear:
         """The rule of a point whose value another formula needs: it cannot need a third one."""
-        if any(True for _ in self._needs(used)) or isinstance(used.get("scale"), list):
-            self._refuse(place, f"the value of `{name}` itself depends on another point", f"use `{name}.raw`")
-        cases = self.cases(used)
+        moves = any(True for _ in self._needs(used)) or isinstance(used.get("scale"), list)
+        cases = None if moves else self.cases(used)
+        if moves or (cases is not None and cases[0].rule.factors):
+            hint = f"use `{name}.raw`, or write its rule out here"
+            self._refuse(place, f"the value of `{name}` itself depends on another point", hint)
         if "scale" in used.failed:
             raise Unknown
         return IDENTITY if cases is None else cases[0].rule

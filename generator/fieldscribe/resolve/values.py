@@ -48,15 +48,20 @@ def interval(text: str, span: Span, report: Report) -> tuple[int, int] | None:
     return low, high
 
 
-def formula_value(text: str, names: Mapping[str, Fraction], span: Span, report: Report) -> Fraction | None:
-    """A formula of known numbers (`base + 6`, `wire + 1`)."""
+def formula_value(
+    text: str, names: Mapping[str, Fraction], span: Span, report: Report, unknown: str = ""
+) -> Fraction | None:
+    """A formula of known numbers (`base + 6`, `wire + 1`); `unknown` is the hint if it names another."""
     try:
         return evaluate(parse_expression(text), names)
     except FormulaError as error:
+        if unknown and "is not known" in error.message:
+            error.hint = unknown
         formula_finding(error, span, report)
         return None
 
 
 def formula_finding(error: FormulaError, span: Span, report: Report) -> None:
     """A finding at the column of the formula's text that is wrong."""
-    report.error("bad-formula", error.message, span._replace(column=span.column + error.column), error.hint or None)
+    hint = error.hint or "formulas are made of numbers, points, + - * /, 10 ** n and parentheses"
+    report.error("bad-formula", error.message, span._replace(column=span.column + error.column), hint)

@@ -256,15 +256,26 @@ pub struct Rule {
 }
 
 impl Rule {
-    /// `raw = value * num / den + offset_num / offset_den`; both denominators are positive.
+    /// `raw = value * num / den`; the denominator is positive.
     #[must_use]
     #[inline]
-    pub const fn new(num: i64, den: i64, offset_num: i64, offset_den: i64) -> Self {
+    pub const fn new(num: i64, den: i64) -> Self {
         Self {
             num,
             den,
-            offset_num,
-            offset_den,
+            offset_num: 0,
+            offset_den: 1,
+        }
+    }
+
+    /// The rule plus `num / den`; the denominator is positive.
+    #[must_use]
+    #[inline]
+    pub const fn plus(self, num: i64, den: i64) -> Self {
+        Self {
+            offset_num: num,
+            offset_den: den,
+            ..self
         }
     }
 

@@ -1221,7 +1221,7 @@ impl runtime::CountWritable for NetworkFrequencySetpoint {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -1351,7 +1351,7 @@ impl runtime::CountWritable for NetworkProcessValue {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 1000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -2548,7 +2548,7 @@ impl runtime::CountWritable for AccelerationTime {
     fn encode_count_with(count: i64, (): ()) -> Result<u32, runtime::Error> {
         let count = arithmetic::within(count, 1, 300_000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -2618,7 +2618,7 @@ impl runtime::CountWritable for AccelerationTimeSet2 {
     fn encode_count_with(count: i64, (): ()) -> Result<u32, runtime::Error> {
         let count = arithmetic::within(count, 1, 300_000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -2688,7 +2688,7 @@ impl runtime::CountWritable for DecelerationTime {
     fn encode_count_with(count: i64, (): ()) -> Result<u32, runtime::Error> {
         let count = arithmetic::within(count, 1, 300_000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -2758,7 +2758,7 @@ impl runtime::CountWritable for DecelerationTimeSet2 {
     fn encode_count_with(count: i64, (): ()) -> Result<u32, runtime::Error> {
         let count = arithmetic::within(count, 1, 300_000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -3137,7 +3137,7 @@ impl runtime::Writable for MotorRatedFrequency {
 
     #[inline]
     fn check_with(raw: u16, with: Self::With) -> Result<(), runtime::Error> {
-        let rule = runtime::Rule::new(1, 1, 0, 1);
+        let rule = runtime::Rule::new(1, 1);
         let factor = with.maximum_frequency;
         let factor = runtime::Raw::to_i64(factor);
         let rule = rule.limited_by(factor)?;
@@ -3211,7 +3211,7 @@ impl runtime::Writable for MotorRatedFrequencySet2 {
 
     #[inline]
     fn check_with(raw: u16, with: Self::With) -> Result<(), runtime::Error> {
-        let rule = runtime::Rule::new(1, 1, 0, 1);
+        let rule = runtime::Rule::new(1, 1);
         let factor = with.maximum_frequency_set_2;
         let factor = runtime::Raw::to_i64(factor);
         let rule = rule.limited_by(factor)?;
@@ -3285,7 +3285,7 @@ impl runtime::Writable for MaximumFrequency {
 
     #[inline]
     fn check_with(raw: u16, with: Self::With) -> Result<(), runtime::Error> {
-        let rule = runtime::Rule::new(1, 1, 0, 1);
+        let rule = runtime::Rule::new(1, 1);
         let factor = with.motor_rated_frequency;
         let factor = runtime::Raw::to_i64(factor);
         let rule = rule.limited_by(factor)?;
@@ -3359,7 +3359,7 @@ impl runtime::Writable for MaximumFrequencySet2 {
 
     #[inline]
     fn check_with(raw: u16, with: Self::With) -> Result<(), runtime::Error> {
-        let rule = runtime::Rule::new(1, 1, 0, 1);
+        let rule = runtime::Rule::new(1, 1);
         let factor = with.motor_rated_frequency_set_2;
         let factor = runtime::Raw::to_i64(factor);
         let rule = rule.limited_by(factor)?;
@@ -3512,7 +3512,7 @@ impl runtime::CountWritable for InputOMinimumFrequency {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -3578,7 +3578,7 @@ impl runtime::CountWritable for InputOMaximumFrequency {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -3907,7 +3907,7 @@ impl runtime::CountWritable for BaseFrequency {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -3973,7 +3973,7 @@ impl runtime::CountWritable for BaseFrequencySet2 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -4041,7 +4041,7 @@ impl runtime::CountWritable for FixedFrequency1 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -4107,7 +4107,7 @@ impl runtime::CountWritable for FixedFrequency2 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -4173,7 +4173,7 @@ impl runtime::CountWritable for FixedFrequency3 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -4239,7 +4239,7 @@ impl runtime::CountWritable for FixedFrequency4 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -4307,7 +4307,7 @@ impl runtime::CountWritable for FixedFrequency5 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -4373,7 +4373,7 @@ impl runtime::CountWritable for FixedFrequency6 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -4439,7 +4439,7 @@ impl runtime::CountWritable for FixedFrequency7 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -4505,7 +4505,7 @@ impl runtime::CountWritable for FixedFrequency8 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -4571,7 +4571,7 @@ impl runtime::CountWritable for FixedFrequency9 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -4637,7 +4637,7 @@ impl runtime::CountWritable for FixedFrequency10 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -4705,7 +4705,7 @@ impl runtime::CountWritable for FixedFrequency11 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -4771,7 +4771,7 @@ impl runtime::CountWritable for FixedFrequency12 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -4837,7 +4837,7 @@ impl runtime::CountWritable for FixedFrequency13 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -4903,7 +4903,7 @@ impl runtime::CountWritable for FixedFrequency14 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -4969,7 +4969,7 @@ impl runtime::CountWritable for FixedFrequency15 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -5035,7 +5035,7 @@ impl runtime::CountWritable for JogFrequency {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 999)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -5295,7 +5295,7 @@ impl runtime::CountWritable for ManualBoost {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 200)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -5361,7 +5361,7 @@ impl runtime::CountWritable for ManualBoostSet2 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 200)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -5427,7 +5427,7 @@ impl runtime::CountWritable for ManualBoostFrequency {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 500)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -5493,7 +5493,7 @@ impl runtime::CountWritable for ManualBoostFrequencySet2 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 500)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -5868,7 +5868,7 @@ impl runtime::Writable for DcBrakeFrequency {
 
     #[inline]
     fn check_with(raw: u16, with: Self::With) -> Result<(), runtime::Error> {
-        let rule = runtime::Rule::new(1, 1, 0, 1);
+        let rule = runtime::Rule::new(1, 1);
         let factor = with.start_frequency;
         let factor = runtime::Raw::to_i64(factor);
         let rule = rule.limited_by(factor)?;
@@ -5960,7 +5960,7 @@ impl runtime::CountWritable for DcBrakeDelay {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 50)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -6091,7 +6091,7 @@ impl runtime::CountWritable for DcBrakeTime {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 600)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -6211,13 +6211,13 @@ impl runtime::Writable for UpperFrequencyLimit {
         let low_2 = if skipped {
             0
         } else {
-            let rule = runtime::Rule::new(1, 1, 0, 1);
+            let rule = runtime::Rule::new(1, 1);
             let factor = with.lower_frequency_limit;
             let factor = runtime::Raw::to_i64(factor);
             let rule = rule.limited_by(factor)?;
             rule.limit()?.max(0)
         };
-        let rule = runtime::Rule::new(10, 1, 0, 1);
+        let rule = runtime::Rule::new(10, 1);
         let factor = with.maximum_frequency;
         let factor = runtime::Raw::to_i64(factor);
         let rule = rule.limited_by(factor)?;
@@ -6303,13 +6303,13 @@ impl runtime::Writable for UpperFrequencyLimitSet2 {
         let low_2 = if skipped {
             0
         } else {
-            let rule = runtime::Rule::new(1, 1, 0, 1);
+            let rule = runtime::Rule::new(1, 1);
             let factor = with.lower_frequency_limit_set_2;
             let factor = runtime::Raw::to_i64(factor);
             let rule = rule.limited_by(factor)?;
             rule.limit()?.max(0)
         };
-        let rule = runtime::Rule::new(10, 1, 0, 1);
+        let rule = runtime::Rule::new(10, 1);
         let factor = with.maximum_frequency_set_2;
         let factor = runtime::Raw::to_i64(factor);
         let rule = rule.limited_by(factor)?;
@@ -6389,7 +6389,7 @@ impl runtime::Writable for LowerFrequencyLimit {
 
     #[inline]
     fn check_with(raw: u16, with: Self::With) -> Result<(), runtime::Error> {
-        let rule = runtime::Rule::new(1, 1, 0, 1);
+        let rule = runtime::Rule::new(1, 1);
         let factor = with.start_frequency;
         let factor = runtime::Raw::to_i64(factor);
         let rule = rule.limited_by(factor)?;
@@ -6400,7 +6400,7 @@ impl runtime::Writable for LowerFrequencyLimit {
         let high_2 = if skipped {
             4000
         } else {
-            let rule = runtime::Rule::new(1, 1, 0, 1);
+            let rule = runtime::Rule::new(1, 1);
             let factor = with.upper_frequency_limit;
             let factor = runtime::Raw::to_i64(factor);
             let rule = rule.limited_by(factor)?;
@@ -6481,7 +6481,7 @@ impl runtime::Writable for LowerFrequencyLimitSet2 {
 
     #[inline]
     fn check_with(raw: u16, with: Self::With) -> Result<(), runtime::Error> {
-        let rule = runtime::Rule::new(1, 1, 0, 1);
+        let rule = runtime::Rule::new(1, 1);
         let factor = with.start_frequency;
         let factor = runtime::Raw::to_i64(factor);
         let rule = rule.limited_by(factor)?;
@@ -6492,7 +6492,7 @@ impl runtime::Writable for LowerFrequencyLimitSet2 {
         let high_2 = if skipped {
             4000
         } else {
-            let rule = runtime::Rule::new(1, 1, 0, 1);
+            let rule = runtime::Rule::new(1, 1);
             let factor = with.upper_frequency_limit_set_2;
             let factor = runtime::Raw::to_i64(factor);
             let rule = rule.limited_by(factor)?;
@@ -6589,7 +6589,7 @@ impl runtime::CountWritable for JumpFrequency1 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -6655,7 +6655,7 @@ impl runtime::CountWritable for JumpFrequency1Width {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 100)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -6721,7 +6721,7 @@ impl runtime::CountWritable for JumpFrequency2 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -6787,7 +6787,7 @@ impl runtime::CountWritable for JumpFrequency2Width {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 100)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -6853,7 +6853,7 @@ impl runtime::CountWritable for JumpFrequency3 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -6919,7 +6919,7 @@ impl runtime::CountWritable for JumpFrequency3Width {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 100)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -7049,7 +7049,7 @@ impl runtime::CountWritable for PidProportionalGain {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 2, 50)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -7115,7 +7115,7 @@ impl runtime::CountWritable for PidIntegralTime {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 1500)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -7181,7 +7181,7 @@ impl runtime::CountWritable for PidDerivativeTime {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 1000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -7247,7 +7247,7 @@ impl runtime::CountWritable for PidDisplayFactor {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 1, 9999)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -7443,7 +7443,7 @@ impl runtime::CountWritable for PidOutputLimit {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 1000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -7643,7 +7643,7 @@ impl runtime::CountWritable for AccelerationTime2 {
     fn encode_count_with(count: i64, (): ()) -> Result<u32, runtime::Error> {
         let count = arithmetic::within(count, 1, 300_000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -7713,7 +7713,7 @@ impl runtime::CountWritable for DecelerationTime2 {
     fn encode_count_with(count: i64, (): ()) -> Result<u32, runtime::Error> {
         let count = arithmetic::within(count, 1, 300_000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -7783,7 +7783,7 @@ impl runtime::CountWritable for DecelerationTime2Set2 {
     fn encode_count_with(count: i64, (): ()) -> Result<u32, runtime::Error> {
         let count = arithmetic::within(count, 1, 300_000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -7981,7 +7981,7 @@ impl runtime::CountWritable for AccelerationChangeFrequency {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -8047,7 +8047,7 @@ impl runtime::CountWritable for AccelerationChangeFrequencySet2 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -8113,7 +8113,7 @@ impl runtime::CountWritable for DecelerationChangeFrequency {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -8179,7 +8179,7 @@ impl runtime::CountWritable for DecelerationChangeFrequencySet2 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -8375,7 +8375,7 @@ impl runtime::CountWritable for InputOiMinimumFrequency {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -8441,7 +8441,7 @@ impl runtime::CountWritable for InputOiMaximumFrequency {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -8901,7 +8901,7 @@ impl runtime::CountWritable for FrequencyOffset {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -9033,7 +9033,7 @@ impl runtime::CountWritable for PotentiometerMinimumFrequency {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -9099,7 +9099,7 @@ impl runtime::CountWritable for PotentiometerMaximumFrequency {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -9428,7 +9428,7 @@ impl runtime::CountWritable for AllowedPowerFailureTime {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 3, 250)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -9495,7 +9495,7 @@ impl runtime::CountWritable for RestartDelay {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 3, 1000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -9692,7 +9692,7 @@ impl runtime::CountWritable for MotorProtectionLevel {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 2000, 12_000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -9759,7 +9759,7 @@ impl runtime::CountWritable for MotorProtectionLevelSet2 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 2000, 12_000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -10088,7 +10088,7 @@ impl runtime::CountWritable for CurrentLimitLevel {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 1000, 15_000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -10157,7 +10157,7 @@ impl runtime::CountWritable for CurrentLimitLevelSet2 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 1000, 15_000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -10226,7 +10226,7 @@ impl runtime::CountWritable for CurrentLimitTime {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 1, 300)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -10295,7 +10295,7 @@ impl runtime::CountWritable for CurrentLimitTimeSet2 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 1, 300)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -10620,7 +10620,7 @@ impl runtime::CountWritable for StartFrequency {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 5, 99)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -10689,7 +10689,7 @@ impl runtime::CountWritable for CarrierFrequency {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 20, 140)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -10819,7 +10819,7 @@ impl runtime::CountWritable for FrequencyDisplayFactor {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 1, 999)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -12788,7 +12788,7 @@ impl runtime::CountWritable for OverloadAlarmLevel {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 20_000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -12856,7 +12856,7 @@ impl runtime::CountWritable for OverloadAlarmLevelSet2 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 20_000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -12924,7 +12924,7 @@ impl runtime::CountWritable for ArrivalFrequencyAcceleration {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -12990,7 +12990,7 @@ impl runtime::CountWritable for ArrivalFrequencyDeceleration {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -13056,7 +13056,7 @@ impl runtime::CountWritable for PidDeviationLevel {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 1000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -13122,7 +13122,7 @@ impl runtime::CountWritable for PidProcessValueUpperLimit {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 1000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -13188,7 +13188,7 @@ impl runtime::CountWritable for PidProcessValueLowerLimit {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 1000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -13254,7 +13254,7 @@ impl runtime::CountWritable for InputOCalibration {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 2000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -13320,7 +13320,7 @@ impl runtime::CountWritable for InputOiCalibration {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 2000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -13386,7 +13386,7 @@ impl runtime::CountWritable for ThermistorInputCalibration {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 2000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -13452,7 +13452,7 @@ impl runtime::CountWritable for AnalogOutputOffset {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 100)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -13842,7 +13842,7 @@ impl runtime::CountWritable for DigitalOutput11OnDelay {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 1000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -13908,7 +13908,7 @@ impl runtime::CountWritable for DigitalOutput11OffDelay {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 1000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -13974,7 +13974,7 @@ impl runtime::CountWritable for DigitalOutput12OnDelay {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 1000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -14040,7 +14040,7 @@ impl runtime::CountWritable for DigitalOutput12OffDelay {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 1000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -14106,7 +14106,7 @@ impl runtime::CountWritable for RelayOutputOnDelay {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 1000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 
@@ -14172,7 +14172,7 @@ impl runtime::CountWritable for RelayOutputOffDelay {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 1000)?;
         let raw = count;
-        arithmetic::store::<Self>(raw, ())
+        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
     }
 }
 

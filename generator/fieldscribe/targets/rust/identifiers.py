@@ -1,0 +1,55 @@
+"""All identifiers of a generated crate by namespace, so that a check can find two things with one name."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from fieldscribe.targets.rust.literals import type_name
+from fieldscribe.targets.rust.subjects import Subject, scope_of
+from fieldscribe.targets.rust.words import getter_name
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from fieldscribe.model import Device
+
+Identifier = tuple[str, str, str]
+"""Namespace, identifier, and what in the description it stands for."""
+
+
+def identifiers(device: Device) -> Iterator[Identifier]:
+    """Every identifier that the description decides; equal ones in one namespace clash."""
+    scope = scope_of(device)
+    for subject in scope.subjects:
+        yield from _of_point(subject)
+    for enum in device.enums:
+        if enum.name in scope.enums:
+            yield "enums", type_name(enum.name), f"enum {enum.name}"
+            for entry in enum.entries:
+                yield f"enums::{enum.name}", type_name(entry.name), f"entry {entry.name} of enum {enum.name}"
+    for command in device.commands:
+        yield "commands", command.name.upper(), f"command {command.name}"
+    for group in device.blocks:
+        yield "blocks", group.upper(), f"group {group}"
+    for code in device.bus.exceptions:
+        yield "exceptions", code.name.upper(), f"exception {code.name}"
+
+
+def _of_point(subject: Subject) -> Iterator[Identifier]:
+    item, own = subject.point.item, f"point {subject.point.name}"
+    yield "points", subject.name, own
+    for old in subject.point.was:
+        yield "points", type_name(old), f"former name {old} of {own}"
+    for special in subject.point.specials:
+        yield f"points::{item}", special.name.upper(), f"special {special.name} of {own}"
+    if subject.arguments:
+        yield "with", subject.name, own
+    if subject.factors and subject.factors != subject.arguments:
+        yield "with", f"{subject.name}Factors", f"the scale of {own}"
+    for flag in subject.point.flags:
+        named = f"flag {flag.name} of {own}"
+        yield f"flags::{item}", flag.name.upper(), named
+        yield f"flags::{item}", getter_name(flag.name), named
+        yield f"flags::{item}", f"with_{flag.name}", named
+        for value in flag.values:
+            yield f"flags::{item}", f"{flag.name}_{value.name}".upper(), f"{value.name} of {named}"

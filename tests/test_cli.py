@@ -1,0 +1,349 @@
+"""The command line: what it prints where, and how it ends."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from importlib import import_module
+from io import StringIO
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+import pytest
+from fieldscribe import __version__
+from fieldscribe.cli import COMMANDS, main
+from fieldscribe.resources import descriptions_dir
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+L200 = str(descriptions_dir() / "hitachi_l200")
+PACKAGES = Path(import_module("fieldscribe").__file__ or "").parents[1]
+
+DEVICE = """\
+fieldscribe: 1
+device: small_drive
+version: 1.0.0
+vendor: Acme
+model: S1
+title: {en: Small drive}
+family: modbus
+documents:
+  manual: {title: Manual, language: en}
+variants:
+  size:
+    title: {en: Size}
+    values: {small: {title: {en: Small}}, large: {title: {en: Large}}}
+parts: [main.yaml]
+bus:
+  framings: [rtu]
+  units: 1..32
+  functions: {03h: {name: read_registers, max: 16}, 06h: {name: write_register}}
+"""
+MAIN = """\
+group: main
+title: {en: Main}
+space: holding
+access: rw
+source: {document: manual, section: "1"}
+numbering: {modicon: wire + 1}
+points:
+- {code: P1, name: speed, title: {en: "TITLE"}, at: 10h, range: 0..4000, scale: value = raw * 0.1, unit: Hz}
+- {code: P2, name: ratio, title: {en: Ratio}, at: 12h, range: 1..500}
+- {code: P3, name: voltage, title: {en: Voltage}, at: 14h, range: 0..1000, scale: raw = value * ratio / 400, unit: V}
+- {code: P4, name: state, title: {en: State}, at: 16h, access: r, enum: {0: stop, 1: run}}
+"""
+
+
+class Result(NamedTuple):
+    """What a run did."""
+
+    code: int
+    out: str
+    err: str
+
+
+@pytest.fixture
+def run(capsys: pytest.CaptureFixture[str]) -> Callable[..., Result]:
+    """Runs the command line in this process."""
+
+    def run_it(*words: str) -> Result:
+        code = main(words)
+        return Result(code, *capsys.readouterr())
+
+    return run_it
+
+
+@pytest.fixture
+def small(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder with ./descriptions/small_drive, as the working folder."""
+    folder = tmp_path / "descriptions" / "small_drive"
+    folder.mkdir(parents=True)
+    (folder / "device.yaml").write_text(DEVICE, "utf-8")
+    (folder / "main.yaml").write_text(MAIN.replace("TITLE", "Speed"), "utf-8")
+    monkeypatch.chdir(tmp_path)
+    return folder
+
+
+def test_every_command_is_listed_as_it_says(run: Callable[..., Result]) -> None:
+    listed = run("--help").out
+    for name, does in COMMANDS.items():
+        module = import_module(f"fieldscribe.cli.{name}")
+        assert does == module.HELP
+        assert does in listed
+        shown = run(name, "--help")
+        assert shown.code == 0
+        assert f"fieldscribe {name}" in shown.out
+        assert "examples:" in shown.out
+
+
+def test_version_and_usage(run: Callable[..., Result]) -> None:
+    assert run("--version") == (0, f"fieldscribe {__version__}\n", "")
+    nothing = run()
+    assert (nothing.code, nothing.out) == (2, "")
+    assert "commands:" in nothing.err
+    wrong = run("chekc")
+    assert wrong.code == 2
+    assert "did you mean `check`?" in wrong.err
+    for words in (("check", "--colour"), ("explain",), ("--nothing",), ("export", "xml", "x")):
+        assert run(*words).code == 2
+
+
+def test_the_questions_of_a_commissioning_engineer(run: Callable[..., Result]) -> None:
+    told = run("explain", L200, "A020")
+    assert told.code == 0
+    for part in (
+        "A020 base_frequency",
+        "1028h (4136)",
+        "4137",
+        "0..400 Hz",
+        "raw x 0.1 Hz",
+        "01 03 10 28 00 01",
+        "enter",
+    ):
+        assert part in told.out
+    assert "modicon 4137" in run("explain", L200, "4137").out
+    frame = run("decode", L200, "05 06 10 28 01 F4 0C 91")
+    assert frame.code == 0
+    for part in ("RTU, unit 5", "06h", "A020 base_frequency = 50 Hz (raw 500", "reply that repeats it", "ok (0C 91)"):
+        assert part in frame.out
+    wrong = run("decode", L200, "05 06 10 28 01 F4 A8 54")
+    assert wrong.code == 1
+    for part in ("A020 base_frequency = 50 Hz", "wrong: A8 54; these bytes give 0C 91", "write_base_frequency_crc"):
+        assert part in wrong.out
+    sent = run("encode", L200, "A020", "50 Hz", "--unit", "5", "--frame")
+    assert sent.out == "05 06 10 28 01 F4 0C 91\n"
+    assert "A020 base_frequency = 50 Hz: raw 500 = 01F4h" in sent.err
+
+
+def test_check_a_whole_device(run: Callable[..., Result]) -> None:
+    told = run("check", L200)
+    assert (told.code, told.err) == (0, "")
+    assert told.out.startswith("hitachi_l200: ")
+
+
+def test_check(run: Callable[..., Result], small: Path) -> None:
+    assert run("check").out == "small_drive: 4 points (4 generated) in 1 groups, 0 errata, 0 printed frames\n"
+    data = json.loads(run("check", "--format", "json").out)
+    assert data["findings"] == []
+    assert data["devices"][0]["points"] == 4
+    (small / "main.yaml").write_text(MAIN.replace("at: 12h", "at: 10h"), "utf-8")
+    wrong = run("check")
+    assert wrong.code == 1
+    assert " --> descriptions/small_drive/main.yaml:9:" in wrong.out
+    assert "^" in wrong.out
+    assert "1 error in 1 file" in wrong.out
+    data = json.loads(run("check", "--format", "json").out)
+    assert data["findings"][0]["line"] == 9
+    assert run("explain", "small_drive", "P1").code == 1
+    assert json.loads(run("explain", "small_drive", "P1", "--format", "json").out)["findings"]
+
+
+def test_device_arguments(run: Callable[..., Result], small: Path, tmp_path: Path) -> None:
+    for device in ("small_drive", "descriptions/small_drive", str(small / "device.yaml")):
+        assert run("explain", device, "P1").out.startswith("P1 speed: Speed\n")
+    assert run("explain", "hitachi_l200", "A020").code == 0
+    unknown = run("explain", "small_drve", "P1")
+    assert unknown.code == 2
+    assert "did you mean `small_drive`?" in unknown.err
+    assert run("explain", "P1", "P1", "--descriptions", str(tmp_path / "none")).code == 2
+    assert run("explain", "hitachi_l200", "A020", "--descriptions", "descriptions").code == 2
+    (tmp_path / "empty").mkdir()
+    empty = run("explain", "empty", "P1")
+    assert empty.code == 2
+    assert "holds no device.yaml" in empty.err
+    assert run("check", "empty").code == 1
+    assert run("check", "nowhere").code == 1
+    assert run("explain", "x" * 5000, "P1").code == 2
+
+
+def test_a_folder_of_several_devices(run: Callable[..., Result], small: Path) -> None:
+    (small.parent / "other").mkdir()
+    (small.parent / "other" / "device.yaml").write_text(DEVICE, "utf-8")
+    several = run("explain", "descriptions", "P1")
+    assert several.code == 2
+    assert "holds 2 devices" in several.err
+
+
+def test_explain(run: Callable[..., Result], small: Path) -> None:
+    unknown = run("explain", "small_drive", "sped")
+    assert unknown.code == 2
+    assert "did you mean `speed`?" in unknown.err
+    assert "described near it: `ratio` or `voltage`" in run("explain", "small_drive", "wire:0x13").err
+    both = run("explain", "small_drive", "11h")
+    assert "Found as" in both.out
+    data = json.loads(run("explain", "small_drive", "P2", "--format", "json").out)
+    assert data["found"][0]["heading"] == "P2 ratio: Ratio"
+    assert run("explain", "small_drive", "P2", "--variant", "size=small").code == 0
+    assert "did you mean `large`?" in run("explain", "small_drive", "P2", "--variant", "size=larg").err
+
+
+def test_explain_what_is_no_point(run: Callable[..., Result]) -> None:
+    assert run("explain", L200, "enter").out.startswith("command enter")
+    assert "closed" in run("explain", L200, "0x35").out
+    assert run("explain", L200, "write_base_frequency_crc").out.startswith("erratum write_base_frequency_crc")
+
+
+def test_decode(run: Callable[..., Result], small: Path) -> None:
+    unquoted = run("decode", "small_drive", *["01", "06", "00", "10", "01", "F4", "88", "18"])
+    assert "P1 speed = 50 Hz" in unquoted.out
+    for text, words in (("05061", "5 digits"), ("05 zz", "`zz` (piece 2)"), ("", "no bytes")):
+        wrong = run("decode", "small_drive", text)
+        assert (wrong.code, wrong.out) == (2, "")
+        assert words in wrong.err
+    request, reply = "01 03 00 14 00 01 C4 0E", "01 03 02 00 64 B9 AF"
+    missing = run("decode", "small_drive", reply, "--request", request)
+    assert "depends on P2 ratio" in missing.out
+    assert "--with P2=VALUE" in missing.out
+    given = run("decode", "small_drive", request, reply, "--with", "ratio=200")
+    assert "P3 voltage = 200 V (raw 100" in given.out
+    data = json.loads(run("decode", "small_drive", request, reply, "--with", "P2=200", "--format", "json").out)
+    assert [one["kind"] for one in data["frames"]] == ["request", "reply"]
+    assert data["frames"][1]["items"][0]["value"] == "200"
+    assert run("decode", "small_drive", request, "--unit", "2").out == "no frame of that unit\n"
+
+
+@pytest.mark.parametrize(
+    ("words", "code", "said"),
+    [
+        (("P1", "50"), 0, "P1 speed = 50 Hz: raw 500 = 01F4h"),
+        (("P1", "500 Hz"), 1, "500 Hz is outside 0..400 Hz"),
+        (("P1", "-5Hz"), 1, "-5 Hz is outside 0..400 Hz"),
+        (("P1", "50 V"), 2, "is in Hz"),
+        (("P9", "50"), 2, "has no point `P9`"),
+        (("sped", "50"), 2, "did you mean `speed`"),
+        (("P3", "50"), 2, "give --with P2=VALUE"),
+        (("P3", "50", "--with", "P2=400"), 0, "raw 50"),
+        (("P3", "50", "--with", "P2"), 2, "--with POINT=VALUE"),
+        (("P3", "50", "--with", "P7=1"), 2, "has no point `P7`"),
+        (("P4", "run"), 1, "read only"),
+        (("P1", "50", "--frame", "--unit", "300"), 1, "unit number"),
+        (("P1", "50", "--variant", "size"), 2, "axis=value"),
+    ],
+)
+def test_encode(run: Callable[..., Result], small: Path, words: tuple[str, ...], code: int, said: str) -> None:
+    told = run("encode", "small_drive", *words)
+    assert told.code == code
+    assert said in (told.err if code else told.out)
+    if code:
+        assert told.out == ""
+
+
+def test_encode_as_json(run: Callable[..., Result], small: Path) -> None:
+    data = json.loads(run("encode", "small_drive", "P1", "50", "--frame", "--format", "json").out)
+    assert (data["raw"], data["hex"], data["frame"]) == (500, "1F4", "01 06 00 10 01 F4 88 18")
+
+
+def test_export(run: Callable[..., Result], small: Path) -> None:
+    data = json.loads(run("export", "json", "small_drive").out)
+    assert data["device"] == "small_drive"
+    assert len(data["points"]) == 4
+
+
+def test_no_escape_code_reaches_the_terminal(run: Callable[..., Result], small: Path) -> None:
+    """Neither from a title that compiles, nor from a line that does not."""
+    hostile = MAIN.replace("TITLE", "\\e[31mred\\u202e\\a")
+    (small / "main.yaml").write_text(hostile, "utf-8")
+    runs = [
+        run("check"),
+        run("explain", "small_drive", "P1"),
+        run("explain", "small_drive", "P1", "--format", "json"),
+        run("decode", "small_drive", "01 06 00 10 01 F4 88 18"),
+        run("export", "json", "small_drive"),
+        run("explain", "small_drive", "\x1b[31m"),
+        run("encode", "small_drive", "P1", "\x1b[31m"),
+    ]
+    (small / "main.yaml").write_text(hostile.replace("at: 12h", "at: \u202e12h"), "utf-8")
+    runs.append(run("check"))
+    assert runs[-1].code == 1
+    for told in runs:
+        for text in (told.out, told.err):
+            assert not {"\x1b", "\u202e", "\x07"} & set(text)
+
+
+class _Screen(StringIO):
+    """A terminal to write to."""
+
+    def isatty(self) -> bool:
+        """Somebody looks on."""
+        return True
+
+
+@pytest.mark.parametrize(("no_colour", "coloured"), [("", True), ("1", False)])
+def test_colour_is_for_terminals(monkeypatch: pytest.MonkeyPatch, small: Path, no_colour: str, coloured: bool) -> None:
+    screen = _Screen()
+    monkeypatch.setenv("NO_COLOR", no_colour)
+    monkeypatch.setenv("TERM", "xterm")
+    monkeypatch.setattr(sys, "stdout", screen)
+    assert main(["explain", "small_drive", "P1"]) == 0
+    assert main(["check", "nowhere"]) == 1
+    assert ("\x1b[" in screen.getvalue()) == coloured
+    assert "P1 speed: Speed" in screen.getvalue()
+    assert "no-device" in screen.getvalue()
+
+
+@pytest.mark.parametrize(
+    ("error", "code", "said"),
+    [
+        (KeyboardInterrupt(), 130, ""),
+        (PermissionError(13, "Permission denied", "a.yaml"), 2, "Permission denied: a.yaml"),
+        (ZeroDivisionError("odd\x1b"), 2, "internal error: ZeroDivisionError: odd\\x1b"),
+    ],
+)
+def test_no_traceback(
+    monkeypatch: pytest.MonkeyPatch, run: Callable[..., Result], error: BaseException, code: int, said: str
+) -> None:
+    def fail(_: object) -> int:
+        raise error
+
+    monkeypatch.setattr("fieldscribe.cli.check.run", fail)
+    monkeypatch.delenv("FIELDSCRIBE_DEBUG", raising=False)
+    told = run("check")
+    assert told.code == code
+    assert said in told.err
+    assert "Traceback" not in told.err
+    assert told.err.count("\n") <= 1
+    monkeypatch.setenv("FIELDSCRIBE_DEBUG", "1")
+    assert ("Traceback" in run("check").err) == ("internal" in said)
+
+
+def _process(*words: str, **more: str) -> subprocess.CompletedProcess[str]:
+    environment = {**os.environ, "PYTHONPATH": str(PACKAGES), **more}
+    command = [sys.executable, "-m", "fieldscribe", *words]
+    return subprocess.run(command, capture_output=True, text=True, env=environment, timeout=60, check=False)
+
+
+def test_as_a_process() -> None:
+    told = _process("decode", L200, "05 06 10 28 01 F4 0C 91", PYTHONIOENCODING="ascii")
+    assert (told.returncode, told.stderr) == (0, "")
+    assert "A020 base_frequency = 50 Hz" in told.stdout
+    assert "\x1b" not in told.stdout
+
+
+def test_a_reader_that_goes_away() -> None:
+    command = f'"{sys.executable}" -m fieldscribe export json "{L200}" | head -c 1'
+    environment = {**os.environ, "PYTHONPATH": str(PACKAGES)}
+    told = subprocess.run(command, shell=True, capture_output=True, text=True, env=environment, timeout=60, check=False)
+    assert (told.stdout, told.stderr) == ("{", "")
