@@ -121,10 +121,11 @@ def _write_depfile(arguments: Namespace, result: _Result, inputs: list[Path]) ->
 
 def _say(arguments: Namespace, result: _Result, *, failed: bool) -> int:
     """Tell what happened; the exit code."""
-    if arguments.format == "json" and not failed:
+    if arguments.format == "json":
         import json
 
-        print(json.dumps({"out": str(arguments.out), "written": result.written, "removed": result.removed, "stale": result.stale, "unchanged": len(result.unchanged)}))
+        if not failed:  # else the findings are the one object on stdout
+            print(json.dumps({"out": str(arguments.out), "written": result.written, "removed": result.removed, "stale": result.stale, "unchanged": len(result.unchanged)}))
     elif arguments.list_outputs:
         print(*(str(arguments.out / path) for path in result.outputs), sep="\n")
     elif arguments.check:
