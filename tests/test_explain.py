@@ -118,10 +118,10 @@ def test_a_scaled_point_with_its_requests() -> None:
 
 
 def test_requests_of_other_kinds() -> None:
-    assert _rows("run_command")["Write"].endswith("01 05 00 00 FF 00 8C 3A")
+    assert _rows("run_command")["Write"].endswith("01 05 00 00 00 00 CD CA")
     assert _rows("running")["Read"].endswith("01 01 00 0D 00 01 6C 09")
-    assert "01 10 10 13 00 02 04 00 04 93 E0" in _rows("acceleration_time")["Write"]
-    assert "01 10 20 14 00 02 04 80 00 44 22" in _rows("float_setpoint")["Write"]
+    assert "01 10 10 13 00 02 04 00 00 00 01" in _rows("acceleration_time")["Write"]
+    assert "01 10 20 14 00 02 04 00 00 00 00" in _rows("float_setpoint")["Write"]
     assert "read the word first" in _rows("delay_class")["Write"]
     assert "Write" not in _rows("running")
     assert "Read" not in _rows("setpoint_display")

@@ -63,10 +63,10 @@ def _example(device: Device, function: int, address: int, count: int, values: tu
 
 
 def _sample_raw(point: Point) -> int | None:
-    """A raw number that may be written: the default, else the last fixed end of a range."""
+    """A raw number that may be written: the default, else the smallest, which moves a machine least when it is tried."""
     if point.info.floating:
         number = (
-            point.default if point.default is not None else point.allowed.units[-1][1] if point.allowed.units else 0
+            point.default if point.default is not None else point.allowed.units[0][0] if point.allowed.units else 0
         )
         kind = ("<f", "<I") if point.type == "f32" else ("<d", "<Q")
         result: int = struct.unpack(kind[1], struct.pack(kind[0], float(number)))[0]
@@ -77,7 +77,7 @@ def _sample_raw(point: Point) -> int | None:
         if raw.denominator == 1:
             return int(raw)
     ends = [end for one in point.allowed.intervals for end in (one.low, one.high) if isinstance(end, int)]
-    return ends[-1] if ends else None
+    return min(ends, key=abs) if ends else None
 
 
 def _said(point: Point, raw: int) -> str:

@@ -104,7 +104,7 @@ def _gaps(scope: Scope, raw: Map | None) -> dict[str, tuple[tuple[int, int], ...
             scope.unknown("unknown-space", "space", space, raw.key_span(space), known, "gaps")
             continue
         found = [
-            (interval(text, texts.span(index), scope.report), texts.span(index)) for index, text in enumerate(texts)
+            (interval(str(text), texts.span(index), scope.report), texts.span(index)) for index, text in enumerate(texts)
         ]
         for one, span in found:
             if one is not None and not 0 <= one[0] <= one[1] <= last:
