@@ -31,7 +31,6 @@ SHIPPED = sorted(path.parents[1].name for path in (ROOT / "generated/rust").glob
 PROGRAMS = Path(__file__).resolve().parent / "rust"
 FAILS = sorted(path.stem for path in (PROGRAMS / "fails").glob("*.rs"))
 MODELS = {"sample_drive": sample_device, "rare": rare_device, "odd": odd_device}
-BARE = "thumbv6m-none-eabi"
 
 
 @pytest.fixture(scope="session")
@@ -234,12 +233,3 @@ def probes(subject: Subject, name: str) -> Iterator[tuple[str, str]]:
         if subject.form != "float":
             count = f"<{name} as CountWritable>"
             yield f"encode_count(count: {count}::Count{tail}", f"{count}::encode_count_with(count, with)"
-
-
-def test_builds_for_a_bare_machine(workspace: Path, tmp_path: Path) -> None:
-    root = Path(succeed([tool("rustc"), "--print=sysroot"]).strip())
-    if not (root / "lib/rustlib" / BARE).is_dir():
-        pytest.skip(f"the core library for it is missing: install rustup target {BARE}")
-    for name in ("fieldscribe_runtime", *MODELS):
-        done = rustc(workspace / name / "src/lib.rs", tmp_path, "--crate-name", name, "--target", BARE)
-        assert done.returncode == 0, done.stderr

@@ -19,7 +19,7 @@ from fieldscribe.model import Device, Interval, Point
 from fieldscribe.pipeline import load_device
 
 ROOT = Path(__file__).resolve().parents[1]
-READINGS = sorted((ROOT / "tests/readings").glob("*.jsonl"))
+READINGS = sorted(path for path in (ROOT / "tests/readings").glob("*.jsonl") if (ROOT / "descriptions" / path.stem).is_dir())
 
 SETTLED: dict[tuple[int, str], str] = {
     (661, "access"): "blank in the manual; a setpoint must be writable (erratum)",

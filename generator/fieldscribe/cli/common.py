@@ -81,14 +81,24 @@ def add_device(parser: ArgumentParser, *, variants: bool = True) -> None:
 
 
 def description_paths(paths: list[Path]) -> list[Path]:
-    """The paths that were given; else ./descriptions, else the descriptions that come with the compiler."""
+    """What was given, ids of devices as their folders; else ./descriptions, else what comes with the compiler."""
     if paths:
-        return paths
+        return [path if path.exists() else _known_folder(path) or path for path in paths]
     if LOCAL.is_dir():
         return [LOCAL]
     from fieldscribe.resources import descriptions_dir
 
     return [descriptions_dir()]
+
+
+def _known_folder(name: Path) -> Path | None:
+    """The folder of the device of that id, in ./descriptions or among what comes with the compiler."""
+    from fieldscribe.pipeline import DEVICE_FILE
+    from fieldscribe.resources import descriptions_dir
+
+    if len(name.parts) != 1 or not name.name.replace("_", "").isalnum():
+        return None
+    return next((root / name for root in (LOCAL, descriptions_dir()) if (root / name / DEVICE_FILE).is_file()), None)
 
 
 def open_device(arguments: Namespace) -> Device:

@@ -15,13 +15,13 @@ if TYPE_CHECKING:
 
 HELP = "compile descriptions into C, Python, Rust, documentation and vectors"
 EXAMPLE = """examples:
-  fieldscribe generate descriptions/hitachi_l200 --target c --out firmware/drivers
+  fieldscribe generate hitachi_l200 --target c --out firmware/drivers
   fieldscribe generate --check          (says what is stale and writes nothing; for CI)"""
 
 
 def add_arguments(parser: ArgumentParser) -> None:
     """The command's arguments."""
-    parser.add_argument("paths", nargs="*", type=Path, metavar="PATH", help="descriptions: a folder with device.yaml, or a folder of such folders (default: descriptions)")
+    parser.add_argument("paths", nargs="*", type=Path, metavar="PATH", help="device ids, folders with device.yaml, or folders of such folders (default: descriptions)")
     parser.add_argument("--target", default=",".join(TARGETS), metavar="LIST", help=f"what to make, of {', '.join(TARGETS)} (default: all)")
     parser.add_argument("--out", type=Path, default=Path("generated"), metavar="DIR", help="where to (default: generated)")
     parser.add_argument("--check", action="store_true", help="write nothing; say what is stale, exit 1 if anything is")

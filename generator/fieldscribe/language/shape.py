@@ -241,6 +241,8 @@ class _Object:
                 broken.append(key)
             elif not found(one, value, key, report):
                 broken.append(key)
+            if report.full:
+                return False
         complete = self._complete(value, holder, at, report)
         for key in broken:
             self._drop(value, key, holder is value)

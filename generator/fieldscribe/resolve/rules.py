@@ -18,6 +18,10 @@ from fieldscribe.resolve.values import formula_finding
 IDENTITY = Linear(Fraction(1), Fraction(0), ())
 
 
+_LONGEST_CHAIN = 100
+"""How far a circle of scales is followed; a longer one is refused at each of its points all the same."""
+
+
 class Unknown(Exception):
     """A formula cannot be used; the finding is already reported."""
 
@@ -121,7 +125,7 @@ class Scales:
         """The names from `draft` over `used` back to itself, if the values need each other in a circle."""
         came_from: dict[Draft, Draft | None] = {used: None}
         waiting = [used]
-        while waiting:
+        while waiting and len(came_from) < _LONGEST_CHAIN:
             here = waiting.pop()
             if here is draft:
                 chain = [here.name]

@@ -1,0 +1,273 @@
+"""Whatever a stranger's file holds: findings or a device, never an exception, never out of memory or time."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+import yaml
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from fieldscribe.diagnostics import Report
+from fieldscribe.pipeline import load_device, outputs
+from fieldscribe.targets import TARGETS
+from synthetic import write_device
+
+DEVICES = Path(__file__).parent / "devices"
+BAD = Path(__file__).parent / "bad"
+
+HOSTILE = (
+    "*/ int evil(void); /*",
+    '"; import os; "',
+    "'''\n\"\"\"",
+    "line one\nline two\r\nline three\u2028four",
+    "right to left \u202e and \u2066 isolates \u2069",
+    "escape \x1b[31m and NUL \x00 and bell \x07",
+    "{{ 7 * 7 }} {% raw %} {# no #}",
+    "ends with a backslash \\",
+    "</script><img src=x onerror=alert(1)> [x](javascript:alert(1)) | cell | `code`",
+    "??/ trigraph ??= %s %n ${HOME} $(id)",
+    "=cmd|'/c calc'!A0",
+    "very long " * 190,
+    "\U0001f600 \ufeff \u0301 ßẞ",
+)
+
+
+def whole(folder: str) -> dict[str, Any]:
+    """A device of several files as one mapping, so that it can be changed as a whole."""
+    base = DEVICES / folder
+    loader = yaml.BaseLoader
+    header: dict[str, Any] = yaml.load((base / "device.yaml").read_text("utf-8"), Loader=loader)
+    header["groups"] = []
+    for name in header.pop("parts"):
+        part = yaml.load((base / name).read_text("utf-8"), Loader=loader)
+        group = {key: part.pop(key) for key in list(part) if key not in _COMMON}
+        if "group" in group:
+            header["groups"].append(group)
+        for key, value in part.items():
+            header.setdefault(key, type(value)())
+            header[key] = [*header[key], *value] if isinstance(value, list) else {**header[key], **value}
+    return _typed(header)
+
+
+_COMMON = ("units", "enums", "formats", "records", "bus", "commands", "frames", "errata")
+
+
+def _typed(value: Any, key: str = "") -> Any:
+    """Plain scalars with the types that the schema asks for."""
+    if isinstance(value, dict):
+        return {one: _typed(two, one) for one, two in value.items()}
+    if isinstance(value, list):
+        return [_typed(one, key) for one in value]
+    if key in _NUMBERS and value.isdigit():
+        return int(value)
+    return {"~": None, "true": True, "false": False}.get(value, value)
+
+
+_NUMBERS = {"fieldscribe", "line", "max", "bytes", "broadcast", "wears", "choices", "decimals", "active"} | {
+    *("1", "10000")  # the steps
+}
+
+
+def load_text(tmp_path: Path, text: str | bytes) -> Report:
+    """What the compiler finds in a text."""
+    file = tmp_path / "device.yaml"
+    file.write_bytes(text if isinstance(text, bytes) else text.encode("utf-8", "surrogatepass"))
+    report = Report()
+    device = load_device(file, report)
+    assert (device is None) == report.has_errors
+    return report
+
+
+def as_yaml(value: Any) -> str:
+    """A value as JSON that is YAML too: no surrogates, and escapes for what YAML does not take as it is."""
+    text = json.dumps(value, ensure_ascii=False)
+    return re.sub("[\x7f-\x9f\u2028\u2029\ufeff\ufffe\uffff\ud800-\udfff]", lambda found: f"\\u{ord(found[0]):04x}", text)
+
+
+def nodes(value: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
+    """The paths of all values below a value."""
+    items = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
+    for key, one in items:
+        yield (*path, key)
+        yield from nodes(one, (*path, key))
+
+
+def changed(value: Any, path: tuple[Any, ...], change: Callable[[Any], Any]) -> Any:
+    """A copy of the value in which one place differs; `...` takes the place away."""
+    if not path:
+        return change(value)
+    copy = dict(value) if isinstance(value, dict) else list(value)
+    one = changed(copy[path[0]], path[1:], change)
+    if one is ...:
+        del copy[path[0]]
+    else:
+        copy[path[0]] = one
+    return copy
+
+
+SINK = whole("kitchen_sink")
+PATHS = sorted(nodes(SINK), key=str)
+TEXTS = b"".join(file.read_bytes() for file in sorted(BAD.glob("[a-f]*.yaml"))[::6])
+FILE = (DEVICES / "kitchen_sink" / "scales.yaml").read_bytes()
+
+WRONG: st.SearchStrategy[Any] = st.one_of(
+    st.just(...),
+    st.none(),
+    st.booleans(),
+    st.integers(-(10**70), 10**70),
+    st.integers(-5, 70000),
+    st.sampled_from(["", " ", "0x", "1..2", "2..1", "0..65535", "raw", "value = raw", "raw = value * speed", "-1", "~", "a"]),
+    st.sampled_from(["value = raw * 10 ** power_exponent", "0 | speed..1", "1e400", "9" * 64, "energy.raw", "base + 1"]),
+    st.sampled_from(["f32", "u64", "bit", "s8", "low first", "none", "w", "holding", "coil", "on_off", "event", "mode == 0"]),
+    st.text(max_size=12),
+    st.lists(st.one_of(st.integers(), st.text(max_size=3)), max_size=3),
+    st.dictionaries(st.sampled_from(["name", "en", "0", "1..0", "x-y", "at", "zz", "voltage=230V"]), st.text(max_size=5)),
+    st.sampled_from(HOSTILE),
+)
+
+CAREFUL = settings(
+    deadline=None, max_examples=int(os.environ.get("FIELDSCRIBE_EXAMPLES", "150")), suppress_health_check=[HealthCheck.too_slow, HealthCheck.function_scoped_fixture]
+)
+
+
+def test_the_whole_device_in_one_file_is_fine(tmp_path: Path) -> None:
+    """What the mutations start from has no errors."""
+    assert load_text(tmp_path, as_yaml(SINK)).findings == ()
+
+
+@CAREFUL
+@given(st.lists(st.tuples(st.sampled_from(PATHS), WRONG), min_size=1, max_size=4))
+def test_wrong_values_anywhere(tmp_path: Path, changes: list[tuple[tuple[Any, ...], Any]]) -> None:
+    """Values of wrong types, wrong numbers and missing keys at any place are findings."""
+    device = SINK
+    for path, wrong in changes:
+        try:
+            device = changed(device, path, lambda _, wrong=wrong: wrong)
+        except (KeyError, IndexError, TypeError, ValueError):
+            continue  # an earlier change took the place away
+    for one in load_text(tmp_path, as_yaml(device)).findings:
+        assert one.message.isprintable() and one.hint
+
+
+@CAREFUL
+@given(st.lists(st.tuples(st.integers(0, len(FILE) - 1), st.integers(0, 255)), min_size=1, max_size=6), st.booleans())
+def test_bytes_flipped(tmp_path: Path, flips: list[tuple[int, int]], drop: bool) -> None:
+    """Any bytes anywhere, or lines taken away."""
+    data = bytearray(FILE)
+    for place, byte in flips:
+        data[place % len(data)] = byte
+    if drop:
+        lines = bytes(data).split(b"\n")
+        for place, _ in flips:
+            del lines[place % len(lines)]
+        data = bytearray(b"\n".join(lines))
+    head = (DEVICES / "kitchen_sink" / "device.yaml").read_text("utf-8").replace("types.yaml, scales.yaml", "scales.yaml")
+    (tmp_path / "scales.yaml").write_bytes(bytes(data))
+    for name in ("bus", "shared", "ranges", "names", "repeats", "bits", "printed"):
+        (tmp_path / f"{name}.yaml").write_bytes((DEVICES / "kitchen_sink" / f"{name}.yaml").read_bytes())
+    load_text(tmp_path, head)
+
+
+@CAREFUL
+@given(st.binary(max_size=200), st.integers(0, max(1, len(TEXTS) - 400)))
+def test_any_text(tmp_path: Path, noise: bytes, start: int) -> None:
+    """Noise, and pieces of descriptions with noise in them."""
+    load_text(tmp_path, noise)
+    load_text(tmp_path, TEXTS[start : start + 200] + noise + TEXTS[start + 200 : start + 400])
+
+
+_FREE = {"en", "de", "fr", "vendor", "model", "code", "section", "since", "until", "why", "where", "taken", "edition"} | {
+    *("quantity", "x-note", "title", "note", "timing")
+}
+
+
+@pytest.mark.parametrize("text", HOSTILE, ids=range(len(HOSTILE)))
+def test_hostile_texts_compile(tmp_path: Path, text: str) -> None:
+    """Any text in every free-text field compiles, and no target stumbles over it."""
+    device = SINK
+    for path in PATHS:
+        if path[-1] not in _FREE or "errata" in path and path[-1] == "taken":
+            continue
+        before = device
+        for key in path:
+            before = before[key]
+        if isinstance(before, str):
+            limit = 30 if path[-1] in ("code", "since", "until", "edition", "quantity") else 190
+            short = text[:limit] + (str(PATHS.index(path)) if path[-1] == "code" else "")
+            device = changed(device, path, lambda _, short=short: short)
+    device = json.loads(json.dumps(device).replace('"S01"', '"speed"'))
+    file = tmp_path / "device.yaml"
+    file.write_text(as_yaml(device), "utf-8")
+    report = Report()
+    loaded = load_device(file, report)
+    assert report.findings == ()
+    assert loaded is not None
+    for _, path, made in outputs(loaded, TARGETS):
+        assert path.isascii() and ".." not in path
+        assert "\x1b" not in made and "\x00" not in made and "\u202e" not in made
+
+
+def test_aliases_cannot_explode(tmp_path: Path) -> None:
+    """Nine levels of nine aliases each end in a finding, quickly."""
+    lines = ["x-0: &a0 [x, x, x, x, x, x, x, x, x]"]
+    lines += [f"x-{level}: &a{level} [{', '.join([f'*a{level - 1}'] * 9)}]" for level in range(1, 12)]
+    started = time.perf_counter()
+    rules = {one.rule for one in load_text(tmp_path, "\n".join(lines)).findings}
+    assert rules == {"yaml-size"}
+    assert time.perf_counter() - started < 1
+
+
+@pytest.mark.parametrize("opening", ["[", "{a: ", "- ", "? ", "[{a: "])
+def test_nesting_ends_in_a_finding(tmp_path: Path, opening: str) -> None:
+    """Ten megabytes of nesting end in a finding, quickly."""
+    started = time.perf_counter()
+    found = load_text(tmp_path, opening * (10_000_000 // len(opening))).findings
+    assert [one.rule for one in found] in (["yaml-depth"], ["yaml-key"], ["yaml-syntax"])
+    assert time.perf_counter() - started < 5
+
+
+def test_a_huge_file_is_refused_unread(tmp_path: Path) -> None:
+    """Files beyond the limit are not parsed."""
+    assert [one.rule for one in load_text(tmp_path, b"#" * (17 << 20)).findings] == ["file-too-large"]
+
+
+def test_many_errors_stay_quick(tmp_path: Path) -> None:
+    """A hundred thousand unknown keys cost no more than the thousand that are told."""
+    text = "\n".join(f"unknown_key_{number}: 1" for number in range(100_000))
+    started = time.perf_counter()
+    assert 1 <= len(load_text(tmp_path, text).findings) <= 1000
+    assert time.perf_counter() - started < 5
+
+
+def test_long_chains_do_not_recurse(tmp_path: Path) -> None:
+    """Thousands of points that each need the next one end in findings or a device."""
+    head = (DEVICES / "kitchen_sink" / "device.yaml").read_text("utf-8").partition("variants:")[0]
+    bus = "bus: {framings: [rtu], units: 1..9, functions: {03h: read}}\n"
+    group = 'groups:\n- group: main\n  space: holding\n  source: {document: manual, section: "1"}\n  points:\n'
+    for facts in ("range: 0..p{next}.raw", "scale: raw = value * p{next}"):
+        points = [f"  - {{name: p{n}, at: {n}, {facts.format(next=(n + 1) % 3000)}}}\n" for n in range(3000)]
+        started = time.perf_counter()
+        load_text(tmp_path, head + bus + group + "".join(points))
+        assert time.perf_counter() - started < 10
+
+
+def test_cost_grows_with_the_points(tmp_path: Path) -> None:
+    """Ten times the points take about ten times the time."""
+    seconds = []
+    for count in (500, 5000):
+        file = write_device(tmp_path / str(count), count)
+        best = []
+        for _ in range(2):
+            report, started = Report(), time.perf_counter()
+            assert load_device(file, report) is not None, report.findings
+            best.append(time.perf_counter() - started)
+        seconds.append(min(best))
+    assert seconds[1] < 25 * seconds[0]

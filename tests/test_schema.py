@@ -1,0 +1,153 @@
+"""The JSON Schema, and that our own reading of it agrees with jsonschema's on everything we have."""
+
+from __future__ import annotations
+
+import random
+import re
+from collections.abc import Iterator, Mapping
+from decimal import Decimal
+from pathlib import Path
+from typing import Any
+
+import pytest
+from jsonschema import Draft7Validator, validators
+
+from fieldscribe.diagnostics import Report
+from fieldscribe.language.keys import keys_markdown
+from fieldscribe.language.load import load
+from fieldscribe.language.nodes import Map, Seq, Value
+from fieldscribe.language.shape import check_shape, compiled_pattern, schema
+from fieldscribe.language.source import SourceFile, read_source
+from test_robust import SINK, as_yaml, changed, nodes
+
+ROOT = Path(__file__).parents[1]
+FILES = sorted(
+    file
+    for folder in ("descriptions", "tests/devices", "tests/bad")
+    for file in (ROOT / folder).rglob("*.yaml")
+)
+
+
+def _matches(_: Any, pattern: str, value: Any, __: Any) -> Iterator[Any]:
+    """`pattern` as ECMAScript means it: Python's own `$` also matches before a last line break."""
+    from jsonschema.exceptions import ValidationError
+
+    if isinstance(value, str) and not compiled_pattern(pattern).search(value):
+        yield ValidationError(f"{value!r} does not match {pattern!r}")
+
+
+def _number_only(_: Any, value: Any) -> bool:
+    """A whole number: stricter than JSON Schema, which takes 1.0 for one."""
+    return isinstance(value, int) and not isinstance(value, bool)
+
+
+STRICT = validators.extend(
+    Draft7Validator,
+    validators={"pattern": _matches},
+    type_checker=Draft7Validator.TYPE_CHECKER.redefine("integer", _number_only),
+)
+
+
+def plain(value: Value) -> Any:
+    """What jsonschema reads."""
+    if isinstance(value, Map):
+        return {key: plain(one) for key, one in value.items()}
+    if isinstance(value, Seq):
+        return [plain(one) for one in value]
+    return float(value) if isinstance(value, Decimal) else value
+
+
+def agree(root: Map, kind: str) -> bool:
+    """Whether the file is valid; the two readings must say the same."""
+    document = plain(root)
+    validator = STRICT({"$ref": f"#/definitions/{kind}", "definitions": schema()["definitions"]})
+    errors = [error.message for error in validator.iter_errors(document)]
+    report = Report()
+    check_shape(root, kind, report)
+    assert bool(report.findings) == bool(errors), (errors[:3], report.findings[:3])
+    return not errors
+
+
+def kind_of(root: Map) -> str:
+    """What the schema itself takes a file for."""
+    return "device_file" if "device" in root else "part_file"
+
+
+def test_the_schema_is_valid() -> None:
+    """By the rules of draft 7."""
+    Draft7Validator.check_schema(schema())
+
+
+def _properties(node: Any, path: str = "") -> Iterator[tuple[str, Mapping[str, Any]]]:
+    """All schemas of keys, with their path."""
+    if not isinstance(node, dict):
+        return
+    for word in ("properties", "patternProperties"):
+        for key, value in node.get(word, {}).items():
+            if isinstance(value, dict) and value:
+                yield f"{path}/{key}", value
+    for key, value in node.items():
+        yield from _properties(value, f"{path}/{key}")
+
+
+def test_every_key_is_explained_and_shown() -> None:
+    """Editors show the description and an example at every key, and the example is valid there."""
+    definitions = schema()["definitions"]
+    checked = 0
+    everything = [*_properties(schema()), *definitions.items()]
+    for path, node in everything:
+        meant = definitions[node["$ref"].rpartition("/")[2]] if "$ref" in node else node
+        assert meant["description"][0].isupper(), path
+        assert meant["examples"], path
+        validator = STRICT({**meant, "definitions": definitions})
+        for example in meant["examples"]:
+            problems = [error.message for error in validator.iter_errors(example)]
+            missing = [one for one in problems if "is a required property" not in one]
+            assert not missing, (path, missing)
+            checked += 1
+    assert checked > 200
+
+
+@pytest.mark.parametrize("file", FILES, ids=lambda file: f"{file.parent.name}-{file.stem}")
+def test_both_readings_agree(file: Path) -> None:
+    """On every description, every test device and every bad case that is YAML at all."""
+    report = Report()
+    source = read_source(file, report)
+    root = load(source, report) if source is not None else None
+    if root is not None and not report.has_errors:
+        agree(root, kind_of(root))
+
+
+def test_descriptions_are_valid() -> None:
+    """The real devices and the test devices have the right shape."""
+    for file in FILES:
+        if "bad" not in file.parts:
+            root = load(SourceFile(file.name, file.read_text("utf-8")), Report())
+            assert root is not None
+            assert agree(root, kind_of(root)), file
+
+
+def test_both_readings_agree_on_mutations() -> None:
+    """Wrong values at random places of the device that uses everything."""
+    dice = random.Random(1)
+    paths = sorted(nodes(SINK), key=str)
+    wrongs = [None, True, 5, 5.5, -1, "", "a b", "x\n", [], {}, ["a"], {"name": "a"}, {"en": "a"}, {"0": "a"}, 10**6, ...]
+    valid = 0
+    for _ in range(800):
+        device = changed(SINK, dice.choice(paths), lambda _: dice.choice(wrongs))
+        root = load(SourceFile("mutated.yaml", as_yaml(device)), Report())
+        assert root is not None
+        valid += agree(root, kind_of(root))
+    assert 20 < valid < 700
+
+
+def test_keys_page_is_current() -> None:
+    """descriptions/KEYS.md is what the schema says: write it anew with `make keys` or the function itself."""
+    assert (ROOT / "descriptions" / "KEYS.md").read_text("utf-8") == keys_markdown()
+
+
+def test_patterns_end_at_the_very_end() -> None:
+    """A name cannot carry a line break at its end into generated code."""
+    assert compiled_pattern("^[a-z]+$").search("abc")
+    assert not compiled_pattern("^[a-z]+$").search("abc\n")
+    assert re.search("^[a-z]+$", "abc\n"), "what Python alone would say"
