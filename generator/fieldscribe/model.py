@@ -294,9 +294,14 @@ class Point:
 
     @property
     def limit_arguments(self) -> tuple[str, ...]:
-        """The points that the limits need at run time."""
-        limits = [bound for one in self.allowed.intervals for bound in (one.low, one.high) if isinstance(bound, Limit)]
-        return tuple(dict.fromkeys(factor.point for limit in limits for factor in limit.rule.factors))
+        """The points that the limits need at run time: their factors, and those whose codes lift them."""
+        names: dict[str, None] = {}
+        for interval in self.allowed.intervals:
+            for bound in (interval.low, interval.high):
+                if isinstance(bound, Limit):
+                    names.update(dict.fromkeys(factor.point for factor in bound.rule.factors))
+                    names.update(dict.fromkeys(name for name, codes in bound.unless if codes))
+        return tuple(names)
 
 
 @dataclass(frozen=True, slots=True)
@@ -361,12 +366,17 @@ class Command:
 
 @dataclass(frozen=True, slots=True)
 class Code:
-    """A number of the protocol with a name: a function or an exception. `most` is the largest count of items in one request."""
+    """A number of the protocol with a name: a function or an exception.
+
+    `most` is the largest count of items in one request. `broadcast` says whether a function may be sent to all units at
+    once; None is what the protocol says.
+    """
 
     number: int
     name: str
     title: Titles
     most: int | None
+    broadcast: bool | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -18,9 +18,9 @@ def check(subject: Subject) -> None:
         other = first.setdefault((claim.namespace, claim.identifier), claim)
         if other is not claim:
             pairs.append((other, claim))
-    told: set[frozenset[tuple[int, str | None]]] = set()
+    told: set[frozenset[tuple[int, str]]] = set()
     for other, claim in (*pairs, *prefix_clashes(subject)):
-        pair = frozenset(((id(other.holder), other.key), (id(claim.holder), claim.key)))
+        pair = frozenset(((id(other.holder), other.what), (id(claim.holder), claim.what)))
         if pair not in told:  # two names that meet in one language mostly meet in others too
             _report(subject, other, claim)
             told.add(pair)

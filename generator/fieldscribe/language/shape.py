@@ -258,9 +258,9 @@ class _Object:
 
     def _complete(self, value: Map, holder: Map | Seq, at: Any, report: Report) -> bool:
         missing = {key: f"the key `{key}` is missing" for key in self.required if key not in value}
-        for key in self.dependencies.keys() & value.keys():
-            for needed in self.dependencies[key]:
-                if needed not in value:
+        for key, needs in self.dependencies.items():
+            for needed in needs:
+                if key in value and needed not in value:
                     missing.setdefault(needed, f"the key `{needed}` is missing: `{key}` needs it")
         for key, message in missing.items():
             report.error("missing-key", message, holder.span(at), f"add `{key}: …`")

@@ -71,7 +71,7 @@ def digest(device: Device) -> str:
     """A checksum of what matters to code: no titles, notes, sources or reasons, so that these never touch vendored code."""
     summed = hashlib.sha256()
     bus = device.bus
-    codes = [(code.number, code.name, code.most) for code in (*bus.functions, *bus.exceptions)]
+    codes = [(code.number, code.name, code.most, code.broadcast) for code in (*bus.functions, *bus.exceptions)]
     head = (
         device.id,
         device.version,

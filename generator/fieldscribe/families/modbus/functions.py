@@ -17,7 +17,7 @@ SINGLE = frozenset({0x05, 0x06, 0x08})
 """Functions that carry exactly one value and are answered with their own echo."""
 FUNCTIONS = (0x01, 0x02, 0x03, 0x04, 0x05, 0x06, 0x08, 0x0F, 0x10)
 BROADCAST = frozenset({0x05, 0x06, 0x0F, 0x10})
-"""Functions that may be sent to all units at once."""
+"""Functions that the protocol lets be sent to all units at once."""
 PROTOCOL_MOST: Mapping[int, int] = {
     0x01: 2000,
     0x02: 2000,
@@ -51,12 +51,16 @@ SPACES: Mapping[str, Space] = {
 
 @dataclass(frozen=True, slots=True)
 class Profile:
-    """What a device takes: the largest count per allowed function, unit numbers, broadcast, padding of 0Fh."""
+    """What a device takes: the largest count per allowed function, unit numbers, broadcast, padding of 0Fh.
+
+    `broadcast` is the unit number that means all, `broadcasts` the functions that may be sent to it.
+    """
 
     most: Mapping[int, int]
     units: tuple[int, int]
     broadcast: int | None
     pad_coil_bytes_even: bool
+    broadcasts: frozenset[int] = BROADCAST
 
 
 def profile_of(bus: Bus) -> Profile:
@@ -66,4 +70,5 @@ def profile_of(bus: Bus) -> Profile:
         for code in bus.functions
         if code.number in PROTOCOL_MOST
     }
-    return Profile(most, bus.units, bus.broadcast, bus.pad_coil_bytes == "even")
+    silent = {code.number for code in bus.functions if code.broadcast is False}
+    return Profile(most, bus.units, bus.broadcast, bus.pad_coil_bytes == "even", BROADCAST - silent)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from fieldscribe.families.modbus.functions import (
-    BROADCAST,
     PROTOCOL_MOST,
     READS,
     SINGLE,
@@ -71,7 +70,7 @@ def build(profile: Profile, framing: str, request: Request) -> tuple[str, bytes]
     """The bytes of a request; (status, b"") when it must not be sent.
 
     The first failure wins: `bad_function` (not one the device allows), `bad_unit` (outside the units, or broadcast
-    with a function that is answered), `bad_count` (none, more than the most, a single write without exactly one value),
+    with a function that does not go to all units), `bad_count` (none, more than the most, a single write without exactly one value),
     `bad_address` (beyond 65535; a sub-function of 08h other than 0), `bad_value` (a coil not 0 or 1, a word not
     16 bits).
     """
@@ -89,7 +88,7 @@ def _refusal(profile: Profile, request: Request) -> str:
         return "bad_function"
     low, high = profile.units
     if request.unit == profile.broadcast:
-        if request.function not in BROADCAST:
+        if request.function not in profile.broadcasts:
             return "bad_unit"
     elif not low <= request.unit <= high:
         return "bad_unit"
