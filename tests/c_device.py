@@ -67,6 +67,8 @@ def rare_points() -> tuple[Point, ...]:
     tens = Limit(linear(3, 0, value_of("exponent", ten_to=True)), (), 0, 60000)
     share = Limit(linear("100000", "1/2", value_of("divisor", -1)), (("divisor", (7, 9)),), 10, 50000)
     signed_share = Limit(linear(1000, 0, value_of("signed_factor", -1)), (), -500, 500)
+    lifted = Limit(linear(2, 0, value_of("divisor")), (("exponent", (1, 3)), ("divisor", (9,))), 0, 900)
+    floor = Limit(linear(5), (("signed_factor", (-1, 0)),), -300, 20)
     wide = Limit(linear(65536, 3, value_of("divisor")), (), 0, 4_000_000_000)
     product = linear("1/3", "5/2", value_of("divisor", slope=2, intercept=-10), value_of("signed_factor", -1))
     huge = linear(1, 0, value_of("big", 1), value_of("big_too", 1))
@@ -83,6 +85,8 @@ def rare_points() -> tuple[Point, ...]:
         point("limited_by_tens", 8, allowed=allowed((0, tens))),
         point("limited_by_share", 9, allowed=allowed((share, 60000)), scale=scaled(10), decimals=1),
         point("limited_by_sign", 10, "s16", allowed=allowed((-500, signed_share))),
+        point("lifted_by_others", 54, "s16", allowed=allowed((floor, lifted))),
+        point("lifted_scaled", 55, allowed=allowed((0, lifted)), scale=scaled(10), decimals=1),
         point("limited_wide", 12, "u32", allowed=allowed((0, wide)), scale=scaled(10), decimals=1),
         point("two_factors", 14, "s16", scale=(ScaleCase(None, None, product),), decimals=2),
         point("checked_factors", 15, scale=(ScaleCase(None, None, huge),)),

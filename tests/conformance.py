@@ -84,6 +84,11 @@ class Runner:
             flag = getattr(word, f"{vector['flag']}_")  # the plain name is a keyword or one of int's own
         return bool(flag.number(vector["raw"]) == vector["number"])
 
+    def _flag_name(self, vector: Vector) -> bool:
+        word = self._point(vector).names
+        flag: Any = getattr(word, vector["flag"], None) or getattr(word, f"{vector['flag']}_")
+        return bool(flag.names(vector["raw"]).name.lower() == vector["name"])
+
     def _bits(self, vector: Vector) -> bool:
         point, word = self._point(vector), vector["word"]
         replaced = point.insert(word, vector["replaced"])
@@ -95,8 +100,15 @@ class Runner:
         return bool(point.from_words(words) == vector["raw"] and point.to_words(vector["raw"]) == words)
 
     def _address(self, vector: Vector) -> bool:
-        at = self._point(vector).facts.at
-        return bool((at.space, at.address, len(at.addresses)) == (vector["space"], vector["address"], vector["words"]))
+        point = self._point(vector)
+        at = point.facts.at
+        low, high = point.raw_limits
+        found = {"kind": "address", "point": point.facts.item, "code": point.facts.code}
+        found |= {"space": at.space, "address": at.address, "words": len(at.addresses)}
+        found |= {"raw_min": low, "raw_max": high, "decimals": point.decimals}
+        references = {key: number for key, number in vector.items() if key not in found}
+        same = all(vector[key] == value for key, value in found.items() if key in vector)
+        return same and references == point.facts.references and (point.decimals == 0 or "decimals" in vector)
 
     def _block(self, vector: Vector) -> bool:
         block = self.device.BLOCKS[vector["group"]][vector["index"]]

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from dataclasses import replace
 from fractions import Fraction
+from pathlib import Path
 from typing import Any
 
+from fieldscribe.diagnostics import Report
 from fieldscribe.model import (
     TYPES,
     Allowed,
@@ -32,7 +34,9 @@ from fieldscribe.model import (
     Special,
     Unit,
 )
+from fieldscribe.pipeline import load_device
 
+KITCHEN_SINK = Path(__file__).parent / "devices/kitchen_sink/device.yaml"
 SOURCE = Source("manual", "Gruppe A", None, 780)
 NUMBER = Unit("", "number", "number")
 HERTZ = Unit("Hz", "hertz", "frequency")
@@ -182,6 +186,7 @@ def plain_points() -> tuple[Point, ...]:
             decimals=2,
             steps=((1, 1), (10000, 10)),
         ),
+        point("signed_one", 0x2022, "s16", access="r"),
         point("swapped_count", 0x2000, "u32", access="r", order=(0x2001, 0x2000)),
         point("power_factor", 0x2002, "s16", allowed=allowed((-99, -70), (70, 100)), scale=scaled(100), decimals=2),
         point(
@@ -253,7 +258,7 @@ def sample_bus() -> Bus:
         Code(5, "write_coil", titles("Write coil"), 1),
         Code(6, "write_register", titles("Write register"), 1),
         Code(8, "diagnostics", titles("Loop back"), None),
-        Code(15, "write_coils", titles("Write coils"), 32),
+        Code(15, "write_coils", titles("Write coils"), 32, broadcast=False),
         Code(16, "write_registers", titles("Write registers"), 4),
     )
     exceptions = (Code(0x21, "value_out_of_range", titles("Value out of range"), None),)
@@ -300,6 +305,25 @@ def sample_device(points: tuple[Point, ...] | None = None) -> Device:
         errata=ERRATA,
         digest="0123456789abcdef" * 4,
     )
+
+
+def trip_device() -> Device:
+    """A 16-bit point for each kind of rule, whose every raw number may be written."""
+    points = (
+        point("tenth", 0, scale=scaled(10), decimals=1),
+        point("fine", 1, scale=scaled(256), decimals=3),
+        point("sevenths", 2, scale=scaled("3/7"), decimals=1),
+        point("falling", 3, "s16", scale=scaled(-10), decimals=1),
+        point("shifted", 4, "s16", scale=scaled(10, "5/2"), decimals=2),
+    )
+    return replace(sample_device(points), id="trips", enums=(), blocks={}, frames=(), commands=(), errata=())
+
+
+def kitchen_sink() -> Device:
+    """The device that uses every mechanism of the language, from its description."""
+    device = load_device(KITCHEN_SINK, Report())
+    assert device is not None
+    return device
 
 
 def named(device: Device, item: str) -> Point:

@@ -10,7 +10,6 @@ import os
 from pathlib import Path
 
 import pytest
-
 from expectations import accept, expected, findings_of, wording
 
 BAD = Path(__file__).parent / "bad"
@@ -31,8 +30,11 @@ def test_bad(case: Path) -> None:
 def test_every_finding_helps(case: Path) -> None:
     """Every finding has a place and says what to do, in clean printable text of a bearable length."""
     for one in findings_of(case):
-        assert one.span.file and one.span.line >= 1 and one.span.column >= 1
+        assert one.span.file
+        assert one.span.line >= 1
+        assert one.span.column >= 1
         assert one.hint, one.message
         assert f"{one.message}{one.hint}".isprintable()
         assert len(one.message) < 300, one.message
-        assert not one.message.endswith(".") and "Traceback" not in one.message
+        assert not one.message.endswith(".")
+        assert "Traceback" not in one.message

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import pytest
 from c_device import SANITIZERS, STANDARDS, WARNINGS, conformance_source, driver, rare_device, write_c
 from fieldscribe.targets import c
-from models import FREQUENCY_SOURCE, point, sample_device
+from models import FREQUENCY_SOURCE, kitchen_sink, point, sample_device, trip_device
 from toolchains import compiled, run, succeed, tool
 
 if TYPE_CHECKING:
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 GENERATED = Path(__file__).resolve().parents[1] / "generated"
 SHIPPED = sorted(path.stem for path in (GENERATED / "vectors").glob("*.json"))
 FLOATS: dict[str, tuple[str, ...]] = {"float": (), "no_float": ("-DFIELDSCRIBE_NO_FLOAT",)}
+MADE = ("sample_drive", "rare", "kitchen_sink")
 CORE = ("c99", "c++17")
 COMPILERS = ("gcc", "clang")
 
@@ -64,9 +65,15 @@ def rare(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="session")
-def folders(sample: Path, rare: Path) -> dict[str, Path]:
+def sink(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return write_c(kitchen_sink(), tmp_path_factory.mktemp("sink"))
+
+
+@pytest.fixture(scope="session")
+def folders(sample: Path, rare: Path, sink: Path) -> dict[str, Path]:
     """Where the generated files of a device are: the committed ones, or those of this run."""
-    return {**dict.fromkeys(SHIPPED, GENERATED), "sample_drive": sample, "rare": rare}
+    made = {"sample_drive": sample, "rare": rare, "kitchen_sink": sink}
+    return {**dict.fromkeys(SHIPPED, GENERATED), **made}
 
 
 def conforms(folder: Path, device: str, build: Build, out: Path) -> None:
@@ -88,7 +95,7 @@ def passed(output: str) -> dict[str, int]:
 
 
 @pytest.mark.parametrize("build", builds(CORE, "-O1", CORE), ids=named)
-@pytest.mark.parametrize("device", ["sample_drive", "rare"])
+@pytest.mark.parametrize("device", MADE)
 def test_models_conform(device: str, build: Build, folders: dict[str, Path], tmp_path: Path) -> None:
     conforms(folders[device], device, build, tmp_path)
 
@@ -104,12 +111,12 @@ OTHERS = [name for name in STANDARDS if name not in CORE]
 
 @pytest.mark.full
 @pytest.mark.parametrize("build", builds(OTHERS, "-O0", OTHERS) + builds(STANDARDS, "-O2", ()), ids=named)
-@pytest.mark.parametrize("device", [*SHIPPED, "sample_drive", "rare"])
+@pytest.mark.parametrize("device", [*SHIPPED, *MADE])
 def test_other_standards(device: str, build: Build, folders: dict[str, Path], tmp_path: Path) -> None:
     conforms(folders[device], device, build, tmp_path)
 
 
-@pytest.mark.parametrize("device", [sample_device(), rare_device()], ids=lambda device: str(device.id))
+@pytest.mark.parametrize("device", [sample_device(), rare_device(), kitchen_sink()], ids=lambda device: str(device.id))
 def test_every_identifier_is_one_thing(device: Device) -> None:
     assert list(c.clashes(device)) == []
 
@@ -146,14 +153,14 @@ def test_steps_are_never_fused(compiler: str, standard: str, sample: Path, tmp_p
 @pytest.mark.parametrize("build", [*FLOATS.values(), ("-DFIELDSCRIBE_FLOAT32",)], ids=" ".join)
 @pytest.mark.parametrize("language", ["c99", "c++17"])
 def test_headers_have_no_clang_warning_at_all(
-    language: str, build: tuple[str, ...], sample: Path, rare: Path, tmp_path: Path
+    language: str, build: tuple[str, ...], folders: dict[str, Path], tmp_path: Path
 ) -> None:
     left_out = "padded declaration-after-statement unused-function c++98-compat c++98-compat-pedantic old-style-cast"
     flags = [*STANDARDS[language], "-Weverything", *(f"-Wno-{one}" for one in left_out.split()), *build, "-Werror"]
     source = tmp_path / "headers.c"
-    source.write_text('#include "sample_drive_modbus.h"\n#include "rare_modbus.h"\n', encoding="utf-8")
-    folders = ["-I", str(sample / "c"), "-I", str(rare / "c")]
-    succeed([tool("clang"), *flags, "-fsyntax-only", "-Wno-zero-as-null-pointer-constant", *folders, source])
+    source.write_text("".join(f'#include "{device}_modbus.h"\n' for device in MADE), encoding="utf-8")
+    places = [f"-I{folders[device]}/c" for device in MADE]
+    succeed([tool("clang"), *flags, "-fsyntax-only", "-Wno-zero-as-null-pointer-constant", *places, source])
 
 
 def test_conformance_catches_each_kind(sample: Path, tmp_path: Path) -> None:
@@ -170,7 +177,7 @@ def spoil(text: str) -> tuple[str, dict[str, int]]:
     """The vectors with the result of every one changed, and how many there are of each kind."""
     results = {"decode": "float", "decode_count": "count", "encode": "raw", "encode_count": "raw", "name": "name"}
     results |= {"special": "low", "flag": "number", "bits": "result", "words": "words", "address": "address"}
-    results |= {"block": "count"}
+    results |= {"block": "count", "flag_name": "name"}
     lines: list[str] = []
     counts: dict[str, int] = {}
     for line in text.splitlines():
@@ -206,10 +213,10 @@ def test_vectors_of_another_description_are_refused(sample: Path, tmp_path: Path
     assert run([program, tmp_path / "absent.json"]).returncode == 2
 
 
-def test_no_float_is_left(sample: Path, rare: Path, tmp_path: Path) -> None:
-    for folder, device in ((sample, "sample_drive"), (rare, "rare")):
+def test_no_float_is_left(folders: dict[str, Path]) -> None:
+    for device in MADE:
         command = [tool("gcc"), "-E", "-P", "-std=c99", "-ffreestanding", "-DFIELDSCRIBE_NO_FLOAT"]
-        text = succeed([*command, "-x", "c", folder / "c" / f"{device}_modbus.h"])
+        text = succeed([*command, "-x", "c", folders[device] / "c" / f"{device}_modbus.h"])
         own = text[text.index("typedef enum") :]
         assert not re.search(r"\b(double|float)\b|[0-9]\.[0-9]", own)
 
@@ -245,6 +252,43 @@ def test_every_raw_survives_the_value(build: str, sample: Path, tmp_path: Path) 
     (tmp_path / "trip.c").write_text(FLOAT32, encoding="utf-8")
     flags = ("-std=c99", "-O2", *WARNINGS, build, "-I", str(sample / "c"))
     succeed([compiled("gcc", flags, tmp_path / "trip.c", tmp_path / "trip")])
+
+
+TRIPS = """
+#include "trips.h"
+#define TRIP(point, type, first)                                                           \\
+    for (at = first; at <= first + 65535; ++at) {                                          \\
+        const type raw = (type)at;                                                         \\
+        type again = (type)(raw ^ 1);                                                      \\
+        if (trips_##point##_encode(trips_##point##_decode(raw), &again) != TRIPS_OK ||     \\
+            again != raw) {                                                                \\
+            return 1;                                                                      \\
+        }                                                                                  \\
+        again = (type)(raw ^ 1);                                                           \\
+        if (trips_##point##_encode_count(trips_##point##_decode_count(raw), &again) !=     \\
+                TRIPS_OK || again != raw) {                                                \\
+            return 2;                                                                      \\
+        }                                                                                  \\
+    }
+int main(void)
+{
+    int32_t at;
+    TRIP(tenth, uint16_t, 0)
+    TRIP(fine, uint16_t, 0)
+    TRIP(sevenths, uint16_t, 0)
+    TRIP(falling, int16_t, -32768)
+    TRIP(shifted, int16_t, -32768)
+    return 0;
+}
+"""
+
+
+@pytest.mark.parametrize("build", ["-DFIELDSCRIBE_FLOAT32", "-DFIELDSCRIBE_FLOAT64"])
+def test_every_raw_survives_every_kind_of_rule(build: str, tmp_path: Path) -> None:
+    folder = write_c(trip_device(), tmp_path)
+    (tmp_path / "trips.c").write_text(TRIPS, encoding="utf-8")
+    flags = ("-std=c99", "-O2", *WARNINGS, build, "-I", str(folder / "c"))
+    succeed([compiled("gcc", flags, tmp_path / "trips.c", tmp_path / "trips")])
 
 
 NOISE = """
@@ -340,3 +384,40 @@ def test_cortex_m0_image_is_small_and_without_float(sample: Path, tmp_path: Path
     text = int(succeed([tool("arm-none-eabi-size"), image]).splitlines()[1].split()[0])
     print(f"Cortex-M0, -Os, one encode_count and one decode_count: .text {text} bytes")
     assert text <= 40
+
+
+INTEGER_FIRMWARE = """
+#define FIELDSCRIBE_NO_FLOAT
+#include "kitchen_sink_modbus.h"
+volatile int64_t wanted;
+volatile uint32_t pattern;
+volatile uint16_t word;
+volatile int32_t result;
+uint8_t frame[FIELDSCRIBE_MODBUS_TCP_MOST];
+void start(void);
+void start(void)
+{
+    int16_t current = 0;
+    uint16_t words[2];
+    size_t length = 0U;
+    fieldscribe_modbus_request request;
+    result = (int32_t)kitchen_sink_current_encode_count(wanted, 3000U, &current);
+    result += (int32_t)kitchen_sink_plain_f32_check(pattern);
+    word = kitchen_sink_ratio_insert(word, 200U);
+    request = kitchen_sink_plain_u32_write_request(1U, pattern, words);
+    result += (int32_t)fieldscribe_modbus_build(
+        &kitchen_sink_modbus_profile, FIELDSCRIBE_MODBUS_TCP, &request, frame, sizeof frame, &length);
+    for (;;) {
+    }
+}
+"""
+
+
+def test_cortex_m0_image_of_all_mechanisms_is_without_float(sink: Path, tmp_path: Path) -> None:
+    """Run-time factors, floating-point patterns, bit groups and frames: 64-bit integers at most."""
+    (tmp_path / "firmware.c").write_text(INTEGER_FIRMWARE, encoding="utf-8")
+    flags = ("-mcpu=cortex-m0", "-mthumb", "-Os", "-std=c99", "-nostartfiles", "-Wl,-e,start", "-I", str(sink / "c"))
+    image = compiled("arm-none-eabi-gcc", (*flags, *WARNINGS), tmp_path / "firmware.c", tmp_path / "firmware.elf")
+    symbols = succeed([tool("arm-none-eabi-nm"), image])
+    assert "start" in symbols
+    assert not re.search(r"__aeabi_[df]|__[a-z]*[sd]f[0-9]", symbols)

@@ -137,6 +137,20 @@ def test_a_broadcast_number_inside_the_units_still_does_not_read() -> None:
     assert build(replace(profile, broadcast=None), "rtu", Request(0, 3, 0, 1))[0] == "ok"
 
 
+def test_a_manual_may_take_functions_from_broadcast() -> None:
+    functions = (
+        Code(5, "write_coil", titles("c"), None),
+        Code(6, "write_register", titles("r"), None, broadcast=True),
+        Code(15, "write_coils", titles("c"), None, broadcast=False),
+        Code(16, "write_registers", titles("r"), None),
+    )
+    profile = profile_of(replace(sample_bus(), functions=functions))
+    assert profile.broadcasts == {5, 6, 16}
+    assert build(profile, "rtu", Request(0, 15, 0, 1, (1,)))[0] == "bad_unit"
+    assert build(profile, "tcp", Request(0, 16, 0, 1, (1,)))[0] == "ok"
+    assert build(profile, "rtu", Request(1, 15, 0, 1, (1,)))[0] == "ok"
+
+
 @st.composite
 def requests(draw: st.DrawFn) -> Request:
     """Any request that the open profile allows."""

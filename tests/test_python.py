@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 from fieldscribe.model import Place
 from fieldscribe.targets.python.identifiers import DEVICE_MEMBERS, HELPERS, WORD_MEMBERS
-from models import STATUS_FLAGS, plain_points, point, sample_device, titles
+from models import STATUS_FLAGS, plain_points, point, sample_device, titles, trip_device
 from python_package import AsyncSlave, Slave, imported, write_package
 
 if TYPE_CHECKING:
@@ -65,6 +65,23 @@ def test_class_is_a_codec(package: Any) -> None:
         50,
     )
     point_.check(4000)
+
+
+@pytest.fixture(scope="module")
+def trips(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Any]:
+    yield from imported(write_package(trip_device(), tmp_path_factory.mktemp("trips")), "trips")
+
+
+@pytest.mark.parametrize("item", [one.item for one in trip_device().points])
+def test_every_raw_survives_every_kind_of_rule(trips: Any, item: str) -> None:
+    point_ = trips.Trips.POINTS[item]
+    low, high = point_.raw_limits
+    assert high - low == 65535
+    encode, decode, encode_count, decode_count = (
+        getattr(point_, name) for name in ("encode", "decode", "encode_count", "decode_count")
+    )
+    assert all(encode(decode(raw)) == raw for raw in range(low, high + 1))
+    assert all(encode_count(decode_count(raw)) == raw for raw in range(low, high + 1))
 
 
 @pytest.mark.parametrize(

@@ -9,13 +9,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
+from c_device import rare_device
 from fieldscribe.diagnostics import Report
 from fieldscribe.pipeline import find_devices, load_device
 from fieldscribe.render import render
 from fieldscribe.resources import descriptions_dir
 from fieldscribe.targets import vectors
-from models import sample_device
+from models import kitchen_sink, sample_device
 from python_package import write_package
+from rust_crates import odd_device
 
 if TYPE_CHECKING:
     from fieldscribe.model import Device
@@ -50,6 +52,11 @@ def test_shipped_devices_pass(description: Path, tmp_path: Path) -> None:
 
 def test_all_vectors_pass(folder: Path) -> None:
     every_vector_passes(sample_device(), folder)
+
+
+@pytest.mark.parametrize("device", [rare_device(), odd_device(), kitchen_sink()], ids=lambda device: str(device.id))
+def test_other_models_pass(device: Device, tmp_path: Path) -> None:
+    every_vector_passes(device, write_package(device, tmp_path))
 
 
 def every_vector_passes(device: Device, folder: Path) -> None:

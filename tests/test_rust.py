@@ -15,7 +15,7 @@ import pytest
 from fieldscribe.targets.rust.identifiers import identifiers
 from fieldscribe.targets.rust.rules import count_path
 from fieldscribe.targets.rust.subjects import scope_of
-from models import linear, point, sample_device
+from models import kitchen_sink, linear, point, sample_device, trip_device
 from rust_crates import odd_device, rare_device, write_crate
 from toolchains import run, succeed, tool
 
@@ -30,7 +30,13 @@ ROOT = Path(__file__).resolve().parents[1]
 SHIPPED = sorted(path.parents[1].name for path in (ROOT / "generated/rust").glob("*/tests/conformance.rs"))
 PROGRAMS = Path(__file__).resolve().parent / "rust"
 FAILS = sorted(path.stem for path in (PROGRAMS / "fails").glob("*.rs"))
-MODELS = {"sample_drive": sample_device, "rare": rare_device, "odd": odd_device}
+MODELS = {
+    "sample_drive": sample_device,
+    "rare": rare_device,
+    "odd": odd_device,
+    "trips": trip_device,
+    "kitchen_sink": kitchen_sink,
+}
 
 
 @pytest.fixture(scope="session")
@@ -170,9 +176,11 @@ def test_misuse_does_not_compile(libraries: Path, name: str, tmp_path: Path) -> 
     assert set(re.findall(r"error\[(E\d+)\]", done.stderr)) == {expected}, done.stderr
 
 
-def test_clients_talk(libraries: Path, tmp_path: Path) -> None:
-    program = tmp_path / "client"
-    externs = [f"--extern={name}={libraries}/lib{name}.rlib" for name in ("fieldscribe_runtime", "sample_drive")]
+@pytest.mark.parametrize(("source", "device"), [("client", "sample_drive"), ("trips", "trips")])
+def test_programs_run(libraries: Path, source: str, device: str, tmp_path: Path) -> None:
+    """Clients talk to canned replies; every raw number survives every kind of rule."""
+    program = tmp_path / source
+    externs = [f"--extern={name}={libraries}/lib{name}.rlib" for name in ("fieldscribe_runtime", device)]
     words: list[str | Path] = [
         tool("rustc"),
         "--edition=2021",
@@ -183,7 +191,7 @@ def test_clients_talk(libraries: Path, tmp_path: Path) -> None:
         "-o",
         program,
     ]
-    assert not succeed([*words, PROGRAMS / "client.rs"])
+    assert not succeed([*words, PROGRAMS / f"{source}.rs"])
     assert not succeed([program])
 
 

@@ -4,27 +4,27 @@ from __future__ import annotations
 
 import random
 import re
-from collections.abc import Iterator, Mapping
 from decimal import Decimal
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import pytest
-from jsonschema import Draft7Validator, validators
-
 from fieldscribe.diagnostics import Report
 from fieldscribe.language.keys import keys_markdown
 from fieldscribe.language.load import load
 from fieldscribe.language.nodes import Map, Seq, Value
-from fieldscribe.language.shape import check_shape, compiled_pattern, schema
+from fieldscribe.language.shape import check_shape, schema
+from fieldscribe.language.shape_checks import compiled_pattern
 from fieldscribe.language.source import SourceFile, read_source
+from jsonschema import Draft7Validator, validators
 from test_robust import SINK, as_yaml, changed, nodes
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
 
 ROOT = Path(__file__).parents[1]
 FILES = sorted(
-    file
-    for folder in ("descriptions", "tests/devices", "tests/bad")
-    for file in (ROOT / folder).rglob("*.yaml")
+    file for folder in ("descriptions", "tests/devices", "tests/bad") for file in (ROOT / folder).rglob("*.yaml")
 )
 
 
@@ -41,7 +41,8 @@ def _number_only(_: Any, value: Any) -> bool:
     return isinstance(value, int) and not isinstance(value, bool)
 
 
-STRICT = validators.extend(
+_extend: Any = validators.extend
+STRICT = _extend(
     Draft7Validator,
     validators={"pattern": _matches},
     type_checker=Draft7Validator.TYPE_CHECKER.redefine("integer", _number_only),
@@ -131,10 +132,27 @@ def test_both_readings_agree_on_mutations() -> None:
     """Wrong values at random places of the device that uses everything."""
     dice = random.Random(1)
     paths = sorted(nodes(SINK), key=str)
-    wrongs = [None, True, 5, 5.5, -1, "", "a b", "x\n", [], {}, ["a"], {"name": "a"}, {"en": "a"}, {"0": "a"}, 10**6, ...]
+    wrongs = [
+        None,
+        True,
+        5,
+        5.5,
+        -1,
+        "",
+        "a b",
+        "x\n",
+        [],
+        {},
+        ["a"],
+        {"name": "a"},
+        {"en": "a"},
+        {"0": "a"},
+        10**6,
+        ...,
+    ]
     valid = 0
     for _ in range(800):
-        device = changed(SINK, dice.choice(paths), lambda _: dice.choice(wrongs))
+        device = changed(SINK, dice.choice(paths), dice.choice(wrongs))
         root = load(SourceFile("mutated.yaml", as_yaml(device)), Report())
         assert root is not None
         valid += agree(root, kind_of(root))
@@ -142,7 +160,7 @@ def test_both_readings_agree_on_mutations() -> None:
 
 
 def test_keys_page_is_current() -> None:
-    """descriptions/KEYS.md is what the schema says: write it anew with `make keys` or the function itself."""
+    """descriptions/KEYS.md is what the schema says; `keys_markdown` makes it anew."""
     assert (ROOT / "descriptions" / "KEYS.md").read_text("utf-8") == keys_markdown()
 
 

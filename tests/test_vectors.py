@@ -86,7 +86,7 @@ def test_keys_hold_nothing_nested_but_with() -> None:
 
 def test_the_amount_stays_bounded() -> None:
     one = point("one", 1, scale=scaled(256), decimals=3, allowed=allowed((10, 4000)))
-    assert len([vector for vector in vectors(sample_device((one,))) if vector.get("point") == "one"]) <= 40
+    assert len([vector for vector in vectors(sample_device((one,))) if vector.get("point") == "one"]) <= 42
 
 
 # Numbers worked out by hand
@@ -120,7 +120,11 @@ HAND = [
     by_hand("encode", "base_frequency", float=f64(1e300), value="1e+300", status="out_of_range"),
     by_hand("encode_count", "base_frequency", count=4001, status="out_of_range"),
     by_hand("encode_count", "base_frequency", count=-2147483648, status="out_of_range"),
-    by_hand("address", "base_frequency", space="holding", address=4136, words=1),
+    by_hand("address", "base_frequency", space="holding", address=4136, words=1, code="A020", raw_min=0, raw_max=4000)
+    | {"decimals": 1, "modicon": 4137, "reference": 404137},
+    by_hand("address", "lower_limit", space="holding", address=4186, words=1, code=None, raw_min=0, raw_max=4000)
+    | {"decimals": 1, "modicon": 4187},
+    by_hand("address", "float_setpoint", space="holding", address=8212, words=2, code=None, modicon=8213),
     # raw = value * 10 + 5/2: raw 0 is -0.25, and 0.0 lies halfway between 2 and 3
     by_hand("decode", "temperature", raw=0, status="ok", float="bfd0000000000000", value="-0.25"),
     by_hand("decode", "temperature", raw=32767, status="no_value"),
@@ -148,6 +152,8 @@ HAND = [
     by_hand("name", "analog_filter", raw=18, name=None),
     by_hand("name", "temperature_mode", raw=-1, name="cold"),
     by_hand("encode_count", "run_command", count=2, status="out_of_range"),
+    by_hand("flag_name", "status_word", flag="mode", raw=3, name="run"),
+    by_hand("words", "signed_one", raw=-3, words=[0xFFFD]),
     by_hand("flag", "status_word", raw=0x30, flag="mode", number=3),
     by_hand("flag", "status_word", raw=0xFFF7, flag="fault", number=0),
     # s8 in the bits 13..6 of a word: 0x80 there is -128
@@ -166,7 +172,17 @@ HAND = [
         "encode", "float_setpoint", float="3ff0000030000000", value="1.0000001788139343", status="ok", raw=0x3F800002
     ),
     by_hand("encode", "float_setpoint", float=f64(650.0), value="650", status="ok", raw=0x44228000),
-    by_hand("encode", "float_setpoint", float=f64(650.0000000000001), value="650.0000000000001", status="out_of_range"),
+    # what binary32 cannot tell from 650 is 650: up to half of the step to the next number, and ties go to the even one
+    by_hand("encode", "float_setpoint", float=f64(650.0000000000001), value="650.0000000000001", status="ok")
+    | {"raw": 0x44228000},
+    by_hand("encode", "float_setpoint", float=f64(650 + 2.0**-15), value="650.0000305175781", status="ok")
+    | {"raw": 0x44228000},
+    by_hand("encode", "float_setpoint", float="4084500010000001", value="650.0000305175782", status="out_of_range"),
+    by_hand("check", "float_setpoint", raw=0x44228000, status="ok"),
+    by_hand("check", "float_setpoint", raw=0x44228001, status="out_of_range"),
+    by_hand("check", "float_setpoint", raw=0x80000000, status="ok"),
+    by_hand("check", "float_setpoint", raw=0x80000001, status="out_of_range"),
+    by_hand("check", "float_setpoint", raw=0x7FC00000, status="not_a_number"),
     by_hand("encode", "float_setpoint", float=f64(2.0**-150), value="7.006492321624085e-46", status="ok", raw=0),
     by_hand("decode", "float_setpoint", raw=1, status="ok", float=f64(2.0**-149), value="1.401298464324817e-45"),
     # raw = value * ratio / 400: with 50, 20000 is 160000
@@ -307,11 +323,10 @@ class RefusedError(Exception):
     """The status that is not ok."""
 
 
-def factor_of(factor: Factor, given_: dict[str, int], source: Point | None) -> Fraction:
+def factor_of(factor: Factor, given_: dict[str, int], source: Point) -> Fraction:
     """What a factor multiplies a rule by."""
     number = factor.slope * given_[factor.point] + factor.intercept
     if factor.ten_to:
-        assert source is not None
         bounds = source.allowed.intervals[0]
         if not int(str(bounds.low)) <= given_[factor.point] <= int(str(bounds.high)):
             raise RefusedError("overflow")
@@ -354,7 +369,7 @@ class Reading:
             return bound.least if low else bound.greatest
         product = bound.rule.ratio
         for factor in bound.rule.factors:
-            product *= factor_of(factor, given_, None)
+            product *= factor_of(factor, given_, named(self.device, factor.point))
         found = near(product + bound.rule.offset)
         return max(found, bound.least) if low else min(found, bound.greatest)
 
@@ -401,14 +416,22 @@ class Reading:
         return {"status": "ok", "raw": raw}
 
     def encode_float(self, subject: Point, value: float) -> Vector:
-        inside = [one for one in subject.allowed.units if float(one[0]) <= value <= float(one[1])]
-        if math.isinf(value) or (subject.allowed.units and not inside):
-            raise RefusedError("out_of_range")
+        form = ">f" if subject.type == "f32" else ">d"
         try:
-            packed = struct.pack(">f" if subject.type == "f32" else ">d", value)
+            packed = struct.pack(form, value)
         except OverflowError:
             raise RefusedError("out_of_range") from None
+        self.admit_float(subject, struct.unpack(form, packed)[0])
         return {"status": "ok", "raw": int.from_bytes(packed, "big")}
+
+    def admit_float(self, subject: Point, number: float) -> None:
+        """Refuses numbers of the type beyond the limits, as the type has those."""
+        form = ">f" if subject.type == "f32" else ">d"
+        if math.isnan(number):
+            raise RefusedError("not_a_number")
+        spans = [[struct.unpack(form, struct.pack(form, float(end)))[0] for end in one] for one in subject.allowed.units]
+        if math.isinf(number) or (spans and not any(low <= number <= high for low, high in spans)):
+            raise RefusedError("out_of_range")
 
     def decode_count(self, subject: Point, vector: Vector) -> Vector:
         raw = vector["raw"]
@@ -429,6 +452,10 @@ class Reading:
         return {"status": "ok", "raw": raw}
 
     def check(self, subject: Point, vector: Vector) -> Vector:
+        if subject.form == "float":
+            form, size = (">f", 4) if subject.type == "f32" else (">d", 8)
+            self.admit_float(subject, struct.unpack(form, vector["raw"].to_bytes(size, "big"))[0])
+            return {"status": "ok"}
         self.admit(subject, vector["raw"], vector.get("with", {}))
         return {"status": "ok"}
 
@@ -443,6 +470,10 @@ class Reading:
     def flag(self, subject: Point, vector: Vector) -> Vector:
         found = [one for one in subject.flags if one.name == vector["flag"]]
         return {"number": (vector["raw"] >> found[0].low) % 2 ** found[0].width} if found else {"number": None}
+
+    def flag_name(self, subject: Point, vector: Vector) -> Vector:
+        found = [entry for one in subject.flags if one.name == vector["flag"] for entry in one.values]
+        return {"name": next((entry.name for entry in found if entry.raw == vector["raw"]), None)}
 
     def bits(self, subject: Point, vector: Vector) -> Vector:
         assert subject.bits is not None
@@ -462,7 +493,15 @@ class Reading:
 
     def address(self, subject: Point, vector: Vector) -> Vector:
         del vector
-        return {"space": subject.places[0].space, "address": subject.address, "words": subject.words}
+        found: Vector = {"space": subject.places[0].space, "address": subject.address, "words": subject.words}
+        found |= {"code": subject.code, **subject.references}
+        if subject.form == "float":
+            return found
+        ends = [(one.low, one.high) for one in subject.allowed.intervals]
+        lows = [low.least if isinstance(low, Limit) else low for low, _ in ends]
+        highs = [high.greatest if isinstance(high, Limit) else high for _, high in ends]
+        found |= {"raw_min": min(lows, default=subject.least), "raw_max": max(highs, default=subject.greatest)}
+        return found | ({"decimals": subject.decimals} if subject.form == "scaled" else {})
 
 
 def wrong(device: Device, against: list[Vector]) -> Iterator[Vector]:
@@ -515,8 +554,8 @@ def one_fact_at_a_time(subject: Point) -> Iterator[tuple[str, Point]]:
                     replace(subject, allowed=replace(subject.allowed, intervals=tuple(intervals))),
                 )
     for low, high in subject.allowed.units:
-        yield "units low", replace(subject, allowed=units(str(low - Fraction(1, 10**9)), str(high)))
-        yield "units high", replace(subject, allowed=units(str(low), str(high + Fraction(1, 10**9))))
+        yield "units low", replace(subject, allowed=units(str(low - Fraction(1, 10**4)), str(high)))
+        yield "units high", replace(subject, allowed=units(str(low), str(high + Fraction(1, 10**4))))
     for index, case in enumerate(subject.scale or ()):
         for what, changed_case in near_cases(case):
             cases = list(subject.scale or ())
@@ -568,7 +607,10 @@ def names_and_places(subject: Point) -> Iterator[tuple[str, Point]]:
         yield f"entry {entry.name}", replace(subject, enum=replace(subject.enum, entries=tuple(entries)))
     for index, flag in enumerate(subject.flags):
         flags = list(subject.flags)
-        for other in (replace(flag, low=flag.low + 1), replace(flag, width=flag.width + 1)):
+        others = [replace(flag, low=flag.low + 1), replace(flag, width=flag.width + 1)]
+        if flag.values:
+            others.append(replace(flag, values=(replace(flag.values[0], raw=flag.values[-1].raw + 7), *flag.values[1:])))
+        for other in others:
             flags[index] = other
             yield f"flag {flag.name}", replace(subject, flags=tuple(flags))
     for index, special in enumerate(subject.specials):
@@ -578,6 +620,10 @@ def names_and_places(subject: Point) -> Iterator[tuple[str, Point]]:
         if special.no_value:
             yield "no specials", replace(subject, specials=())
     place = subject.places[0]
+    yield "code", replace(subject, code=f"{subject.code}x")
+    for key, number in subject.references.items():
+        assert isinstance(number, int)
+        yield f"reference {key}", replace(subject, references={**subject.references, key: number + 1})
     yield "address", replace(subject, places=(replace(place, addresses=tuple(one + 1 for one in place.addresses)),))
     if len(place.addresses) > 1:
         yield "word order", replace(subject, places=(replace(place, addresses=place.addresses[::-1]),))
@@ -618,6 +664,19 @@ def test_a_limit_that_divides_by_zero() -> None:
     zero = [vector for vector in found if vector.get("with") == {"ratio": 0}]
     assert {(vector["kind"], vector["status"]) for vector in zero} == {
         (kind, "zero_factor") for kind in ("encode", "encode_count", "check")
+    }
+
+
+def test_a_point_that_only_lifts_a_limit_is_an_argument() -> None:
+    limit = Limit(linear(7), (("mode", (2, 4)),), 0, 100)
+    subject = point("subject", 1, allowed=allowed((0, limit)))
+    found = vectors(sample_device((subject, point("mode", 2, allowed=allowed((0, 9))))))
+    checks = {(one["with"]["mode"], one["status"]) for one in found if one["kind"] == "check" and one.get("raw") == 100}
+    assert subject.arguments == subject.limit_arguments == ("mode",)
+    assert {(2, "ok"), (4, "ok")} <= checks
+    wrong_limits = [one for one in found if one.get("with", {}).get("mode") in (0, 9) and one["kind"] == "check"]
+    assert {one["raw"]: one["status"] for one in wrong_limits} | {7: "ok", 8: "out_of_range"} == {
+        one["raw"]: one["status"] for one in wrong_limits
     }
 
 

@@ -25,7 +25,7 @@ extern "C" {
 typedef enum fieldscribe_modbus_status {
     FIELDSCRIBE_MODBUS_OK = 0,
     /* building */
-    FIELDSCRIBE_MODBUS_BAD_UNIT,         /* not a unit of this device, or a broadcast that nobody may answer */
+    FIELDSCRIBE_MODBUS_BAD_UNIT,         /* not a unit of this device, or a broadcast of what does not go to all units */
     FIELDSCRIBE_MODBUS_BAD_FUNCTION,     /* the device does not know the function */
     FIELDSCRIBE_MODBUS_BAD_COUNT,        /* no items, too many, or no values for them */
     FIELDSCRIBE_MODBUS_BAD_ADDRESS,      /* the last item lies beyond FFFFh, or 08h has a sub-function but 0 */
@@ -46,10 +46,11 @@ typedef enum fieldscribe_modbus_status {
 
 typedef enum fieldscribe_modbus_framing { FIELDSCRIBE_MODBUS_RTU = 0, FIELDSCRIBE_MODBUS_TCP } fieldscribe_modbus_framing;
 
-/* A function code and how many items one request may carry. */
+/* A function code, how many items one request may carry, and whether it may go to all units at once. */
 typedef struct fieldscribe_modbus_function {
     uint8_t code;
     uint16_t most;
+    bool broadcast;
 } fieldscribe_modbus_function;
 
 /* What a device understands. */
@@ -167,7 +168,7 @@ static inline fieldscribe_modbus_status fieldscribe_modbus_allows(
     const uint8_t function = request->function;
     const bool writes = function == 0x05U || function == 0x06U || function == 0x0FU || function == 0x10U;
     const bool single = function == 0x05U || function == 0x06U || function == 0x08U;
-    const bool everyone = request->unit == profile->broadcast && writes;
+    bool to_one;
     size_t at = 0U;
     while (at < profile->function_count && profile->functions[at].code != function) {
         ++at;
@@ -175,8 +176,8 @@ static inline fieldscribe_modbus_status fieldscribe_modbus_allows(
     if (at == profile->function_count || !(fieldscribe_modbus_reads(function) || writes || single)) {
         return FIELDSCRIBE_MODBUS_BAD_FUNCTION;
     }
-    if (!everyone && (request->unit == profile->broadcast || request->unit < profile->first_unit ||
-                         request->unit > profile->last_unit)) {
+    to_one = request->unit >= profile->first_unit && request->unit <= profile->last_unit;
+    if (request->unit == profile->broadcast ? !(writes && profile->functions[at].broadcast) : !to_one) {
         return FIELDSCRIBE_MODBUS_BAD_UNIT;
     }
     if (request->count == 0U || request->count > profile->functions[at].most || (single && request->count != 1U) ||

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Literal, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
 
 Severity = Literal["error", "warning"]
 
 
 class Span(NamedTuple):
-    """A place in a file: its path as the user named it, and line and column counted from 1; `width` characters are meant."""
+    """A place in a file: its path as the user named it, and line and column from 1; `width` characters are meant."""
 
     file: str
     line: int

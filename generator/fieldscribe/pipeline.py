@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from fieldscribe.diagnostics import Report, Span
@@ -10,6 +9,7 @@ from fieldscribe.language.source import shown
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
+    from pathlib import Path
 
     from fieldscribe.language.files import Files
     from fieldscribe.model import Device
@@ -78,10 +78,11 @@ def outputs(device: Device, targets: Iterable[str]) -> Iterator[tuple[str, str, 
 def _compile(files: Files, report: Report) -> Device | None:
     from fieldscribe.checks import run_checks
     from fieldscribe.checks.subject import Subject
-    from fieldscribe.resolve.bus import bus_of, commands_of
+    from fieldscribe.resolve.bus import bus_of
+    from fieldscribe.resolve.commands import commands_of
     from fieldscribe.resolve.device import build_device
-    from fieldscribe.resolve.drafts import expand
     from fieldscribe.resolve.errata import errata_of
+    from fieldscribe.resolve.expand import expand
     from fieldscribe.resolve.frames import frames_of
     from fieldscribe.resolve.names import index_of
     from fieldscribe.resolve.points import resolve_points

@@ -59,6 +59,7 @@ class FactArguments(TypedDict):
     bits: NotRequired[tuple[int, int]]
     group: NotRequired[str]
     code: NotRequired[str]
+    references: NotRequired[Mapping[str, int | str]]
     unit: NotRequired[str]
     allowed: NotRequired[Allowed]
     default: NotRequired[float]
@@ -70,13 +71,17 @@ class FactArguments(TypedDict):
 
 @dataclass(slots=True, kw_only=True)
 class Facts:
-    """What a description says of a point. `item` is what the attribute is called, `name` leaves out the variant."""
+    """What a description says of a point. `item` is what the attribute is called, `name` leaves out the variant.
+
+    `references` are the manual's other numberings of the point, `allowed` the raw numbers that it allows.
+    """
 
     at: Place
     write_at: Place | None = None
     bits: tuple[int, int] | None = None
     group: str = ""
     code: str | None = None
+    references: Mapping[str, int | str] = field(default_factory=dict)
     unit: str = ""
     allowed: Allowed | None = None
     default: float | None = None

@@ -82,6 +82,10 @@ class Form(ABC, Generic[R_co, W_contra]):
         fits = any(low_end(low, raws) <= raw <= high_end(high, raws) for low, high in allowed)
         return raw if fits else None
 
+    def limits(self, width: int) -> tuple[int, int]:
+        """The least and the greatest number of `width` bits that the form knows, where nothing else bounds them."""
+        return self.wire.limits(width)
+
     def shown(self, raw: int, raws: Raws) -> str:
         """The raw number as people read it, in the unit."""
         return str(raw)
@@ -152,6 +156,10 @@ class Named(Form[E | int, E | int]):
         if self.closed and not isinstance(self.decode(raw, raws), self.names):
             return None
         return super().checked(raw, allowed, raws)
+
+    def limits(self, width: int) -> tuple[int, int]:
+        """The ends of a closed enum, else of the type."""
+        return (min(self.names).value, max(self.names).value) if self.closed else super().limits(width)
 
     def name_of(self, raw: int) -> str | None:
         """The member's name in lower case."""

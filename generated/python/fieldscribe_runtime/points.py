@@ -57,8 +57,17 @@ class Point:
 
     @property
     def allowed(self) -> Allowed:
-        """The raw numbers that may be written."""
+        """The raw numbers that the description allows."""
         return (self.wire.limits(self.width),) if self.facts.allowed is None else self.facts.allowed
+
+    @property
+    def raw_limits(self) -> tuple[int, int]:
+        """The least and the greatest raw number that is ever allowed, whatever other points hold."""
+        if self.facts.allowed is None:
+            return self._form.limits(self.width)
+        lows = [low.least if isinstance(low, Limit) else low for low, _ in self.facts.allowed]
+        highs = [high.greatest if isinstance(high, Limit) else high for _, high in self.facts.allowed]
+        return min(lows), max(highs)
 
     @property
     def scale_needs(self) -> tuple[str, ...]:

@@ -62,12 +62,16 @@ class Scaled(Form[float, float]):
 
 
 class Floating(Form[float, float]):
-    """An IEEE 754 number (`F32` or `F64`): the raw number is its bit pattern; limits are in the unit."""
+    """An IEEE 754 number (`F32` or `F64`): the raw number is its bit pattern; limits are in the unit.
+
+    Limits hold as the nearest numbers of the type, so that no value is refused that the type cannot tell from a limit.
+    """
 
     def __init__(self, wire: Type, *, units: tuple[tuple[float, float], ...] = ()) -> None:
         self.wire = wire
         self.units = units
         self._pack, self._word = ("<f", "<I") if wire.bits == 32 else ("<d", "<Q")
+        self._limits = tuple((self._nearest(low), self._nearest(high)) for low, high in units)
 
     def decode(self, raw: int, raws: Raws) -> float:
         """The number that the bits are."""
@@ -75,20 +79,26 @@ class Floating(Form[float, float]):
         return value
 
     def encode(self, value: float, allowed: Allowed, raws: Raws) -> int | None:
-        """Limits are checked before the conversion, which rounds to nearest, ties to even."""
-        if not self._fits(value):
+        """The nearest number of the type, ties to even, if that is within the limits."""
+        number = self._nearest(value)
+        if not self._fits(number):
             return None
-        try:
-            pattern: int = struct.unpack(self._word, struct.pack(self._pack, value))[0]
-        except OverflowError:
-            return None
+        pattern: int = struct.unpack(self._word, struct.pack(self._pack, number))[0]
         return pattern
 
-    def _fits(self, value: float) -> bool:
-        if math.isnan(value):
+    def _nearest(self, value: float) -> float:
+        """The number of the type nearest to a value; infinity beyond the largest."""
+        try:
+            number: float = struct.unpack(self._pack, struct.pack(self._pack, value))[0]
+        except OverflowError:
+            return math.inf if value > 0 else -math.inf
+        return number
+
+    def _fits(self, number: float) -> bool:
+        if math.isnan(number):
             raise NotANumberError("the value is NaN")
-        inside = any(low <= value <= high for low, high in self.units) if self.units else True
-        return inside and math.isfinite(value)
+        inside = any(low <= number <= high for low, high in self._limits) if self._limits else True
+        return inside and math.isfinite(number)
 
     def checked(self, raw: int, allowed: Allowed, raws: Raws) -> int | None:
         """The same bits if they are a number within the limits."""
@@ -148,6 +158,10 @@ class OrNone(Form[R | None, W]):
     def checked(self, raw: int, allowed: Allowed, raws: Raws) -> int | None:
         """As in the form."""
         return self.form.checked(raw, allowed, raws)
+
+    def limits(self, width: int) -> tuple[int, int]:
+        """As in the form."""
+        return self.form.limits(width)
 
     def shown(self, raw: int, raws: Raws) -> str:
         """As in the form."""

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from typing import TYPE_CHECKING
 
-from fieldscribe.checks.subject import Subject
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from fieldscribe.checks.subject import Subject
 
 
 def run_checks(subject: Subject) -> None:

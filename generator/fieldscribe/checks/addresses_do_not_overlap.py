@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from bisect import bisect_right
+from typing import TYPE_CHECKING
 
-from fieldscribe.checks.subject import Subject
-from fieldscribe.model import Point
 from fieldscribe.resolve.points import Resolved
+
+if TYPE_CHECKING:
+    from fieldscribe.checks.subject import Subject
+    from fieldscribe.model import Point
 
 _WHOLE = (15, 0)
 Taken = dict[tuple[str, int], list[Resolved]]

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
+from typing import TYPE_CHECKING
 
 from fieldscribe.checks.subject import Subject, inside
 from fieldscribe.exact import number_text
-from fieldscribe.model import Point
-from fieldscribe.resolve.points import Resolved
 
+if TYPE_CHECKING:
+    from fractions import Fraction
+
+    from fieldscribe.model import Point
+    from fieldscribe.resolve.points import Resolved
 
 _LONGEST = 30
 

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from fieldscribe.checks.subject import Subject, inside
-from fieldscribe.diagnostics import Span
 from fieldscribe.language.nodes import Map
 from fieldscribe.language.numbers import NumberError, parse_integer
-from fieldscribe.model import Point
-from fieldscribe.resolve.points import Resolved
+
+if TYPE_CHECKING:
+    from fieldscribe.diagnostics import Span
+    from fieldscribe.model import Point
+    from fieldscribe.resolve.points import Resolved
 
 
 def check(subject: Subject) -> None:

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
-from fieldscribe.checks.subject import Subject
+from typing import TYPE_CHECKING
+
 from fieldscribe.language.nodes import Map
+
+if TYPE_CHECKING:
+    from fieldscribe.checks.subject import Subject
 
 
 def check(subject: Subject) -> None:

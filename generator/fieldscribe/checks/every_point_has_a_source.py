@@ -1,10 +1,14 @@
-"""Every point says where in the manual it stands: a section or page, and the line where the manual's text is at hand."""
+"""Every point says where in the manual it stands: section or page, and the line where the manual's text is at hand."""
 
 from __future__ import annotations
 
-from fieldscribe.checks.subject import Subject
+from typing import TYPE_CHECKING
+
 from fieldscribe.language.nodes import Map
-from fieldscribe.resolve.drafts import Draft
+
+if TYPE_CHECKING:
+    from fieldscribe.checks.subject import Subject
+    from fieldscribe.resolve.drafts import Draft
 
 
 def _broken(draft: Draft) -> tuple[str, ...]:
@@ -21,7 +25,7 @@ def check(subject: Subject) -> None:
         document = documents.get(source.document)
         if document is None:
             span = draft.span("source")
-            subject.scope.unknown("unknown-document", "document", source.document, span, documents, "documents")
+            subject.scope.unknown("document", source.document, span, documents)
         elif {"source", "section", "page", "line"} & {*draft.failed, *_broken(draft)}:
             continue
         elif source.section is None and source.page is None:

@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
-from fieldscribe.checks.subject import Subject
+from typing import TYPE_CHECKING
+
+from fieldscribe.checks.subject import Printed
+
+if TYPE_CHECKING:
+    from fieldscribe.checks.subject import Subject
 
 _COILS = frozenset({0x01, 0x02, 0x05, 0x0F})
 
@@ -21,4 +26,5 @@ def check(subject: Subject) -> None:
         right = (code.most + 7) // 8 if code.number in _COILS else 2 * code.most
         if printed != right:
             message = f"{printed} bytes are printed for {key}, {code.most} items are {right} bytes"
-            subject.disagrees(f"function:{code.number}", "bytes", printed, right, raw["printed"].span("bytes"), message)
+            span = raw["printed"].span("bytes")
+            subject.disagrees(Printed(f"function:{code.number}", "bytes", printed, right, span, message))

@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
-from fieldscribe.checks.subject import Subject
 from fieldscribe.diagnostics import Span
-from fieldscribe.language.nodes import Map
-from fieldscribe.model import Entry, Enum
 from fieldscribe.names import pascal
 from fieldscribe.resolve.drafts import Draft, groups
-from fieldscribe.resolve.points import Resolved
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from fieldscribe.checks.subject import Subject
+    from fieldscribe.language.nodes import Map
+    from fieldscribe.model import Entry, Enum
+    from fieldscribe.resolve.points import Resolved
 
 RUST_CONSTANTS = frozenset(
     {"name", "code", "space", "address", "words", "unit", "raw_min", "raw_max", "shift", "mask"}
-    | {"read_function", "write_function", "write_address"}
+    | {"decimals", "read_function", "write_function", "write_address"}
 )
 """Associated constants of the Rust point traits, which a special code of the same name would hide."""
 
@@ -58,11 +61,9 @@ def claims(subject: Subject) -> Iterator[Claim]:
             yield from _flags(resolved)
         for special in resolved.point.specials:
             if special.name in RUST_CONSTANTS:
-                name = special.name.upper()
-                yield Claim(f"Rust, in `{resolved.point.item}`", name, f"the constant `{name}` of every point", None)
-                yield Claim(
-                    f"Rust {resolved.point.item}", name, f"the code `{special.name}`", resolved.draft, "special"
-                )
+                name, space = special.name.upper(), f"Rust, in `{resolved.point.item}`"
+                yield Claim(space, name, f"the constant `{name}` of every point", None)
+                yield Claim(space, name, f"the code `{special.name}`", resolved.draft, "special")
 
 
 def _groups(subject: Subject) -> Iterator[Claim]:
@@ -82,7 +83,7 @@ def _point(subject: Subject, resolved: Resolved) -> Iterator[Claim]:
     if point.generated:
         type_name = pascal(point.item)
         yield Claim("Rust", type_name, what, draft)
-        if point.scale is not None and any(case.rule.factors for case in point.scale):
+        if point.scale is not None and point.scale_arguments not in ((), point.arguments):
             yield Claim("Rust", f"{type_name}Factors", f"what {what} needs", draft)
 
 

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
-from fieldscribe.checks.subject import Subject
-from fieldscribe.resolve.drafts import Draft
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from fieldscribe.checks.subject import Subject
+    from fieldscribe.resolve.drafts import Draft
 
 _OF_INTEGERS = ("enum", "flags", "scale", "decimals", "steps")
 _RIVALS = (

@@ -1,13 +1,17 @@
 """No two things get one identifier in a target, and nothing takes a name that the target itself needs.
 
-What each target makes of a name stands in `identifiers.py`; reserved words are no clash, for the targets turn them aside.
+What each target makes of a name stands in `identifiers.py`. Reserved words are no clash: the targets turn them aside.
 """
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from fieldscribe.checks.identifiers import Claim, claims
 from fieldscribe.checks.prefixes import prefix_clashes
-from fieldscribe.checks.subject import Subject
+
+if TYPE_CHECKING:
+    from fieldscribe.checks.subject import Subject
 
 
 def check(subject: Subject) -> None:

@@ -1,18 +1,22 @@
 """Clashes in C, where everything has one flat namespace: <DEVICE>_<POINT>_<TAIL>, and points may be called alike.
 
-The point `speed` with a flag `limit` has `SPEED_LIMIT_MASK`; so has a point `speed_limit` that takes bits of its word. Only
-names that the author gave can meet, so only those are followed, each at its underscores: that stays quick.
+The point `speed` with a flag `limit` has `SPEED_LIMIT_MASK`; so has a point `speed_limit` that takes bits of its word.
+Only names that the author gave can meet, so only those are followed, each at its underscores: that stays quick.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 from fieldscribe.checks.identifiers import Claim
-from fieldscribe.checks.subject import Subject
-from fieldscribe.model import Point
-from fieldscribe.resolve.drafts import Draft
-from fieldscribe.resolve.points import Resolved
+from fieldscribe.resolve.drafts import groups
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from fieldscribe.checks.subject import Subject
+    from fieldscribe.model import Point
+    from fieldscribe.resolve.points import Resolved
 
 HEADER = frozenset(
     {"ok", "out_of_range", "not_a_number", "unknown_value", "zero_factor", "no_case", "overflow", "no_value", "h"}
@@ -20,6 +24,7 @@ HEADER = frozenset(
     | {"signed64", "divide", "divide_wide", "magnitude", "multiply", "add", "times_ten_to", "ratio", "apply_rule"}
     | {"raw_from_count", "count_from_raw", "times", "times_wide", "round", "round_wide", "copy", "f32_of_bits"}
     | {"bits_of_f32", "f64_of_bits", "bits_of_f64", "is_nan", "raw_from_value", "value_from_raw"}
+    | {"f32_order", "f64_order"}
     | {"modbus_functions", "modbus_profile"}
 )
 """What the header defines behind the device's name."""
@@ -31,6 +36,9 @@ _FUNCTIONS = frozenset(
 )
 _BITS = frozenset({"shift", "mask"})
 
+C_TAILS = _ALWAYS | _FUNCTIONS | _BITS
+"""What every point may have behind its name."""
+
 Tails = dict[str, Claim]
 
 
@@ -38,17 +46,19 @@ def prefix_clashes(subject: Subject) -> Iterator[tuple[Claim, Claim]]:
     """Pairs of things that would get one C identifier."""
     fixed = {one.point.item: one for one in subject.resolved if one.point.generated}
     given = _given(subject, fixed)
+    header = HEADER | set(_of_device(subject))
     for prefix, tails in given.items():
         for tail, claim in tails.items():
-            yield from _meets(f"{prefix}_{tail}", len(prefix), claim, fixed, given)
+            whole = f"{prefix}_{tail}"
+            if whole in header:
+                yield Claim("C", whole.upper(), "what the header needs", None), claim
+            yield from _meets(whole, len(prefix), claim, fixed, given)
 
 
 def _meets(
     whole: str, own: int, claim: Claim, fixed: dict[str, Resolved], given: dict[str, Tails]
 ) -> Iterator[tuple[Claim, Claim]]:
     """Other things whose identifier, split at any underscore, is this one."""
-    if whole in HEADER:
-        yield Claim("C", whole.upper(), "what the header needs", None), claim
     at = whole.find("_")
     while at >= 0:
         prefix, tail = whole[:at], whole[at + 1 :]
@@ -67,24 +77,12 @@ def _has(point: Point, tail: str) -> bool:
 
 
 def _given(subject: Subject, fixed: dict[str, Resolved]) -> dict[str, Tails]:
-    """What authors named, by what stands before it: flags and codes of points, entries of enums, commands, exceptions."""
+    """What authors named, by what stands before it: flags and codes of points, entries of enums, commands."""
     given: dict[str, Tails] = {}
     for item, one in fixed.items():
-        point = one.point
-        for special in point.specials:
-            tails = (
-                (special.name,) if special.low == special.high else (f"{special.name}_first", f"{special.name}_last")
-            )
-            for tail in tails:
-                _add(given, item, tail, f"the code `{special.name}` of `{item}`", one.draft, "special")
-        for flag in point.flags:
-            what = f"the flag `{flag.name}` of `{item}`"
-            more = ("shift", *(value.name for value in flag.values)) if flag.width > 1 else ()
-            for tail in (flag.name, *(f"{flag.name}_{end}" for end in ("mask", *more))):
-                _add(given, item, tail, what, one.draft, "flags")
-        if point.enum is not None:
-            for tail in ("name", *(entry.name for entry in point.enum.entries)):
-                _add(given, point.enum.name, tail, f"`{tail}` of the enum `{point.enum.name}`", one.draft, "enum")
+        for prefix, tail, what, key in _named(item, one.point):
+            claim = Claim("C", f"{prefix}_{tail}".upper(), what, one.draft, key)
+            given.setdefault(prefix, {}).setdefault(tail, claim)
     for raw in subject.scope.listed("commands"):
         for tail in ("address", "value", "request"):
             claim = Claim("C", f"COMMAND_{raw['name']}_{tail}".upper(), f"the command `{raw['name']}`", raw, "name")
@@ -92,6 +90,24 @@ def _given(subject: Subject, fixed: dict[str, Resolved]) -> dict[str, Tails]:
     return given
 
 
-def _add(given: dict[str, Tails], prefix: str, tail: str, what: str, draft: Draft, key: str) -> None:
-    claim = Claim("C", f"{prefix}_{tail}".upper(), what, draft, key)
-    given.setdefault(prefix, {}).setdefault(tail, claim)
+def _of_device(subject: Subject) -> Iterator[str]:
+    """What the header defines for the spaces, exceptions and groups of the device."""
+    yield from (f"space_{space}" for space in subject.scope.family.spaces)
+    yield from (f"exception_{code.name}" for code in subject.bus.exceptions)
+    for group in groups(subject.scope):
+        yield from (f"{group['group']}_blocks", f"{group['group']}_blocks_count")
+
+
+def _named(item: str, point: Point) -> Iterator[tuple[str, str, str, str]]:
+    """Prefix, tail, what it is, and the key under which it stands."""
+    for special in point.specials:
+        ends = ("",) if special.low == special.high else ("_first", "_last")
+        for end in ends:
+            yield item, special.name + end, f"the code `{special.name}` of `{item}`", "special"
+    for flag in point.flags:
+        more = ("_shift", *(f"_{value.name}" for value in flag.values)) if flag.width > 1 else ()
+        for end in ("", "_mask", *more):
+            yield item, flag.name + end, f"the flag `{flag.name}` of `{item}`", "flags"
+    if point.enum is not None:
+        for tail in ("name", *(entry.name for entry in point.enum.entries)):
+            yield point.enum.name, tail, f"`{tail}` of the enum `{point.enum.name}`", "enum"

@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
 from fractions import Fraction
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from fieldscribe import wording
-from fieldscribe.checks.subject import Subject, same
-from fieldscribe.diagnostics import Span
+from fieldscribe.checks.subject import Printed, Subject, same
 from fieldscribe.exact import number_text
 from fieldscribe.language.formula import FormulaError
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.numbers import NumberError, parse_number
-from fieldscribe.model import Allowed, Point
 from fieldscribe.resolve.addresses import WIRE
 from fieldscribe.resolve.bounds import as_text, constant_range
-from fieldscribe.resolve.points import Resolved
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    from fieldscribe.diagnostics import Span
+    from fieldscribe.model import Allowed, Point
+    from fieldscribe.resolve.points import Resolved
 
 _LOW = "low_"
 _NEEDS = {
@@ -54,7 +57,7 @@ def _printed(subject: Subject, resolved: Resolved, printed: Map) -> None:
             _choices(subject, resolved, value, span)
         else:
             numbers = _numbers(subject, resolved) if numbers is None else numbers
-            _number(subject, resolved, key, value, printed, numbers)
+            _number(subject, resolved, key, printed, numbers)
 
 
 def _numbers(subject: Subject, resolved: Resolved) -> Mapping[str, int]:
@@ -69,9 +72,7 @@ def _numbers(subject: Subject, resolved: Resolved) -> Mapping[str, int]:
     return known
 
 
-def _number(
-    subject: Subject, resolved: Resolved, key: str, value: Any, printed: Map, numbers: Mapping[str, int]
-) -> None:
+def _number(subject: Subject, resolved: Resolved, key: str, printed: Map, numbers: Mapping[str, int]) -> None:
     right = numbers.get(key)
     point = resolved.point
     if right is None:
@@ -80,7 +81,7 @@ def _number(
             hint = f"known here: {', '.join((*numbers, *_NEEDS))}"
             subject.report.error("unknown-key", message, printed.key_span(key), hint)
         return
-    for one, span in _each(value, printed.span(key)):
+    for one, span in _each(printed[key], printed.span(key)):
         try:
             given = parse_number(str(one))
         except NumberError as error:
@@ -90,7 +91,7 @@ def _number(
             message = (
                 f"{key.replace('_', ' ')} {one} is printed for `{point.name}`, the address says {right} ({right:04X}h)"
             )
-            subject.disagrees(point.name, key, one, right, span, message)
+            subject.disagrees(Printed(point.name, key, one, right, span, message))
 
 
 def _each(value: Any, span: Span) -> Iterator[tuple[Any, Span]]:
@@ -116,7 +117,8 @@ def _range(subject: Subject, resolved: Resolved, key: str, value: Any, span: Spa
         return
     taken = wording.range_text(point) if in_units else wording.raw_range_text(point)
     message = f"the {key.replace('_', ' ')} {as_text(value)} is printed for `{point.name}`, taken is {taken}"
-    subject.disagrees(point.name, key, value, taken, span, message, lambda said: bool(agrees(said)))
+    right = Printed(point.name, key, value, taken, span, message, lambda said: bool(agrees(said)))
+    subject.disagrees(right)
 
 
 def _units(subject: Subject, resolved: Resolved, value: Any, span: Span) -> None:
@@ -131,7 +133,7 @@ def _units(subject: Subject, resolved: Resolved, value: Any, span: Span) -> None
     if not agrees(value):
         taken = wording.range_text(point)
         message = f"the range {as_text(value)} is printed for `{point.name}`, taken is {taken}"
-        subject.disagrees(point.name, "range_in_units", value, taken, span, message, agrees)
+        subject.disagrees(Printed(point.name, "range_in_units", value, taken, span, message, agrees))
 
 
 def _same_range(taken: Allowed, printed: Allowed) -> bool:
@@ -156,7 +158,7 @@ def _resolution(subject: Subject, resolved: Resolved, value: Any, span: Span) ->
     right = f"{number_text(step)} {point.unit.symbol}".strip()
     if given != step or (unit.strip() and not same(unit, point.unit.symbol)):
         message = f"the resolution {value} is printed for `{point.name}`, the scale says {right}"
-        subject.disagrees(point.name, "resolution", value, right, span, message)
+        subject.disagrees(Printed(point.name, "resolution", value, right, span, message))
 
 
 def _step(point: Point) -> Fraction | None:
@@ -178,4 +180,4 @@ def _choices(subject: Subject, resolved: Resolved, value: int, span: Span) -> No
         right = sum(high - low + 1 for low, high in ends if isinstance(low, int) and isinstance(high, int))
     if value != right:
         message = f"{value} choices are printed for `{point.name}`, taken are {right}"
-        subject.disagrees(point.name, "choices", value, right, span, message)
+        subject.disagrees(Printed(point.name, "choices", value, right, span, message))

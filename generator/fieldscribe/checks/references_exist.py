@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from fieldscribe.checks.subject import Subject
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from fieldscribe.checks.subject import Subject
 
 
 def check(subject: Subject) -> None:
@@ -14,7 +17,7 @@ def check(subject: Subject) -> None:
         keeps = resolved.point.keeps
         if keeps is not None and keeps not in known:
             span = resolved.draft.span("keeps")
-            scope.unknown("unknown-command", "command (nor `yes` or `no`) called", keeps, span, known, "commands")
+            scope.unknown("command", keeps, span, known)
     for raw in scope.listed("commands"):
         busy = raw.get("busy")
         if busy is not None and subject.index.find(busy) is None:

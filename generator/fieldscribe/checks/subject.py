@@ -5,19 +5,42 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from fieldscribe.diagnostics import Report, Span
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.numbers import NumberError, parse_number
-from fieldscribe.model import Allowed, Bus, Command, Frame
-from fieldscribe.resolve.addresses import Places
-from fieldscribe.resolve.allowed import Ranges
-from fieldscribe.resolve.errata import OpenErratum
-from fieldscribe.resolve.frames import OpenFrame
-from fieldscribe.resolve.names import Index
-from fieldscribe.resolve.points import Resolved
-from fieldscribe.resolve.scope import Scope
+
+if TYPE_CHECKING:
+    from fieldscribe.diagnostics import Report, Span
+    from fieldscribe.model import Allowed, Bus, Command, Frame
+    from fieldscribe.resolve.addresses import Places
+    from fieldscribe.resolve.allowed import Ranges
+    from fieldscribe.resolve.errata import OpenErratum
+    from fieldscribe.resolve.frames import OpenFrame
+    from fieldscribe.resolve.names import Index
+    from fieldscribe.resolve.points import Resolved
+    from fieldscribe.resolve.scope import Scope
+
+
+@dataclass(frozen=True, slots=True)
+class Printed:
+    """A printed fact that disagrees: about whom, under which key of `printed`, where, and what to say of it.
+
+    `taken` None means that the right value follows from nothing here and the erratum's word counts; `right` tells
+    whether what an erratum takes is what was taken, where comparing the two as texts would not do.
+    """
+
+    about: str
+    key: str
+    printed: Any
+    taken: Any
+    span: Span
+    message: str
+    right: Callable[[Any], bool] | None = None
+
+    def fits(self, said: Any) -> bool:
+        """Whether what an erratum says was taken is what was taken."""
+        return self.right(said) if self.right is not None else same(said, self.taken)
 
 
 @dataclass(slots=True)
@@ -46,37 +69,23 @@ class Subject:
         """Where findings go."""
         return self.scope.report
 
-    def disagrees(
-        self,
-        about: str,
-        key: str,
-        printed: Any,
-        taken: Any,
-        span: Span,
-        message: str,
-        right: Callable[[Any], bool] | None = None,
-    ) -> None:
-        """A printed fact that disagrees with what was taken: an error, unless an erratum about it says both.
-
-        `taken` None means that the right value follows from nothing here and the erratum's word counts; `right` tells
-        whether what an erratum takes is what was taken, where comparing the two as texts would not do.
-        """
-        for erratum in self.cited.get(about, ()):
-            stated = erratum.printed(key)
-            if stated is None or not same(stated, printed):
+    def disagrees(self, one: Printed) -> None:
+        """A printed fact that disagrees with what was taken: an error, unless an erratum about it says both."""
+        for erratum in self.cited.get(one.about, ()):
+            stated = erratum.printed(one.key)
+            if stated is None or not same(stated, one.printed):
                 continue
-            erratum.used.add(key)
-            said = erratum.raw["taken"].get(key) if isinstance(erratum.raw["taken"], Map) else None
-            if said is None or (taken is not None and not (right(said) if right else same(said, taken))):
-                wrong = f"the erratum takes {_shown(said)} for `{key}`, the facts say {_shown(taken)}"
+            erratum.used.add(one.key)
+            said = erratum.raw["taken"].get(one.key) if isinstance(erratum.raw["taken"], Map) else None
+            if said is None or (one.taken is not None and not one.fits(said)):
+                wrong = f"the erratum takes {_shown(said)} for `{one.key}`, the facts say {_shown(one.taken)}"
                 if said is None:
-                    wrong = f"the erratum does not say what was taken for `{key}`"
-                self.report.error(
-                    "erratum-differs", wrong, erratum.raw.span("taken"), f"write `taken: {{{key}: {_shown(taken)}}}`"
-                )
+                    wrong = f"the erratum does not say what was taken for `{one.key}`"
+                hint = f"write `taken: {{{one.key}: {_shown(one.taken)}}}`"
+                self.report.error("erratum-differs", wrong, erratum.raw.span("taken"), hint)
             return
-        hint = f"correct the fact, or explain it: an erratum with `printed: {{{key}: {_shown(printed)}}}`"
-        self.report.error("printed-disagrees", message, span, hint)
+        hint = f"correct the fact, or explain it: an erratum with `printed: {{{one.key}: {_shown(one.printed)}}}`"
+        self.report.error("printed-disagrees", one.message, one.span, hint)
 
 
 def inside(raw: int, allowed: Allowed) -> bool:
@@ -90,7 +99,7 @@ def inside(raw: int, allowed: Allowed) -> bool:
 
 
 def same(left: Any, right: Any) -> bool:
-    """Whether two printed things are the same: as numbers in any notation, or as text without regard to blanks and case."""
+    """Whether two printed things are the same: as numbers in any notation, or as text but for blanks and case."""
     if isinstance(left, Seq | list | tuple) or isinstance(right, Seq | list | tuple):
         lefts, rights = _listed(left), _listed(right)
         return len(lefts) == len(rights) and all(same(one, other) for one, other in zip(lefts, rights, strict=True))

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from argparse import ArgumentParser, Namespace
 from dataclasses import dataclass, field
+from itertools import groupby
+from operator import itemgetter
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -12,6 +14,7 @@ from fieldscribe.targets import TARGETS
 
 if TYPE_CHECKING:
     from fieldscribe.diagnostics import Report
+    from fieldscribe.output import Changes
 
 HELP = "compile descriptions into C, Python, Rust, documentation and vectors"
 EXAMPLE = """examples:
@@ -34,15 +37,20 @@ def add_arguments(parser: ArgumentParser) -> None:
 class _Result:
     """What became of all devices: relative paths by what happened to them."""
 
-    written: list[str] = field(default_factory=list)
-    removed: list[str] = field(default_factory=list)
-    unchanged: list[str] = field(default_factory=list)
-    stale: list[str] = field(default_factory=list)
+    written: set[str] = field(default_factory=set)
+    removed: set[str] = field(default_factory=set)
+    unchanged: set[str] = field(default_factory=set)
+    stale: set[str] = field(default_factory=set)
 
     @property
     def outputs(self) -> list[str]:
-        """All files that now should be there, each once."""
-        return sorted({*self.written, *self.unchanged, *self.stale} - {*self.removed})
+        """All files that now should be there."""
+        return sorted((self.written | self.unchanged | self.stale) - self.removed)
+
+    @property
+    def left(self) -> int:
+        """How many files were as they should be (a manifest counts as written when one target changed it)."""
+        return len(self.unchanged - self.written - self.stale)
 
 
 def run(arguments: Namespace) -> int:
@@ -63,7 +71,7 @@ def run(arguments: Namespace) -> int:
     plain = not (arguments.depfile or arguments.list_outputs or report.has_errors)
     known = stamp.remembered(arguments.out, digest) if plain else None
     if known is not None:
-        return _say(arguments, _Result(unchanged=known), failed=False)
+        return _say(arguments, _Result(unchanged=set(known)), failed=False)
     result = _Result()
     try:
         _compile(arguments, targets, device_files, report, result)
@@ -78,7 +86,7 @@ def run(arguments: Namespace) -> int:
 
 
 def _compile(arguments: Namespace, targets: tuple[str, ...], device_files: list[Path], report: Report, result: _Result) -> None:
-    from fieldscribe.output import apply, compare
+    from fieldscribe.output import compare
     from fieldscribe.pipeline import DEVICE_FILE, load_device, outputs
     from fieldscribe.diagnostics import Span
     from fieldscribe.language.source import shown
@@ -93,18 +101,24 @@ def _compile(arguments: Namespace, targets: tuple[str, ...], device_files: list[
             report.error("duplicate-device", message, Span(shown(device_file), 1, 1), f"give one {DEVICE_FILE} another `device`")
             continue
         seen[device.id] = device_file
-        files: dict[str, dict[str, bytes]] = {name: {} for name in targets}
-        for name, path, text in outputs(device, targets):
-            files[name][path] = text.encode()
-        changes = compare(arguments.out, device.id, files)
-        result.unchanged += changes.unchanged
-        if arguments.check or arguments.list_outputs:
-            result.stale += changes.stale
-            result.removed += changes.remove
-        else:
-            apply(arguments.out, changes)
-            result.written += changes.write
-            result.removed += changes.remove
+        # one target at a time: the texts of all targets of a large device would take much memory
+        for name, made in groupby(outputs(device, targets), key=itemgetter(0)):
+            files = {path: text.encode() for _, path, text in made}
+            _settle(arguments, result, compare(arguments.out, device.id, {name: files}))
+
+
+def _settle(arguments: Namespace, result: _Result, changes: Changes) -> None:
+    """Write what changed, or note that it is stale."""
+    from fieldscribe.output import apply
+
+    if arguments.check or arguments.list_outputs:
+        result.stale.update(changes.stale)
+        result.removed.update(changes.remove)
+    else:
+        apply(arguments.out, changes)
+        result.written.update(changes.write)
+        result.removed.update(changes.remove)
+    result.unchanged.update(changes.unchanged)
 
 
 def _write_depfile(arguments: Namespace, result: _Result, inputs: list[Path]) -> None:
@@ -124,14 +138,16 @@ def _say(arguments: Namespace, result: _Result, *, failed: bool) -> int:
     if arguments.format == "json":
         import json
 
+        lists = {name: sorted(getattr(result, name)) for name in ("written", "removed", "stale")}
         if not failed:  # else the findings are the one object on stdout
-            print(json.dumps({"out": str(arguments.out), "written": result.written, "removed": result.removed, "stale": result.stale, "unchanged": len(result.unchanged)}))
+            print(json.dumps({"out": str(arguments.out), **lists, "unchanged": result.left}))
     elif arguments.list_outputs:
         print(*(str(arguments.out / path) for path in result.outputs), sep="\n")
     elif arguments.check:
-        for path in result.stale:
+        for path in sorted(result.stale):
             print(f"stale: {arguments.out / path}")
-        print(f"{len(result.stale)} stale, {len(result.unchanged)} current in {arguments.out}")
+        print(f"{len(result.stale)} stale, {result.left} current in {arguments.out}")
     else:
-        print(f"{len(result.written)} written, {len(result.removed)} removed, {len(result.unchanged)} unchanged in {arguments.out}")
+        counts = f"{len(result.written)} written, {len(result.removed)} removed, {result.left} unchanged"
+        print(f"{counts} in {arguments.out}")
     return 1 if failed or (arguments.check and result.stale) else 0

@@ -1,0 +1,1 @@
+"""The source language: text, YAML with places, the schema, numbers and formulas."""

@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
+from typing import TYPE_CHECKING
 
-from fieldscribe.diagnostics import Report
 from fieldscribe.language.hints import nearest
 from fieldscribe.language.load import load
-from fieldscribe.language.nodes import Map
 from fieldscribe.language.shape import check_shape
 from fieldscribe.language.source import read_source
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from fieldscribe.diagnostics import Report
+    from fieldscribe.language.nodes import Map
 
 _UNSAFE_NAMES = frozenset({"con", "prn", "aux", "nul", *(f"{port}{n}" for port in ("com", "lpt") for n in range(10))})
 _NEEDED = ("device", "family", "documents")

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable
 from decimal import Decimal
 from functools import lru_cache
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from fieldscribe.language.nodes import Map, Seq
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Iterable
 
 KEYS_PAGE = "see the key in descriptions/KEYS.md"
 _MOST_COMPARED = 500
@@ -71,19 +73,27 @@ def type_hint(value: Any, accepted: Collection[type], example: Any, pattern: str
     """What to do about a value of the wrong type."""
     if value is None:
         return "fill it in, or leave the key out"
+    said = None
+    if isinstance(value, int | Decimal):
+        said = _about_number(value, accepted, example, pattern)
+    elif isinstance(value, str) and (int in accepted or Decimal in accepted):
+        said = _number_hint(value, Decimal in accepted)
+    elif bool in accepted:
+        said = "write true or false"
+    if said is None and Seq in accepted and not isinstance(value, Map):
+        said = f"write a list: [{value}]" if len(str(value)) < 40 else "write a list: […]"
+    return said or (f"for example {_example(example)}" if example is not None else KEYS_PAGE)
+
+
+def _about_number(value: int | Decimal, accepted: Collection[type], example: Any, pattern: str | None) -> str | None:
+    """What to do about a number, or true or false, where something else belongs."""
     if int in accepted and isinstance(value, Decimal | bool):
         return _whole_hint(value, example)
-    if pattern is not None and not re.search(pattern, str(value)) and not isinstance(value, Map | Seq):
+    if pattern is not None and not re.search(pattern, str(value)):
         return form_hint(str(value), pattern)
-    if str in accepted and isinstance(value, int | Decimal | bool):
+    if str in accepted:
         return f'quote it: "{str(value).lower() if isinstance(value, bool) else value}"'
-    if isinstance(value, str) and (int in accepted or Decimal in accepted):
-        return _number_hint(value, Decimal in accepted)
-    if Seq in accepted and not isinstance(value, Map):
-        return f"write a list: [{value if value is not None else '…'}]" if len(str(value)) < 40 else "write a list: […]"
-    if bool in accepted:
-        return "write true or false"
-    return f"for example {_example(example)}" if example is not None else KEYS_PAGE
+    return None
 
 
 def _whole_hint(value: Decimal | bool, example: Any) -> str:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from fieldscribe.language.shape import schema
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
 
 _TITLES = {
     "device_file": "device.yaml",
@@ -45,7 +47,10 @@ def keys_markdown() -> str:
     """The page, in the order of the schema: one table for each kind of mapping."""
     definitions = schema()["definitions"]
     lines = ["# All keys of the description language", ""]
-    lines += ["Made from `generator/fieldscribe/language/schema.json`; `README.md` beside this page shows them at work.", ""]
+    lines += [
+        "Made from `generator/fieldscribe/language/schema.json`; `README.md` beside this page shows them at work.",
+        "",
+    ]
     for name, title in _TITLES.items():
         lines += [f"## {title}", "", definitions[name]["description"], ""]
         lines += ["| key | type | meaning | example |", "|---|---|---|---|"]

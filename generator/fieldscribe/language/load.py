@@ -1,34 +1,25 @@
 """YAML 1.2 text to plain values that remember where they stand.
 
-Mappings and sequences become `Map` and `Seq`; scalars become int, Decimal, bool, None or str by the YAML 1.2 core rules, so
-that `on`, `NO`, `010` and `12:30` mean what they look like and decimal fractions stay exact. Nothing is constructed from tags.
+Mappings and sequences become `Map` and `Seq`, plain scalars what `scalars.py` makes of them. Nothing is constructed
+from tags, and what aliases and nesting may cost is bounded.
 """
 
 from __future__ import annotations
 
-import re
-from decimal import Decimal
-from typing import Any, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import yaml
 
-from fieldscribe.diagnostics import Report, Span
 from fieldscribe.language.nodes import Map, Seq, Value
-from fieldscribe.language.source import SourceFile
+from fieldscribe.language.scalars import scalar
+
+if TYPE_CHECKING:
+    from fieldscribe.diagnostics import Report, Span
+    from fieldscribe.language.source import SourceFile
 
 MOST_DEPTH = 40
 MOST_NODES = 1_000_000
-MOST_DIGITS = 64
 
-_INTEGER = re.compile(r"[-+]?[0-9]+")
-_RADIX = re.compile(r"0o[0-7]+|0x[0-9a-fA-F]+")
-_FLOAT = re.compile(r"[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-3]?[0-9]{1,2})?")
-_WORDS: dict[str, bool | str | None] = {
-    **dict.fromkeys(("", "~", "null", "Null", "NULL")),
-    **dict.fromkeys(("true", "True", "TRUE"), True),
-    **dict.fromkeys(("false", "False", "FALSE"), False),
-}
-_NUMBER_STARTS = frozenset("-+.0123456789")
 _SYNTAX_HINTS = (
     ("start any token", "tabs cannot indent YAML, and `%`, `@` and a backquote start no plain text: quote it"),
     ("mapping values are not allowed", "quote a text that holds `: `, or look at the indentation"),
@@ -40,15 +31,15 @@ _SYNTAX_HINTS = (
 )
 
 
-class _Refused(Exception):
+class _RefusedError(Exception):
     """The text cannot be read any further; the finding is already reported."""
 
 
 def load(source: SourceFile, report: Report) -> Map | None:
-    """The file's mapping, or None with findings when it cannot be read to its end. Duplicate keys and tags are left out."""
+    """The file's mapping, or None with findings when it cannot be read to its end; duplicate keys are left out."""
     try:
         root = _Builder(source, report).build()
-    except _Refused:
+    except _RefusedError:
         return None
     except yaml.MarkedYAMLError as error:
         _syntax(source, error, report)
@@ -192,24 +183,11 @@ class _Builder:
 
     def _refuse(self, rule: str, message: str, event: Any, hint: str) -> NoReturn:
         self._error(rule, message, event, hint)
-        raise _Refused
+        raise _RefusedError
 
 
 def _place(event: Any) -> tuple[int, int]:
-    """Where a value starts; of a quoted text where its first character stands, so that columns in formulas count from there."""
+    """Where a value starts; of a quoted text where its first character stands: columns in formulas count from there."""
     mark = event.start_mark
     quoted = type(event) is yaml.ScalarEvent and event.style in ("'", '"')
     return mark.line + 1, mark.column + 1 + quoted
-
-
-def scalar(text: str) -> int | Decimal | bool | str | None:
-    """A plain scalar by the rules of the YAML 1.2 core schema; infinities, not-a-numbers and endless numbers stay text."""
-    if text[:1] not in _NUMBER_STARTS:
-        return _WORDS.get(text, text)
-    if _INTEGER.fullmatch(text):
-        return int(text) if len(text) <= MOST_DIGITS else text
-    if _RADIX.fullmatch(text) and len(text) <= MOST_DIGITS:
-        return int(text, 0)
-    if _FLOAT.fullmatch(text) and len(text) <= MOST_DIGITS:
-        return Decimal(text)
-    return text

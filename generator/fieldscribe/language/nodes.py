@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from decimal import Decimal
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from fieldscribe.diagnostics import Span
-from fieldscribe.language.source import SourceFile
+
+if TYPE_CHECKING:
+    from fieldscribe.language.source import SourceFile
 
 Place = tuple[int, int]
 """Line and column, counted from 1."""
@@ -15,8 +17,8 @@ Place = tuple[int, int]
 class Map(dict[str, Any]):
     """A YAML mapping. `at` is where it starts; `key_at` and `value_at` give places by key.
 
-    `broken` are the keys whose values had the wrong shape; they are gone from the mapping. `verdict` is what the check of
-    its shape said, so that a mapping that aliases repeat is checked once.
+    `broken` are the keys whose values had the wrong shape; they are gone from the mapping. `verdict` is what the check
+    of its shape said, so that a mapping that aliases repeat is checked once.
     """
 
     __slots__ = ("at", "broken", "file", "key_at", "value_at", "verdict")

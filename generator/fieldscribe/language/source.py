@@ -39,7 +39,7 @@ def shown(path: Path) -> str:
 
 
 def read_source(path: Path, report: Report) -> SourceFile | None:
-    """The file's text, or None and a finding when it is missing, too large, empty, not UTF-8 or holds control characters."""
+    """The file's text, or None and a finding if it is missing, too large, empty, not UTF-8 or holds control codes."""
     name = shown(path)
     start = Span(name, 1, 1)
     try:

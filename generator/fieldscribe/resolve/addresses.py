@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
 from fractions import Fraction
+from typing import TYPE_CHECKING
 
 from fieldscribe.exact import number_text
 from fieldscribe.language.formula import FormulaError, evaluate, parse_expression
 from fieldscribe.language.formula.syntax import names
 from fieldscribe.language.nodes import Map
 from fieldscribe.model import TYPES, Place
-from fieldscribe.resolve.drafts import Draft
-from fieldscribe.resolve.scope import Scope
 from fieldscribe.resolve.values import formula_finding, formula_value, integer
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from fieldscribe.resolve.drafts import Draft
+    from fieldscribe.resolve.scope import Scope
 
 _FORMULA = re.compile(r"[A-Za-z0-9_)]\s*[-+*/]|\(|\bbase\b")
 

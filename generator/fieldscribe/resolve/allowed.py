@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from fractions import Fraction
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from fieldscribe.diagnostics import Span
 from fieldscribe.exact import number_text
 from fieldscribe.language.formula import Expression, FormulaError, parse_range
 from fieldscribe.model import Allowed, Bound, Enum, Interval, Limit, Linear
 from fieldscribe.resolve.bounds import Bounds, as_text, constant_range, round_half_away
-from fieldscribe.resolve.drafts import Draft
-from fieldscribe.resolve.rules import Unknown
+from fieldscribe.resolve.rules import UnknownError
 from fieldscribe.resolve.values import formula_finding
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from fieldscribe.diagnostics import Span
+    from fieldscribe.resolve.drafts import Draft
 
 _MOST_CODES = 4096
 
@@ -62,7 +65,7 @@ class Ranges:
         except FormulaError as error:
             formula_finding(error, span, self.report)
             return None
-        except Unknown:
+        except UnknownError:
             return None
         checked = [printed or self._checked(draft, low, high, span) for low, high in pairs]
         if not all(checked):
@@ -73,23 +76,19 @@ class Ranges:
 
     def _constant(self, draft: Draft, text: str, span: Span, in_units: bool) -> list[tuple[Bound, Bound]] | None:
         """The ends of a range that names no point and needs none for its scale; None if it does."""
-        found = constant_range(text)
+        found = self.bounds.constant(draft, text, in_units)
         if found is None:
             return None
-        if not in_units:
-            return [(self._whole(low, span), self._whole(high, span)) for low, high in found]
-        rules = [[self.bounds.encoded(draft, Linear(end, Fraction(0), ()), span) for end in ends] for ends in found]
-        if any(rule.factors for ends in rules for rule in ends):
-            return None
-        ends = [tuple(round_half_away(rule.ratio + rule.offset) for rule in pair) for pair in rules]
-        return [(high, low) if self.bounds.falls(draft) else (low, high) for low, high in ends]
+        return [(self._whole(low, span), self._whole(high, span)) for low, high in found]
 
-    def _whole(self, exact: Fraction, span: Span) -> int:
+    def _whole(self, exact: int | Fraction, span: Span) -> int:
         if exact.denominator == 1:
             return exact.numerator
         hint = "a range is in raw numbers; limits in the unit go under `range_in_units`"
-        self.report.error("bad-number", f"the limit {number_text(exact)} is not a whole raw number", span, hint)
-        raise Unknown
+        self.report.error(
+            "bad-number", f"the limit {number_text(Fraction(exact))} is not a whole raw number", span, hint
+        )
+        raise UnknownError
 
     def _bound(self, draft: Draft, end: Expression, text: str, span: Span, in_units: bool) -> Bound:
         rule = self.bounds.limit(draft, end, text, span, in_units)
@@ -118,14 +117,14 @@ class Ranges:
 
     def _limit(self, draft: Draft, rule: Linear, span: Span) -> Limit:
         if not self.bounds.exponents_fit(rule, span):
-            raise Unknown
+            raise UnknownError
         own_least, own_greatest = self.bounds.holds[draft]
         corners = [round_half_away(one) for one in self.bounds.corners(rule)]
         least, greatest = max(own_least, min(corners)), min(own_greatest, max(corners))
         if least > greatest:
             message = f"the limit can only be {min(corners)}..{max(corners)}, outside the type"
             self.report.error("range-outside-type", message, span, "check the factor in the formula")
-            raise Unknown
+            raise UnknownError
         names = dict.fromkeys(factor.point for factor in rule.factors)
         unless = ((name, self._codes(name, span)) for name in names)
         return Limit(rule, tuple((name, codes) for name, codes in unless if codes), least, greatest)
@@ -136,7 +135,7 @@ class Ranges:
         if sum(one.high - one.low + 1 for one in specials) > _MOST_CODES:
             message = f"`{name}` has more than {_MOST_CODES} special codes and cannot limit another point"
             self.report.error("bad-formula", message, span, "write the widest range, or name fewer codes")
-            raise Unknown
+            raise UnknownError
         return tuple(code for one in specials for code in range(one.low, one.high + 1))
 
     def _units(self, draft: Draft) -> tuple[tuple[Fraction, Fraction], ...]:

@@ -1,17 +1,22 @@
-"""What the raw number of a point, or a formula of points, can be at most: the type, the range, and the factors' bounds."""
+"""What the raw number of a point, or a formula of points, can be at most: by type, by range, by the factors' bounds."""
 
 from __future__ import annotations
 
 from fractions import Fraction
 from functools import lru_cache
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from fieldscribe.diagnostics import Span
 from fieldscribe.language.formula import Expression, FormulaError, evaluate, limit_rule, names, parse_range
 from fieldscribe.language.nodes import Seq
 from fieldscribe.model import Factor, Linear, Special
-from fieldscribe.resolve.drafts import Draft
-from fieldscribe.resolve.rules import Scales, Unknown
+from fieldscribe.resolve.rules import Scales, UnknownError
+from fieldscribe.resolve.values import Written
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from fieldscribe.diagnostics import Span
+    from fieldscribe.resolve.drafts import Draft
 
 MOST_EXPONENT = 30
 """The largest exponent of ten that a point may give: 10^30 is beyond any device."""
@@ -42,6 +47,18 @@ def constant_range(text: str) -> tuple[tuple[Fraction, Fraction], ...] | None:
     return tuple((evaluate(low, {}), evaluate(high, {})) for low, high in alternatives)
 
 
+@lru_cache(maxsize=16384)
+def encoded_range(text: str, ratio: tuple[int, int], offset: tuple[int, int]) -> tuple[tuple[int, int], ...] | None:
+    """The same for a range in units under a fixed scale, as raw numbers; ratio and offset as numerator, denominator."""
+    found = constant_range(text)
+    if found is None:
+        return None
+    (up, down), (add, part) = ratio, offset
+    rule = Fraction(up, down), Fraction(add, part)
+    ends = [tuple(round_half_away(end * rule[0] + rule[1]) for end in pair) for pair in found]
+    return tuple((high, low) if up < 0 else (low, high) for low, high in ends)
+
+
 class Bounds:
     """Types, special codes and outer bounds of all points."""
 
@@ -55,7 +72,7 @@ class Bounds:
         self._depth = 0
 
     def hull(self, item: str) -> tuple[int, int]:
-        """The least and greatest raw number that a point can hold, whatever its dependent limits and its variant say."""
+        """The least and greatest raw number that a point can hold, whatever its dependent limits and variant say."""
         index = self.scales.index
         ends = [self.own_hull(one) for one in index.siblings(index.by_item(item))]
         return min(low for low, _ in ends), max(high for _, high in ends)
@@ -114,9 +131,9 @@ class Bounds:
         return True
 
     def encoded(self, draft: Draft, limit: Linear, span: Span) -> Linear:
-        """A limit in units as a limit in raw numbers. Raises Unknown after a finding."""
+        """A limit in units as a limit in raw numbers. Raises UnknownError after a finding."""
         if "scale" in draft.failed:
-            raise Unknown
+            raise UnknownError
         cases = self.scales.cases(draft)
         if cases is None:
             return limit
@@ -125,14 +142,31 @@ class Bounds:
             message = "limits in units need one rule, and no sum of points and numbers"
             hint = "give the limits as raw numbers under `range`"
             self.scales.scope.report.error("bad-formula", message, span, hint)
-            raise Unknown
+            raise UnknownError
         if not limit.factors:
             return Linear((limit.ratio + limit.offset) * scale.ratio, scale.offset, scale.factors)
         return Linear(limit.ratio * scale.ratio, scale.offset, (*limit.factors, *scale.factors))
 
+    def constant(
+        self, draft: Draft, text: str, in_units: bool
+    ) -> Sequence[tuple[int | Fraction, int | Fraction]] | None:
+        """The ends of a range in raw numbers if neither it nor the scale needs a point, else None."""
+        if not in_units:
+            return constant_range(text)
+        if "scale" in draft.failed:
+            raise UnknownError
+        cases = self.scales.cases(draft)
+        if cases is None:
+            return encoded_range(text, (1, 1), (0, 1))
+        rule = cases[0].rule
+        if len(cases) > 1 or rule.factors:
+            return None
+        ratio, offset = rule.ratio, rule.offset
+        return encoded_range(text, (ratio.numerator, ratio.denominator), (offset.numerator, offset.denominator))
+
     def limit(self, draft: Draft, end: Expression, text: str, span: Span, in_units: bool) -> Linear:
-        """The rule of one end of a range, applied to 1 it gives the raw limit. Raises FormulaError or Unknown."""
-        rule = limit_rule(end, lambda name, part: self.scales.affine(draft, name, part, text, span))
+        """The rule of one end of a range, applied to 1 it gives the raw limit. Raises FormulaError or UnknownError."""
+        rule = limit_rule(end, lambda name, part: self.scales.affine(draft, name, part, Written(text, span)))
         return self.encoded(draft, rule, span) if in_units else rule
 
     def falls(self, draft: Draft) -> bool:
@@ -148,15 +182,15 @@ class Bounds:
         text, span = as_text(draft.get(key)), draft.span(key)
         pick = max if end else min
         try:
-            constant = constant_range(text) if key == "range" else None
+            constant = self.constant(draft, text, key != "range")
             if constant is not None:
-                found = [ends[end] for ends in constant]
+                found = [Fraction(ends[end]) for ends in constant]
             else:
                 side = 1 - end if key != "range" and self.falls(draft) else end
                 rules = [
                     self.limit(draft, ends[side], text, span, key != "range") for ends in parse_range(text).alternatives
                 ]
                 found = [corner for rule in rules for corner in self.corners(rule)]
-        except (FormulaError, Unknown):
+        except (FormulaError, UnknownError):
             return self.holds[draft][end]
         return max(least, min(greatest, round_half_away(pick(found))))

@@ -1,17 +1,19 @@
-"""The facts under `bus` and `commands`: what the family's frames need to know of the device."""
+"""The facts under `bus`: what the family's frames need to know of the device."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from fieldscribe.diagnostics import Span
-from fieldscribe.families.modbus import PROTOCOL_MOST, SPACES
+from fieldscribe.families.modbus import BROADCAST, PROTOCOL_MOST
 from fieldscribe.language.nodes import Map, Seq
-from fieldscribe.model import Bus, Code, Command
+from fieldscribe.model import Bus, Code
 from fieldscribe.resolve.drafts import humanised
-from fieldscribe.resolve.scope import Scope, source_of, titles
+from fieldscribe.resolve.scope import Scope, titles
 from fieldscribe.resolve.values import integer, interval
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
 
 NO_BUS = Bus((), (0, 0), None, (), (), {}, None, {}, {}, {})
 _LAST_UNIT = 255
@@ -37,6 +39,7 @@ def bus_of(scope: Scope) -> Bus:
         scope.report.error("address-outside-space", message, raw.span("units"), f"they lie in 0..{_LAST_UNIT}")
     functions = codes(scope, raw.get("functions"), _LAST_FUNCTION)
     _counts(scope, raw, functions)
+    _broadcasts(scope, raw, functions)
     return Bus(
         framings=tuple(raw["framings"]),
         units=units or (0, 0),
@@ -71,8 +74,8 @@ def codes(scope: Scope, raw: Map | None, last: int) -> tuple[Code, ...]:
             message = f"the {what} is given twice"
             scope.report.error(f"duplicate-enum-{rule}", message, span, "remove or rename one of them", first)
         else:
-            most = None if isinstance(value, str) else value.get("max")
-            result[number] = Code(number, name, _code_titles(value, name), most)
+            most, broadcast = (None, None) if isinstance(value, str) else (value.get("max"), value.get("broadcast"))
+            result[number] = Code(number, name, _code_titles(value, name), most, broadcast)
         keys.setdefault(number, key)
         keys.setdefault(name, key)
     return tuple(result.values())
@@ -89,6 +92,16 @@ def _counts(scope: Scope, raw: Map, functions: tuple[Code, ...]) -> None:
             scope.report.error("too-many-items", message, spans[code.name], hint)
 
 
+def _broadcasts(scope: Scope, raw: Map, functions: tuple[Code, ...]) -> None:
+    """No function is said to be broadcast that the protocol always answers."""
+    spans = {value["name"]: value.span("broadcast") for value in raw["functions"].values() if isinstance(value, Map)}
+    for code in functions:
+        if code.broadcast and code.number not in BROADCAST:
+            message = f"function {code.number:02X}h is never broadcast: it is of no use without an answer"
+            shown = ", ".join(f"{one:02X}h" for one in sorted(BROADCAST))
+            scope.report.error("not-broadcast", message, spans[code.name], f"functions that can be: {shown}")
+
+
 def _code_titles(value: Map | str, name: str) -> Mapping[str, str]:
     if isinstance(value, str):
         return {"en": humanised(name)}
@@ -101,10 +114,11 @@ def _gaps(scope: Scope, raw: Map | None) -> dict[str, tuple[tuple[int, int], ...
     known, last = scope.family.spaces, scope.family.last_address
     for space, texts in raw.items() if raw is not None else ():
         if raw is not None and space not in known:
-            scope.unknown("unknown-space", "space", space, raw.key_span(space), known, "gaps")
+            scope.unknown("space", space, raw.key_span(space), known)
             continue
         found = [
-            (interval(str(text), texts.span(index), scope.report), texts.span(index)) for index, text in enumerate(texts)
+            (interval(str(text), texts.span(index), scope.report), texts.span(index))
+            for index, text in enumerate(texts)
         ]
         for one, span in found:
             if one is not None and not 0 <= one[0] <= one[1] <= last:
@@ -120,66 +134,3 @@ def _setting(value: Any) -> dict[str, str]:
     if isinstance(value, Seq):
         return {str(one): str(one) for one in value}
     return {str(value): str(value)}
-
-
-def commands_of(scope: Scope, bus: Bus) -> tuple[Command, ...]:
-    """The named constant writes of all files."""
-    result: dict[str, Command] = {}
-    places: dict[str, Span] = {}
-    for raw in scope.listed("commands"):
-        name = str(raw["name"])
-        if name in result or name in ("no", "yes"):
-            first = [(places[name], "first declared here")] if name in places else []
-            message = f"the command `{name}` is declared twice" if first else f"a command cannot be called `{name}`"
-            hint = "rename one of them" if first else "`keeps` knows yes, no and names of commands"
-            scope.report.error("duplicate-name", message, raw.span("name"), hint, first)
-            continue
-        command = _command(scope, bus, raw)
-        if command is not None:
-            result[name] = command
-            places[name] = raw.span("name")
-    return tuple(result.values())
-
-
-def _command(scope: Scope, bus: Bus, raw: Map) -> Command | None:
-    report = scope.report
-    address = integer(raw["at"], raw.span("at"), report)
-    function = integer(raw["function"], raw.span("function"), report)
-    value = None if raw["value"] == "any" else integer(raw["value"], raw.span("value"), report)
-    space = raw.get("space", "holding")
-    if space not in scope.family.spaces:
-        scope.unknown("unknown-space", "space", space, raw.span("space"), scope.family.spaces, "space")
-        return None
-    if address is None or function is None:
-        return None
-    if not 0 <= address <= scope.family.last_address:
-        message = f"the address {address} lies outside 0..{scope.family.last_address}"
-        report.error("address-outside-space", message, raw.span("at"), "`at` is the number on the wire")
-        return None
-    greatest = 1 if scope.family.spaces[space] == "bit" else 0xFFFF
-    if value is not None and not 0 <= value <= greatest:
-        message = f"the value {value} does not fit into `{space}`"
-        report.error("range-outside-type", message, raw.span("value"), f"0..{greatest} can be written")
-        return None
-    known = [one for one in (SPACES[space].write_one, SPACES[space].write_many) if one is not None]
-    if function not in known:
-        message = f"function {function:02X}h does not write into `{space}`"
-        shown = ", ".join(f"{one:02X}h" for one in known) or "none"
-        report.error("unknown-function", message, raw.span("function"), f"functions that do: {shown}")
-        return None
-    if function not in (code.number for code in bus.functions) and bus is not NO_BUS:
-        message = f"the device has no function {function:02X}h"
-        report.error("unknown-function", message, raw.span("function"), "declare it under `bus`, `functions`")
-        return None
-    return Command(
-        name=str(raw["name"]),
-        title=titles(raw.get("title"), humanised(raw["name"])),
-        note=titles(raw.get("note")),
-        space=space,
-        address=address,
-        function=function,
-        value=value,
-        wears=raw.get("wears"),
-        busy=raw.get("busy"),
-        source=source_of(scope, raw),
-    )

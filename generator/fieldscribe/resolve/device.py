@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterator
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
-from fieldscribe.checks.subject import Subject
 from fieldscribe.families import modbus
 from fieldscribe.model import Block, Device, Enum, Group, Point
 from fieldscribe.resolve.drafts import groups, humanised
 from fieldscribe.resolve.scope import Scope, source_of, titles
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from fieldscribe.checks.subject import Subject
 
 
 def build_device(subject: Subject) -> Device:
@@ -68,7 +72,7 @@ def _blocks(subject: Subject, points: tuple[Point, ...]) -> dict[str, tuple[Bloc
 
 
 def digest(device: Device) -> str:
-    """A checksum of what matters to code: no titles, notes, sources or reasons, so that these never touch vendored code."""
+    """A checksum of what matters to code: no titles, notes, sources or reasons, which never touch vendored code."""
     summed = hashlib.sha256()
     bus = device.bus
     codes = [(code.number, code.name, code.most, code.broadcast) for code in (*bus.functions, *bus.exceptions)]
@@ -97,7 +101,28 @@ def _code_facts(point: Point) -> tuple[object, ...]:
     ]
     specials = [(one.low, one.high, one.name, one.no_value) for one in point.specials]
     return (
-        point.item, point.code, point.group, point.space, point.places, sorted(point.references.items()), point.type, point.bits,
-        point.access, point.unit.symbol, point.scale, point.decimals, point.allowed, point.default, point.steps, enum, flags,
-        specials, point.changes, point.keeps, point.conditions, point.was, point.errata, point.generated,
-    )  # fmt: skip
+        point.item,
+        point.code,
+        point.group,
+        point.space,
+        point.places,
+        sorted(point.references.items()),
+        point.type,
+        point.bits,
+        point.access,
+        point.unit.symbol,
+        point.scale,
+        point.decimals,
+        point.allowed,
+        point.default,
+        point.steps,
+        enum,
+        flags,
+        specials,
+        point.changes,
+        point.keeps,
+        point.conditions,
+        point.was,
+        point.errata,
+        point.generated,
+    )

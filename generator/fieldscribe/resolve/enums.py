@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from fieldscribe.diagnostics import Span
-from fieldscribe.language.nodes import Map
 from fieldscribe.model import Entry, Enum, Flag, Special
 from fieldscribe.resolve.drafts import Draft, humanised
 from fieldscribe.resolve.scope import Scope, titles
 from fieldscribe.resolve.values import integer, interval
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from fieldscribe.diagnostics import Span
+    from fieldscribe.language.nodes import Map
 
 
 def enum_of(scope: Scope, draft: Draft, closed: bool) -> Enum | None:
@@ -21,7 +24,7 @@ def enum_of(scope: Scope, draft: Draft, closed: bool) -> Enum | None:
         return None
     name, entries = (raw, scope.named_enums.get(raw)) if isinstance(raw, str) else (draft.enum_name, raw)
     if entries is None:
-        scope.unknown("unknown-enum", "enum", name, draft.span("enum"), scope.named_enums, "enums")
+        scope.unknown("enum", name, draft.span("enum"), scope.named_enums)
         draft.failed.add("enum")
         return None
     key = (name, id(entries), closed)
@@ -78,15 +81,17 @@ class _Taken:
 
     scope: Scope
     what: str
+    rule: str
     numbers: list[tuple[int, int, Span]] = field(default_factory=list)
     names: dict[str, Span] = field(default_factory=dict)
 
-    def takes(self, low: int, high: int, name: str, key: Span, value: Span, shared: str) -> bool:
-        """Whether the numbers low..high and the name are free; a finding (called `shared`) if not."""
+    def takes(self, band: tuple[int, int], name: str, key: Span, value: Span) -> bool:
+        """Whether the numbers (low, high) and the name are free; a finding if not."""
+        low, high = band
         other = next((span for first, last, span in self.numbers if first <= high and low <= last), None)
         if other is not None:
             message = f"the {self.what} {low if low == high else f'{high}..{low}'} is taken twice"
-            self.scope.report.error(shared, message, key, "remove one of them", [(other, "first taken here")])
+            self.scope.report.error(self.rule, message, key, "remove one of them", [(other, "first taken here")])
             return False
         if name in self.names:
             first = (self.names[name], "first given here")
@@ -103,18 +108,18 @@ def specials_of(scope: Scope, draft: Draft) -> tuple[Special, ...]:
     raw, codes = draft.get("special"), draft.get("no_value")
     if raw is None and codes is None:
         return ()
-    taken = _Taken(scope, "code")
+    taken = _Taken(scope, "code", "duplicate-enum-value")
     result = []
     for key, value in raw.items() if raw is not None else ():
         found = interval(key, raw.key_span(key), scope.report)
         name = _name(value)
-        if found is not None and taken.takes(*found, name, raw.key_span(key), raw.span(key), "duplicate-enum-value"):
+        if found is not None and taken.takes(found, name, raw.key_span(key), raw.span(key)):
             result.append(Special(*found, name, _entry_titles(value, name), False))
     for index, value in enumerate(codes if codes is not None else ()):
         span = codes.span(index)
         number = integer(value, span, scope.report)
         name = "no_value" if index == 0 else f"no_value_{index + 1}"
-        if number is not None and taken.takes(number, number, name, span, span, "duplicate-enum-value"):
+        if number is not None and taken.takes((number, number), name, span, span):
             result.append(Special(number, number, name, {"en": "No value"}, True))
     return tuple(result)
 
@@ -124,7 +129,7 @@ def flags_of(scope: Scope, draft: Draft, width: int) -> tuple[Flag, ...]:
     raw: Map | None = draft.get("flags")
     if raw is None:
         return ()
-    taken = _Taken(scope, "bit")
+    taken = _Taken(scope, "bit", "bits-overlap")
     result = []
     for key, value in raw.items():
         high_text, dots, low_text = key.partition("..")
@@ -137,13 +142,14 @@ def flags_of(scope: Scope, draft: Draft, width: int) -> tuple[Flag, ...]:
             if not draft.failed & {"type", "bits"}:
                 message = f"bit {high} lies outside the {width} bits of the point"
                 scope.report.error("bit-outside-word", message, span, f"bits are numbered {width - 1}..0")
-        elif taken.takes(low, high, name, span, raw.span(key), "bits-overlap"):
-            result.append(_flag(scope, raw, key, low, high - low + 1, name))
+        elif taken.takes((low, high), name, span, raw.span(key)):
+            result.append(_flag(scope, raw, key, low, high - low + 1))
     return tuple(result)
 
 
-def _flag(scope: Scope, raw: Map, key: str, low: int, width: int, name: str) -> Flag:
+def _flag(scope: Scope, raw: Map, key: str, low: int, width: int) -> Flag:
     value: Map | str = raw[key]
+    name = _name(value)
     if isinstance(value, str):
         return Flag(low, width, name, {"en": humanised(name)}, 1, ())
     named = entries_of(scope, value["values"]) if "values" in value else ()

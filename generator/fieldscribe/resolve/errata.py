@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.model import Bus, Erratum
-from fieldscribe.resolve.names import Index
 from fieldscribe.resolve.scope import Scope, source_of
 from fieldscribe.resolve.values import integer
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Iterator
+
+    from fieldscribe.resolve.names import Index
 
 
 @dataclass(slots=True)
@@ -56,9 +59,7 @@ def errata_of(scope: Scope, index: Index, bus: Bus) -> list[OpenErratum]:
             continue
         source = source_of(scope, raw)
         if source.document not in scope.documents:
-            scope.unknown(
-                "unknown-document", "document", source.document, raw.span("document"), scope.documents, "documents"
-            )
+            scope.unknown("document", source.document, raw.span("document"), scope.documents)
         text = Erratum(
             raw["id"],
             points,
@@ -84,16 +85,16 @@ def _points(scope: Scope, index: Index, raw: Map) -> Iterator[str]:
 
 
 def _where(scope: Scope, raw: Map, frames: Collection[str], functions: Collection[int]) -> str | None:
-    """Where it is, if not at a point: `frame:NAME`, `function:NUMBER`, a place in words, or nothing; None after a finding."""
+    """Where it is, if not at a point: `frame:NAME`, `function:NUMBER`, words, or nothing; None after a finding."""
     if "frame" in raw:
         if raw["frame"] not in frames:
-            scope.unknown("unknown-frame", "frame", raw["frame"], raw.span("frame"), frames, "frames")
+            scope.unknown("frame", raw["frame"], raw.span("frame"), frames)
         return f"frame:{raw['frame']}"
     if "function" in raw:
         number = integer(raw["function"], raw.span("function"), scope.report)
         if number is not None and number not in functions:
             word = str(raw["function"])
-            scope.unknown("unknown-function", "function", word, raw.span("function"), (), "bus")
+            scope.unknown("function", word, raw.span("function"), ())
         return f"function:{number}"
     if "where" in raw:
         return str(raw["where"]).replace(":", ",")

@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
-from decimal import Decimal
-from fractions import Fraction
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from fieldscribe.diagnostics import Span
 from fieldscribe.exact import number_text
-from fieldscribe.language.nodes import Map
 from fieldscribe.model import Bus, Frame, Point
 from fieldscribe.resolve.drafts import humanised
-from fieldscribe.resolve.names import Index
 from fieldscribe.resolve.scope import Scope, source_of, titles
 from fieldscribe.resolve.values import number
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from fieldscribe.diagnostics import Span
+    from fieldscribe.language.nodes import Map
+    from fieldscribe.resolve.names import Index
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,7 +43,7 @@ def frames_of(scope: Scope, bus: Bus, index: Index, points: Mapping[str, Point])
         if answers is not None and answers not in result:
             if answers not in seen:
                 hint = "the request stands above its answer"
-                scope.unknown("unknown-frame", "frame", answers, raw.span("answers"), list(result), "frames", hint)
+                scope.unknown("frame", answers, raw.span("answers"), list(result), hint)
             continue
         digits = "".join(str(raw["bytes"]).split())
         if len(digits) % 2 or not digits:
@@ -89,34 +90,44 @@ def _meaning(scope: Scope, raw: Map, index: Index, points: Mapping[str, Point]) 
 
 
 def _raw_of(scope: Scope, point: Point, value: Any, said: Map, word: str) -> int | None:
+    """The raw number that a frame is said to carry: of a name, or of a value in the unit; None after a finding."""
     span = said.span(word)
     if isinstance(value, bool):
         return int(value)
-    if point.info.floating:
-        message = f"`{word}` is a floating-point number"
-        scope.report.error("float-fact", message, span, "leave it out of `says`: frames are held against raw numbers")
+    if isinstance(value, str) and not value[:1].isdigit():
+        found, names = _of_name(point, value)
+        if found is not None or names:
+            if found is None:
+                scope.unknown("entry", value, span, names)
+            return found
+    fault = _not_to_be_compared(point)
+    if fault is not None:
+        scope.report.error("bad-formula", f"`{word}` {fault}", span, "leave it out of `says`: frames hold raw numbers")
         return None
-    if point.enum is not None and isinstance(value, str):
-        named = next((entry.raw for entry in point.enum.entries if entry.name == value), None)
-        if named is not None:
-            return named
-        if not value[:1].isdigit():
-            known = [entry.name for entry in point.enum.entries]
-            scope.unknown("unknown-entry", f"entry of `{word}` called", value, span, known, "enum")
-            return None
-    if point.type == "bit" and value in ("on", "off"):
-        return int(value == "on")
-    exact = Fraction(value) if isinstance(value, int | Decimal) else number(value, span, scope.report)
+    exact = number(value, span, scope.report)
     if exact is None:
         return None
     if point.scale is not None:
-        if len(point.scale) > 1 or point.scale[0].rule.factors:
-            message = f"`{word}` needs other points to be scaled"
-            scope.report.error("bad-formula", message, span, "leave it out of `says`")
-            return None
         exact = exact * point.scale[0].rule.ratio + point.scale[0].rule.offset
     if exact.denominator != 1:
         message = f"`{word}` cannot be {value}: that is raw {number_text(exact)}"
         scope.report.error("bad-number", message, span, "give the value as printed, in the unit of the point")
         return None
     return exact.numerator
+
+
+def _of_name(point: Point, name: str) -> tuple[int | None, list[str]]:
+    """The raw number with that name, and all names that there are."""
+    if point.enum is None:
+        known = {"off": 0, "on": 1} if point.type == "bit" else {}
+    else:
+        known = {entry.name: entry.raw for entry in point.enum.entries}
+    return known.get(name), list(known)
+
+
+def _not_to_be_compared(point: Point) -> str | None:
+    if point.info.floating:
+        return "is a floating-point number"
+    if point.scale is not None and (len(point.scale) > 1 or point.scale[0].rule.factors):
+        return "needs other points to be scaled"
+    return None

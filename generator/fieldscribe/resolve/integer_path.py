@@ -1,12 +1,13 @@
-"""The unit of the integer path: how many decimals a count needs so that no raw number is lost, and whether 64 bits hold it."""
+"""The unit of the integer path: the decimals that a count needs to lose no raw number, and whether 64 bits hold it."""
 
 from __future__ import annotations
 
-from fractions import Fraction
+from typing import TYPE_CHECKING
 
-from fieldscribe.model import Linear, ScaleCase
-from fieldscribe.resolve.bounds import Bounds
-from fieldscribe.resolve.drafts import Draft
+if TYPE_CHECKING:
+    from fieldscribe.model import Linear, ScaleCase
+    from fieldscribe.resolve.bounds import Bounds
+    from fieldscribe.resolve.drafts import Draft
 
 MOST_DECIMALS = 12
 _INT64 = 1 << 62
@@ -15,7 +16,7 @@ _NARROW = "narrow the range of the point or of the points in its scale"
 
 
 def decimals_of(draft: Draft, cases: tuple[ScaleCase, ...] | None, bounds: Bounds) -> int:
-    """The k of the point's counts (10^-k units): the author's, or the smallest at which one raw step is one count at least."""
+    """The k of the point's counts (10^-k units): the author's, or the least at which a raw step is a count at least."""
     said: int | None = draft.get("decimals")
     report = bounds.scales.scope.report
     if cases is None:
@@ -24,20 +25,17 @@ def decimals_of(draft: Draft, cases: tuple[ScaleCase, ...] | None, bounds: Bound
             report.error("integer-path", message, draft.span("decimals"), "leave it out, or give the `scale`")
         return 0
     span = draft.span("decimals" if said is not None else "scale")
-    smallest = min(_least_step(case.rule, bounds) for case in cases)
-    needed = 0
-    while needed < MOST_DECIMALS and smallest * 10**needed < 1:
-        needed += 1
-    if smallest * 10**needed < 1:
+    needed = max(_needed(case.rule, bounds) for case in cases)
+    if needed > MOST_DECIMALS:
         message = f"one raw step can be finer than 10^-{MOST_DECIMALS} units"
         report.error("integer-path", message, span, "give the points in the scale a narrower `range`")
-        return needed
+        return MOST_DECIMALS
     if said is not None and said < needed:
         message = f"with {said} decimals two raw numbers would have one count"
         report.error("integer-path", message, span, f"at least {needed} decimals are needed")
         return needed
     chosen = needed if said is None else said
-    raw = max(map(abs, (*bounds.holds[draft], *bounds.own_hull(draft))))
+    raw = max(map(abs, bounds.holds[draft]))  # every raw number survives where the type is not too wide for that
     if raw >= 1 << 33:
         raw = max(map(abs, bounds.own_hull(draft)))
     for case in cases:
@@ -47,15 +45,21 @@ def decimals_of(draft: Draft, cases: tuple[ScaleCase, ...] | None, bounds: Bound
     return chosen
 
 
-def _least_step(rule: Linear, bounds: Bounds) -> Fraction:
-    if not rule.factors:
-        return abs(1 / rule.ratio)
-    steps = [abs(corner - rule.offset) for corner in bounds.corners(rule)]
-    return 1 / max((step for step in steps if step), default=abs(rule.ratio))
+def _needed(rule: Linear, bounds: Bounds) -> int:
+    """The decimals at which the smallest raw step is one count at least; one more than the most if there are none."""
+    counts, steps = abs(rule.ratio.numerator), rule.ratio.denominator
+    if rule.factors:
+        corners = [abs(corner - rule.offset) for corner in bounds.corners(rule)]
+        largest = max((corner for corner in corners if corner), default=abs(rule.ratio))
+        counts, steps = largest.numerator, largest.denominator
+    needed = 0
+    while needed <= MOST_DECIMALS and steps * 10**needed < counts:
+        needed += 1
+    return needed
 
 
 def _fault(rule: Linear, decimals: int, raw: int, bounds: Bounds) -> tuple[str, str, str] | None:
-    """Rule, message and hint unless every intermediate of both paths is wide enough: 62 bits for integers, 53 for doubles."""
+    """Rule, message and hint unless all intermediates of both paths are wide enough: 62 bits integer, 53 as double."""
     up, down = abs(rule.ratio.numerator), rule.ratio.denominator
     for factor in rule.factors:
         most = max(map(abs, bounds.ends_of(factor)))

@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
-from fieldscribe.diagnostics import Span
 from fieldscribe.model import TYPES, TypeInfo
-from fieldscribe.resolve.drafts import Draft
-from fieldscribe.resolve.scope import Scope
 from fieldscribe.resolve.values import integer
+
+if TYPE_CHECKING:
+    from fieldscribe.diagnostics import Span
+    from fieldscribe.resolve.drafts import Draft
+    from fieldscribe.resolve.scope import Scope
 
 
 @dataclass(slots=True)
 class Index:
-    """Drafts by name (several where variants differ) and by code; a code that several points carry names none of them."""
+    """Drafts by name (several where variants differ) and by code; a code that several points carry names none."""
 
     scope: Scope
     by_name: dict[str, list[Draft]]
@@ -49,11 +52,11 @@ class Index:
             message = f"`{word}` is the code of {len(several)} points"
             self.scope.report.error("unknown-point", message, span, f"name one of them, such as `{several[0].name}`")
             return
-        self.scope.unknown("unknown-point", "point", word, span, [*self.by_name, *self.by_code], "points")
+        self.scope.unknown("point", word, span, [*self.by_name, *self.by_code])
 
 
 def index_of(scope: Scope, drafts: list[Draft]) -> Index:
-    """All drafts by name and code; two points of one name that are not variants are a finding, the second is dropped."""
+    """All drafts by name and code; of two points of one name that are not variants the second is a finding."""
     index = Index(scope, {}, {}, {})
     kept = []
     for draft in drafts:
@@ -86,14 +89,7 @@ def space_of(scope: Scope, draft: Draft) -> str:
     known = scope.family.spaces
     if space in known:
         return space
-    scope.unknown(
-        "unknown-space",
-        f"space of the family {scope.header['family']} called",
-        space,
-        draft.span("space"),
-        known,
-        "space",
-    )
+    scope.unknown("space", space, draft.span("space"), known)
     draft.failed.add("space")
     return next(name for name, holds in known.items() if holds == "word")
 

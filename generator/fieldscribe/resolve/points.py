@@ -4,20 +4,23 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import TYPE_CHECKING
 
 from fieldscribe.language.formula import FormulaError, condition_names, parse_condition
-from fieldscribe.language.nodes import Map
 from fieldscribe.model import TYPES, Enum, Point, ScaleCase, Special, Unit
 from fieldscribe.resolve.addresses import Places
 from fieldscribe.resolve.allowed import Ranges
 from fieldscribe.resolve.bounds import Bounds
-from fieldscribe.resolve.drafts import Draft
 from fieldscribe.resolve.enums import enum_of, flags_of, specials_of
 from fieldscribe.resolve.integer_path import decimals_of
 from fieldscribe.resolve.names import Index, bits_of, space_of, type_of
 from fieldscribe.resolve.rules import Scales
 from fieldscribe.resolve.scope import PLAIN, Scope, source_of, titles
 from fieldscribe.resolve.values import formula_finding, integer, number
+
+if TYPE_CHECKING:
+    from fieldscribe.language.nodes import Map
+    from fieldscribe.resolve.drafts import Draft
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,7 +33,7 @@ class Resolved:
 
 @dataclass(frozen=True, slots=True)
 class Shape:
-    """What is clear about a point before any formula: where it counts, its type, its bits of the word, its special codes."""
+    """What is clear about a point before any formula: where it counts, its type, its bits of the word, its codes."""
 
     space: str
     type: str
@@ -141,7 +144,7 @@ def _unit(scope: Scope, draft: Draft) -> Unit:
     symbol = draft.get("unit")
     found = PLAIN if symbol is None else scope.units.get(symbol)
     if found is None:
-        scope.unknown("unknown-unit", "unit", str(symbol), draft.span("unit"), scope.units, "units")
+        scope.unknown("unit", str(symbol), draft.span("unit"), scope.units)
         draft.failed.add("unit")
     return found or PLAIN
 

@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterator
 from fractions import Fraction
+from typing import TYPE_CHECKING
 
-from fieldscribe.diagnostics import Span
 from fieldscribe.language.formula import Affine, FormulaError, Part, parse_case, parse_scale, scale_rule
-from fieldscribe.language.nodes import Map
 from fieldscribe.model import Linear, ScaleCase
-from fieldscribe.resolve.drafts import Draft
-from fieldscribe.resolve.names import Index
-from fieldscribe.resolve.scope import Scope
-from fieldscribe.resolve.values import formula_finding
+from fieldscribe.resolve.values import Written, formula_finding
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from fieldscribe.diagnostics import Span
+    from fieldscribe.language.nodes import Map
+    from fieldscribe.resolve.drafts import Draft
+    from fieldscribe.resolve.names import Index
+    from fieldscribe.resolve.scope import Scope
 
 IDENTITY = Linear(Fraction(1), Fraction(0), ())
 
@@ -22,7 +25,7 @@ _LONGEST_CHAIN = 100
 """How far a circle of scales is followed; a longer one is refused at each of its points all the same."""
 
 
-class Unknown(Exception):
+class UnknownError(Exception):
     """A formula cannot be used; the finding is already reported."""
 
 
@@ -40,14 +43,13 @@ class Scales:
             self._known[draft] = self._cases(draft)
         return self._known[draft]
 
-    def affine(self, draft: Draft, name: str, part: Part, text: str, span: Span, in_scale: bool = False) -> Affine:
-        """A point's number in a formula of `draft`: raw * slope + intercept. Raises Unknown after a finding."""
+    def affine(self, draft: Draft, name: str, part: Part, formula: Written, *, in_scale: bool = False) -> Affine:
+        """A point's number in a formula of `draft`: raw * slope + intercept. Raises UnknownError after a finding."""
         used = self.index.find(name, draft.variant)
-        found = re.search(rf"\b{re.escape(name)}\b", text)
-        place = span._replace(column=span.column + (found.start() if found else 0), width=len(name))
+        place = formula.of(name)
         if used is None:
             self.index.unknown(name, place)
-            raise Unknown
+            raise UnknownError
         if used.floating:
             self._refuse(
                 place, f"`{name}` is a floating-point number and cannot stand in a formula", "use a whole number"
@@ -58,7 +60,7 @@ class Scales:
             message = f"a scale that needs itself: {' needs '.join(f'`{one}`' for one in chain)}"
             hint = f"use `{name}.raw`, or break the circle"
             self.scope.report.error("scale-cycle", message, place, hint)
-            raise Unknown
+            raise UnknownError
         rule = self._static(used, name, place)
         if len({self.cases(one) for one in self.index.siblings(used)}) > 1 and used.variant != draft.variant:
             self._refuse(
@@ -101,11 +103,14 @@ class Scales:
         return None if rule is None else ScaleCase(chosen.item, constant, rule)
 
     def _rule(self, draft: Draft, text: str, span: Span) -> Linear | None:
+        formula = Written(text, span)
         try:
-            return scale_rule(parse_scale(text), lambda name, part: self.affine(draft, name, part, text, span, True))
+            return scale_rule(
+                parse_scale(text), lambda name, part: self.affine(draft, name, part, formula, in_scale=True)
+            )
         except FormulaError as error:
             formula_finding(error, span, self.scope.report)
-        except Unknown:
+        except UnknownError:
             pass
         draft.failed.add("scale")
         return None
@@ -118,7 +123,7 @@ class Scales:
             hint = f"use `{name}.raw`, or write its rule out here"
             self._refuse(place, f"the value of `{name}` itself depends on another point", hint)
         if "scale" in used.failed:
-            raise Unknown
+            raise UnknownError
         return IDENTITY if cases is None else cases[0].rule
 
     def _circle(self, draft: Draft, used: Draft) -> list[str]:
@@ -155,4 +160,4 @@ class Scales:
 
     def _refuse(self, place: Span, message: str, hint: str) -> None:
         self.scope.report.error("bad-formula", message, place, hint)
-        raise Unknown
+        raise UnknownError

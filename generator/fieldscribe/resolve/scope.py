@@ -2,22 +2,43 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from fieldscribe.diagnostics import Report, Span
 from fieldscribe.families import FAMILIES, Family
-from fieldscribe.language.files import Files
 from fieldscribe.language.hints import nearest, quoted
 from fieldscribe.language.load import load
 from fieldscribe.language.nodes import Map
 from fieldscribe.language.source import SourceFile
 from fieldscribe.model import Document, Enum, Source, Titles, Unit
 
+if TYPE_CHECKING:
+    from collections.abc import Collection, Iterator, Mapping
+
+    from fieldscribe.language.files import Files
+
 PLAIN = Unit("", "number", "number")
 """The unit of a number without one."""
+
+SECTIONS = {
+    "command": "commands",
+    "document": "documents",
+    "entry": "enum",
+    "enum": "enums",
+    "format": "formats",
+    "frame": "frames",
+    "function": "bus",
+    "member": "points",
+    "point": "points",
+    "record": "records",
+    "space": "space",
+    "unit": "units",
+    "variant": "variants",
+}
+"""What a word can name, and under which key that is declared."""
 
 
 @dataclass(slots=True)
@@ -78,20 +99,20 @@ class Scope:
             yield from file.get(section, ())
 
     def is_lost(self, word: str, section: str) -> bool:
-        """Whether a word that nothing is named may be the name of something that was dropped with a finding of its own."""
+        """Whether a word may be the name of something that was dropped with a finding of its own."""
         marks = {word, f"*{section}"}
         return not self.complete or any(marks & file.file.lost for file in self.files)
 
-    def unknown(
-        self, rule: str, what: str, word: str, span: Span, known: Collection[str], section: str, hint: str | None = None
-    ) -> None:
-        """A finding for a word that names nothing: what it should name, where it stands, what there is."""
+    def unknown(self, what: str, word: str, span: Span, known: Collection[str], hint: str | None = None) -> None:
+        """A finding for a word that names nothing: what it should name (a key of `SECTIONS`), and what there is."""
+        section = SECTIONS[what]
         if self.report.full or self.is_lost(word, section):
             return
         if hint is None:
             near = nearest(word, tuple(known))
             hint = f"did you mean `{near}`?" if near else _known(known, section)
-        self.report.error(rule, f"there is no {what} {quoted(word)}", span._replace(width=max(1, len(word))), hint)
+        message = f"there is no {what} {quoted(word)}"
+        self.report.error(f"unknown-{what}", message, span._replace(width=max(1, len(word))), hint)
 
 
 def _known(known: Collection[str], section: str) -> str:

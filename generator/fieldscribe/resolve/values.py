@@ -2,14 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import re
 from decimal import Decimal
 from fractions import Fraction
-from typing import Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from fieldscribe.diagnostics import Report, Span
 from fieldscribe.language.formula import FormulaError, evaluate, parse_expression
 from fieldscribe.language.numbers import NumberError, parse_integer, parse_number
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from fieldscribe.diagnostics import Report, Span
+
+
+class Written(NamedTuple):
+    """A formula as it stands in a file."""
+
+    text: str
+    span: Span
+
+    def of(self, name: str) -> Span:
+        """Where a name stands in it first."""
+        found = re.search(rf"\b{re.escape(name)}\b", self.text)
+        return self.span._replace(column=self.span.column + (found.start() if found else 0), width=len(name))
 
 
 def number(value: Any, span: Span, report: Report) -> Fraction | None:

@@ -16,9 +16,10 @@
 
 enum {
     FIELDSCRIBE_LINE_MOST = 32768,
-    FIELDSCRIBE_TEXT_MOST = 160,
+    FIELDSCRIBE_TEXT_MOST = 256,
     FIELDSCRIBE_WITH_MOST = 16,
     FIELDSCRIBE_VALUES_MOST = 2048,
+    FIELDSCRIBE_CONSTANTS_MOST = 32,
     FIELDSCRIBE_SHOWN_FAILURES = 20
 };
 
@@ -31,6 +32,7 @@ typedef enum fieldscribe_kind {
     FIELDSCRIBE_KIND_NAME,
     FIELDSCRIBE_KIND_SPECIAL,
     FIELDSCRIBE_KIND_FLAG,
+    FIELDSCRIBE_KIND_FLAG_NAME,
     FIELDSCRIBE_KIND_BITS,
     FIELDSCRIBE_KIND_WORDS,
     FIELDSCRIBE_KIND_ADDRESS,
@@ -43,7 +45,7 @@ typedef enum fieldscribe_kind {
 } fieldscribe_kind;
 
 static const char *const fieldscribe_kind_names[FIELDSCRIBE_KINDS] = {"decode", "encode", "decode_count", "encode_count",
-    "check", "name", "special", "flag", "bits", "words", "address", "build", "reply", "printed_build", "printed_reply",
+    "check", "name", "special", "flag", "flag_name", "bits", "words", "address", "build", "reply", "printed_build", "printed_reply",
     "block"};
 
 /* An integer of any width and sign: its two's complement pattern in 64 bits, and whether it was written with a minus. */
@@ -66,6 +68,13 @@ typedef struct fieldscribe_vector {
     fieldscribe_number with[FIELDSCRIBE_WITH_MOST];
 } fieldscribe_vector;
 
+/* A constant of a point beside its address: a number, or a text. */
+typedef struct fieldscribe_constant {
+    const char *key;
+    uint64_t number;
+    const char *text;
+} fieldscribe_constant;
+
 /* What the generated code answered; `answered` stays false when it has no function for that. */
 typedef struct fieldscribe_outcome {
     bool answered;
@@ -75,9 +84,11 @@ typedef struct fieldscribe_outcome {
     uint64_t number; /* a count, a flag's number, the result of an insertion, the low end of a special, an address */
     uint64_t other; /* the high end of a special, the number of words, a space */
     double value;
-    const char *text;
+    const char *text; /* a name, a code */
     uint16_t words[8];
     size_t word_count;
+    fieldscribe_constant constants[FIELDSCRIBE_CONSTANTS_MOST];
+    size_t constant_count;
 } fieldscribe_outcome;
 
 typedef struct fieldscribe_status_name {
@@ -162,10 +173,7 @@ typedef struct fieldscribe_suite {
 #define FIELDSCRIBE_ENCODE(function, real_type, raw_type, with)
 #define FIELDSCRIBE_DECODE(function, real_type, raw_type, with)
 #define FIELDSCRIBE_TRY_DECODE(function, real_type, raw_type, with)
-#define FIELDSCRIBE_CHECK_FLOAT(function, raw_type)
 #else
-#define FIELDSCRIBE_CHECK_FLOAT(function, raw_type) FIELDSCRIBE_CHECK(function, raw_type, FIELDSCRIBE_ALONE)
-
 #define FIELDSCRIBE_ENCODE(function, real_type, raw_type, with)                              \
     case FIELDSCRIBE_KIND_ENCODE: {                                                          \
         raw_type raw = (raw_type)1;                                                          \
@@ -223,18 +231,34 @@ typedef struct fieldscribe_suite {
         out->answered = true;                                            \
         break;
 
-#define FIELDSCRIBE_ADDRESS(macro)                       \
+#define FIELDSCRIBE_ADDRESS(macro, others)               \
     case FIELDSCRIBE_KIND_ADDRESS:                       \
         out->number = macro##_ADDRESS;                   \
         out->other = macro##_WORDS;                      \
         out->word_count = (size_t)macro##_SPACE;         \
+        others                                           \
         out->answered = true;                            \
         break;
+
+/* What stands beside an address, as far as the point has it. */
+#define FIELDSCRIBE_CODE(macro) out->text = macro##_CODE;
+#define FIELDSCRIBE_RAWS(macro)                                                  \
+    fieldscribe_keep(out, "raw_min", (uint64_t)(macro##_RAW_MIN), NULL);         \
+    fieldscribe_keep(out, "raw_max", (uint64_t)(macro##_RAW_MAX), NULL);
+#define FIELDSCRIBE_DECIMALS(macro) fieldscribe_keep(out, "decimals", (uint64_t)(macro##_DECIMALS), NULL);
+#define FIELDSCRIBE_REFERENCE(macro, name, key) fieldscribe_keep(out, key, (uint64_t)(macro##_##name), NULL);
+#define FIELDSCRIBE_REFERENCE_TEXT(macro, name, key) fieldscribe_keep(out, key, 0U, macro##_##name);
 
 #define FIELDSCRIBE_FLAG(flag, bits)              \
     if (strcmp(v->name, flag) == 0) {             \
         out->number = (uint64_t)(bits);           \
         out->answered = true;                     \
+    }
+
+#define FIELDSCRIBE_FLAG_NAME(flag, value, constant)                                                           \
+    if (strcmp(v->name, flag) == 0 && fieldscribe_same_text(fieldscribe_member(v->line, "name"), value)) {     \
+        out->raw = (uint64_t)(constant);                                                                       \
+        out->answered = true;                                                                                  \
     }
 
 #define FIELDSCRIBE_SPECIAL(special, first, last) \
@@ -243,6 +267,17 @@ typedef struct fieldscribe_suite {
         out->other = (uint64_t)(last);            \
         out->answered = true;                     \
     }
+
+/* One more constant; more than there is room for agree with no line. */
+static inline void fieldscribe_keep(fieldscribe_outcome *out, const char *key, uint64_t number, const char *text)
+{
+    if (out->constant_count < (size_t)FIELDSCRIBE_CONSTANTS_MOST) {
+        out->constants[out->constant_count].key = key;
+        out->constants[out->constant_count].number = number;
+        out->constants[out->constant_count].text = text;
+    }
+    ++out->constant_count;
+}
 
 /* ---- Reading a line ---- */
 
@@ -306,7 +341,28 @@ static const char *fieldscribe_member(const char *object, const char *key)
     }
 }
 
-/* Copies a string value; an absent or too long one is empty. Vectors escape nothing in names, statuses and bytes. */
+/* How many keys the object that starts at `object` has. */
+static size_t fieldscribe_keys(const char *object)
+{
+    size_t count = 0U;
+    const char *at = object + 1;
+    for (;;) {
+        while (*at == ' ' || *at == ',') {
+            ++at;
+        }
+        if (*at != '"') {
+            return count;
+        }
+        ++count;
+        at = fieldscribe_skip_string(at);
+        while (*at == ' ' || *at == ':') {
+            ++at;
+        }
+        at = fieldscribe_skip_value(at);
+    }
+}
+
+/* Copies a string value; an absent or too long one is empty. Of escapes vectors have only those of \" and \\. */
 static void fieldscribe_text(const char *value, char *text, size_t size)
 {
     size_t length = 0U;
@@ -315,13 +371,19 @@ static void fieldscribe_text(const char *value, char *text, size_t size)
         return;
     }
     ++value;
-    while (value[length] != '\0' && value[length] != '"') {
+    while (*value != '\0' && *value != '"') {
+        if (*value == '\\' && value[1] != '\0') {
+            ++value;
+        }
+        if (length + 1U == size) {
+            text[0] = '\0';
+            return;
+        }
+        text[length] = *value;
         ++length;
+        ++value;
     }
-    if (length < size) {
-        memcpy(text, value, length);
-        text[length] = '\0';
-    }
+    text[length] = '\0';
 }
 
 static fieldscribe_number fieldscribe_integer(const char *value)
@@ -423,6 +485,25 @@ static void fieldscribe_read_vector(const char *line, const fieldscribe_adapter 
     }
 }
 
+/* Whether the constants of a point are those that the line gives, and no more. */
+static bool fieldscribe_same_constants(const char *line, const fieldscribe_outcome *out)
+{
+    static const size_t others = 6U; /* kind, point, space, address, words, code */
+    size_t at;
+    if (out->constant_count > (size_t)FIELDSCRIBE_CONSTANTS_MOST || fieldscribe_keys(line) != others + out->constant_count) {
+        return false;
+    }
+    for (at = 0U; at < out->constant_count; ++at) {
+        const fieldscribe_constant *const one = &out->constants[at];
+        const bool same = one->text != NULL ? fieldscribe_same_text(fieldscribe_member(line, one->key), one->text)
+                                            : fieldscribe_same_integer(line, one->key, one->number);
+        if (!same) {
+            return false;
+        }
+    }
+    return fieldscribe_same_text(fieldscribe_member(line, "code"), out->text);
+}
+
 /* Whether the answer is the one that the line gives. */
 static bool fieldscribe_agrees(const fieldscribe_suite *suite, const fieldscribe_vector *v, const fieldscribe_outcome *out)
 {
@@ -451,6 +532,8 @@ static bool fieldscribe_agrees(const fieldscribe_suite *suite, const fieldscribe
         return fieldscribe_same_integer(line, "low", out->number) && fieldscribe_same_integer(line, "high", out->other);
     case FIELDSCRIBE_KIND_FLAG:
         return fieldscribe_same_integer(line, "number", out->number);
+    case FIELDSCRIBE_KIND_FLAG_NAME:
+        return fieldscribe_same_integer(line, "raw", out->raw);
     case FIELDSCRIBE_KIND_BITS:
         return fieldscribe_same_integer(line, "raw", out->raw) && fieldscribe_same_integer(line, "result", out->number);
     case FIELDSCRIBE_KIND_WORDS:
@@ -459,7 +542,8 @@ static bool fieldscribe_agrees(const fieldscribe_suite *suite, const fieldscribe
     case FIELDSCRIBE_KIND_ADDRESS:
         return fieldscribe_same_integer(line, "address", out->number) &&
             fieldscribe_same_integer(line, "words", out->other) &&
-            fieldscribe_same_text(fieldscribe_member(line, "space"), suite->spaces[out->word_count]);
+            fieldscribe_same_text(fieldscribe_member(line, "space"), suite->spaces[out->word_count]) &&
+            fieldscribe_same_constants(line, out);
     default:
         return false;
     }

@@ -50,6 +50,8 @@ pub trait Point {
     const ADDRESS: u16;
     /// How many words, or bits of a bit space, the point takes.
     const WORDS: u16 = 1;
+    /// How many decimals counts have: they are in units of `10^-DECIMALS`.
+    const DECIMALS: u32 = 0;
     /// The symbol of the value's unit; empty for a plain number.
     const UNIT: &'static str = "";
     /// The least raw number that the manual allows.

@@ -25,7 +25,7 @@ pub trait Raw: Copy + PartialOrd + sealed::Sealed {
     fn to_i64(self) -> i64;
 }
 
-/// One byte lies in the low half of its word.
+/// One byte lies in the low half of its word; a negative one fills the high half with its sign.
 macro_rules! byte {
     ($type:ty) => {
         impl sealed::Sealed for $type {}
@@ -36,8 +36,7 @@ macro_rules! byte {
             const MAX: Self = <$type>::MAX;
 
             fn into_words(self) -> [u16; 1] {
-                let [low] = self.to_be_bytes();
-                [u16::from(low)]
+                [u16::from_be_bytes(i16::from(self).to_be_bytes())]
             }
 
             #[inline]

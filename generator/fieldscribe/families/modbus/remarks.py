@@ -13,6 +13,7 @@ from fieldscribe.text import line
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
+    from fieldscribe.families.modbus.functions import Profile
     from fieldscribe.families.modbus.requests import Request
     from fieldscribe.model import Device
 
@@ -92,17 +93,21 @@ def request_notes(device: Device, book: AddressBook, request: Request) -> Iterat
     elif request.count > most:
         yield f"the device takes at most {most} of them in one request"
     if request.unit == profile.broadcast:
-        yield (
-            "broadcast: no unit answers"
-            if request.function in BROADCAST
-            else "broadcast: only writes may be sent to all units"
-        )
+        yield _broadcast_note(request.function, profile)
     elif not low <= request.unit <= high:
         yield f"the device cannot have unit {request.unit}: units are {low} to {high}"
     if request.address + request.count > 0x10000:
         yield "it reaches beyond the last address"
     if request.function != 0x08:
         yield from _off_by_one(book, area_of(request))
+
+
+def _broadcast_note(function: int, profile: Profile) -> str:
+    if function not in BROADCAST:
+        return "broadcast: only writes may be sent to all units"
+    if function not in profile.broadcasts:
+        return f"broadcast: the device does not take function {hex_text(function, 2)} so"
+    return "broadcast: no unit answers"
 
 
 def manual_notes(device: Device, data: bytes) -> Iterator[str]:

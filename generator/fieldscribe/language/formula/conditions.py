@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
-from fractions import Fraction
 from functools import lru_cache
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 from fieldscribe.language.formula.errors import FormulaError
 from fieldscribe.language.formula.parser import VARIABLES, Parser
 from fieldscribe.language.formula.syntax import Name
 from fieldscribe.language.formula.tokens import number
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+    from fractions import Fraction
 
 _COMPARISONS = ("==", "!=", "<", "<=", ">", ">=")
 _NO_ARITHMETIC = "a condition compares a name with constants: P1 == 2, P1 in (1, 2), P1 >= 3 and not P2 == 0"

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from fractions import Fraction
+from typing import TYPE_CHECKING
 
 from fieldscribe.language.formula.errors import FormulaError
 from fieldscribe.language.formula.syntax import Binary, Expression, Name, Negate, Number, Power10
 from fieldscribe.language.numbers import MOST_EXPONENT
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
 
 MOST_BITS = 4096
 """The widest numerator or denominator of a result: what is larger has no place in a device, and cannot be printed."""

@@ -125,6 +125,7 @@ class Parser:
                 self.refuse("`)`", self._hint_for_rest())
             return inside
         self.refuse("a number or a name", "an interval is written low..high" if self.sees("..") else "")
+        return None
 
     def name(self) -> Name:
         """A name with its part."""

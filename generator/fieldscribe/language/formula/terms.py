@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from math import gcd, lcm
-from typing import NamedTuple, NoReturn
+from typing import TYPE_CHECKING, NamedTuple, NoReturn
 
 from fieldscribe.language.formula.errors import FormulaError
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
 
 SHAPE = "supported is number * product of points + number, where a factor may be (number * point + number)"
 LINEAR_ONLY = "only a rule that is linear in the variable can be inverted"

@@ -7,11 +7,13 @@ A word that begins with a digit is a number (`12h` is 18) or an error. One that 
 from __future__ import annotations
 
 import re
-from fractions import Fraction
-from typing import Literal, NamedTuple, NoReturn
+from typing import TYPE_CHECKING, Literal, NamedTuple, NoReturn
 
 from fieldscribe.language.formula.errors import FormulaError
 from fieldscribe.language.numbers import NumberError, parse_number, shown
+
+if TYPE_CHECKING:
+    from fractions import Fraction
 
 LONGEST = 2000
 """The most characters that a formula may have."""

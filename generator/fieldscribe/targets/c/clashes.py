@@ -41,6 +41,8 @@ _HELPERS = (
     "f64_of_bits",
     "bits_of_f64",
     "is_nan",
+    "f32_order",
+    "f64_order",
     "raw_from_value",
     "value_from_raw",
     "modbus_functions",

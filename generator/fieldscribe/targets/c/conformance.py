@@ -17,12 +17,13 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class AdapterView:
-    """One point: `cases` are the macros that answer a kind; flags and specials are answered by name."""
+    """One point: `cases` are the macros that answer a kind; flags, names of their numbers and specials go by name."""
 
     item: str
     arguments: tuple[str, ...]
     cases: tuple[str, ...]
     flags: tuple[tuple[str, str], ...]
+    flag_names: tuple[tuple[str, str, str], ...]
     specials: tuple[tuple[str, str, str], ...]
 
 
@@ -61,8 +62,8 @@ def conformance_view(device: Device, view: DeviceView, scope: Scope) -> SuiteVie
 
 def _adapter(point: Point, view: PointView, scope: Scope) -> AdapterView:
     function, kind = view.function, view.raw_type
-    cases = [f"ADDRESS({view.macro})"] if point.address is not None else []
-    if view.writable and view.shape != "float":
+    cases = [f"ADDRESS({view.macro}, {_constants(point, view)})"] if point.address is not None else []
+    if view.writable:
         cases.append(f"CHECK({function}_check, {kind}, {_with(point, view.limit_arguments, scope)})")
     cases += _conversions(point, view, scope)
     if point.enum is not None:
@@ -78,8 +79,27 @@ def _adapter(point: Point, view: PointView, scope: Scope) -> AdapterView:
         point.arguments if view.declare_all else (),
         tuple(f"FIELDSCRIBE_{case}" for case in cases),
         tuple((flag.name, _flag(point, view, flag.name, flag.width)) for flag in point.flags),
+        tuple(
+            (flag.name, entry.name, f"{view.macro}_{upper(flag.name)}_{upper(entry.name)}")
+            for flag in point.flags
+            if flag.width > 1
+            for entry in flag.values
+        ),
         tuple(_special(special, view) for special in point.specials),
     )
+
+
+def _constants(point: Point, view: PointView) -> str:
+    """The macros that answer with what stands beside the address."""
+    calls = [f"CODE({view.macro})"] if point.code is not None else []
+    if view.shape != "float":
+        calls.append(f"RAWS({view.macro})")
+    if point.form == "scaled":
+        calls.append(f"DECIMALS({view.macro})")
+    for key, number in point.references.items():
+        kind = "REFERENCE_TEXT" if isinstance(number, str) else "REFERENCE"
+        calls.append(f'{kind}({view.macro}, {upper(key)}, "{key}")')
+    return " ".join(f"FIELDSCRIBE_{call}" for call in calls)
 
 
 def _special(special: Special, view: PointView) -> tuple[str, str, str]:
@@ -109,8 +129,6 @@ def _conversions(point: Point, view: PointView, scope: Scope) -> list[str]:
             cases.append(f"ENCODE({function}_encode, {real}, {kind}, {everything})")
         if view.readable:
             cases.append(f"{attempt}DECODE({function}_decode, {real}, {kind}, {scale})")
-        if view.writable and form == "float":
-            cases.append(f"CHECK_FLOAT({function}_check, {kind})")
     return cases
 
 

@@ -104,6 +104,8 @@ def _needs(used: set[str]) -> Needs:
         round_wide=rules or "round_wide" in used,
         f32="f32" in used,
         f64="f64" in used,
+        f32_order="f32_order" in used,
+        f64_order="f64_order" in used,
         rules=rules,
         floats=bool(used & _FLOATS),
     )

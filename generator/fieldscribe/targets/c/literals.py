@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import struct
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
@@ -78,6 +79,16 @@ def unsigned(number: int) -> str:
 def hexadecimal(number: int, digits: int = 4) -> str:
     """An address or mask as an unsigned constant: `0x1028U`."""
     return f"0x{number:0{digits}X}U" if number < 1 << 32 else f"UINT64_C(0x{number:0{digits}X})"
+
+
+def float_order(value: float, bits: int) -> int:
+    """Where the binary32 or binary64 nearest to a value stands in the order of the patterns; 0 is 0, also for -0."""
+    pattern, word, infinity = ("<f", "<i", 0x7F80_0000) if bits == 32 else ("<d", "<q", 0x7FF0 << 48)
+    try:
+        size: int = struct.unpack(word, struct.pack(pattern, abs(value)))[0]
+    except OverflowError:
+        size = infinity
+    return -min(size, infinity - 1) if value < 0 else min(size, infinity - 1)
 
 
 def real(number: Fraction) -> str:

@@ -17,6 +17,9 @@ if TYPE_CHECKING:
 _MOST = {1: 2000, 2: 2000, 3: 125, 4: 125, 5: 1, 6: 1, 8: 1, 15: 1968, 16: 123}
 """The functions that the frames know, with the protocol's own limits."""
 
+_BROADCAST = (5, 6, 15, 16)
+"""The functions that may be sent to all units, unless the manual says otherwise."""
+
 _READS = {"coil": 1, "discrete": 2, "holding": 3, "input": 4}
 
 
@@ -61,7 +64,7 @@ class BusView:
     """The Modbus header of a device."""
 
     guard: str
-    functions: tuple[tuple[str, str, str], ...]
+    functions: tuple[tuple[str, str, str, str], ...]
     units: tuple[int, int]
     broadcast: str
     pads: str
@@ -78,6 +81,7 @@ def modbus_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
         (
             hexadecimal(code.number, 2),
             f"{min(code.most or _MOST[code.number], _MOST[code.number])}U",
+            "true" if code.number in _BROADCAST and code.broadcast is not False else "false",
             c_comment(code.name),
         )
         for code in bus.functions

@@ -11,11 +11,11 @@ from fieldscribe.targets.c.limits import any_of, check_view, interval_test
 from fieldscribe.targets.c.literals import (
     VALUE_BOUNDS,
     bare,
+    float_order,
     hexadecimal,
     outer_limits,
     raw_bounds,
     raw_type,
-    real,
     signed,
     unsigned,
 )
@@ -141,13 +141,18 @@ def _codec(
 def _float_view(point: Point, scope: Scope) -> FloatView:
     bits = point.info.bits
     scope.used.add(f"f{bits}")
-    units = point.allowed.units
-    kind = scope.helper("real") if bits == 32 else "double"
-    tests = []
-    for low, high in units:
-        tests.append(f"value < ({kind}){real(low)} || value > ({kind}){real(high)}")
-    outside = tests[0] if len(tests) == 1 else " && ".join(f"({test})" for test in tests)
-    return FloatView(kind, bits, outside)
+    if point.writable:
+        scope.used.add(f"f{bits}_order")
+    infinity = 0x7F80_0000 if bits == 32 else 0x7FF0 << 48
+    spans = [(float_order(float(low), bits), float_order(float(high), bits)) for low, high in point.allowed.units]
+    tests = [f"order >= {bare(low)} && order <= {bare(high)}" for low, high in spans or [(1 - infinity, infinity - 1)]]
+    return FloatView(
+        real=scope.helper("real") if bits == 32 else "double",
+        bits=bits,
+        order_type=f"int{bits}_t",
+        nan=f"order < {bare(-infinity)} || order > {bare(infinity)}",
+        inside=any_of(tests),
+    )
 
 
 def _defines(point: Point, macro: str, scope: Scope, low: int, high: int) -> list[Define]:
@@ -163,7 +168,7 @@ def _defines(point: Point, macro: str, scope: Scope, low: int, high: int) -> lis
     if point.code is not None:
         defines.append((f"{macro}_CODE", c_string(point.code)))
     for key, number in point.references.items():
-        literal = c_string(number) if isinstance(number, str) else unsigned(number)
+        literal = c_string(number) if isinstance(number, str) else (unsigned if number >= 0 else signed)(number)
         defines.append((f"{macro}_{upper(key)}", literal))
     defines.append((f"{macro}_WORDS", f"{point.words}U"))
     if not point.info.floating:

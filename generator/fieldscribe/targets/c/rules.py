@@ -61,7 +61,7 @@ def _rule(rule: Linear, scope: Scope, test: str = "", *, of_limit: bool = False)
         number = _number(factor, "int64_t")
         if factor.ten_to:
             exponent = f"-{number}" if factor.power < 0 else number
-            tens.append(Step("ten", "rule", exponent, False, "" if of_limit else _beyond(factor, scope)))
+            tens.append(Step("ten", "rule", exponent, False, _beyond(factor, scope)))
             continue
         ends[factor.power] *= _reach_of(factor, scope)
         kind = "plain" if ends[factor.power] <= INT64[1] else "checked"

@@ -107,11 +107,16 @@ class RuledView:
 
 @dataclass(frozen=True, slots=True)
 class FloatView:
-    """The raw number is the bit pattern of a floating-point number."""
+    """The raw number is the bit pattern of a floating-point number.
+
+    `nan` and `inside` are tests of `order`, an integer of `order_type` that orders patterns as the numbers are ordered.
+    """
 
     real: str
     bits: int
-    outside: str
+    order_type: str
+    nan: str
+    inside: str
 
 
 Codec = PlainView | ScaledView | RuledView | FloatView
@@ -199,6 +204,8 @@ class Needs:
     round_wide: bool
     f32: bool
     f64: bool
+    f32_order: bool
+    f64_order: bool
     rules: bool
     floats: bool
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.exact import hex_text
+from fieldscribe.families.modbus import BROADCAST
 from fieldscribe.targets.docs.cells import Table, by_rows, cell, code, paragraph, source_text, target
 from fieldscribe.wording import address_text, title_text
 
@@ -37,8 +38,8 @@ def bus_view(device: Device) -> BusView:
     return BusView(
         note=paragraph(title_text(bus.note)) if bus.note else "",
         facts=by_rows(("Fact", "Value"), _facts(bus)),
-        functions=_codes(bus.functions, "Most items in one request"),
-        exceptions=_codes(bus.exceptions, ""),
+        functions=_functions(bus),
+        exceptions=by_rows(("Code", "Name", "Title"), [_code(one) for one in bus.exceptions]),
         serial=by_rows(("Setting", "Code", "Meaning"), serial),
         timing=by_rows(("Time", "Value"), [(code(key), cell(value)) for key, value in bus.timing.items()]),
         commands=_commands(device),
@@ -49,7 +50,7 @@ def _facts(bus: Bus) -> list[tuple[str, str]]:
     rows = [
         ("Framing", cell(", ".join(bus.framings))),
         ("Unit numbers", f"{bus.units[0]}..{bus.units[1]}"),
-        ("Broadcast", "none" if bus.broadcast is None else f"unit {bus.broadcast}, writes only, not answered"),
+        ("Broadcast", "none" if bus.broadcast is None else f"unit {bus.broadcast}, not answered"),
     ]
     if bus.pad_coil_bytes:
         rows.append(("Data bytes when coils are written", cell(f"padded to an {bus.pad_coil_bytes} number")))
@@ -59,17 +60,18 @@ def _facts(bus: Bus) -> list[tuple[str, str]]:
     return rows
 
 
-def _codes(codes: tuple[Code, ...], limit: str) -> Table | None:
-    rows = [
-        (
-            f"{hex_text(one.number, 2)} ({one.number})",
-            code(one.name),
-            cell(title_text(one.title)),
-            "" if one.most is None else str(one.most),
-        )
-        for one in codes
-    ]
-    return by_rows(("Code", "Name", "Title", limit), rows)
+def _functions(bus: Bus) -> Table | None:
+    """The functions, with the column about broadcast only where there is a unit for it."""
+    heads: tuple[str, ...] = ("Code", "Name", "Title", "Most items in one request")
+    rows = [(*_code(one), "" if one.most is None else str(one.most)) for one in bus.functions]
+    if bus.broadcast is None:
+        return by_rows(heads, rows)
+    taken = [one.number in BROADCAST if one.broadcast is None else one.broadcast for one in bus.functions]
+    return by_rows((*heads, "Broadcast"), [(*row, "yes" if yes else "no") for row, yes in zip(rows, taken, strict=True)])
+
+
+def _code(one: Code) -> tuple[str, str, str]:
+    return f"{hex_text(one.number, 2)} ({one.number})", code(one.name), cell(title_text(one.title))
 
 
 def _commands(device: Device) -> Table | None:

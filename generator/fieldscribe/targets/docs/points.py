@@ -53,14 +53,14 @@ class GroupView:
 
 
 def group_views(device: Device) -> Iterator[GroupView]:
-    """All groups that have points, in the author's order."""
+    """All groups that have points or a note, in the author's order."""
     members: dict[str, list[Point]] = {}
     for point in device.points:
         members.setdefault(point.group, []).append(point)
     by_name = {point.name: point for point in device.points}
     for group in device.groups:
-        if group.name in members:
-            yield _group_view(device, group, members[group.name], by_name)
+        if group.name in members or group.note:
+            yield _group_view(device, group, members.get(group.name, []), by_name)
 
 
 def reference_heads(points: Sequence[Point]) -> tuple[str, ...]:
@@ -82,7 +82,7 @@ def _group_view(device: Device, group: Group, points: list[Point], by_name: Mapp
         name=code(group.name),
         note=paragraph(wording.title_text(group.note)) if group.note else "",
         facts=cell("; ".join(facts)),
-        points=_point_table(device, points, by_name, len(spaces) > 1, several),
+        points=_point_table(device, points, by_name, len(spaces) > 1, several) if points else None,
         flags=tuple(flags),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.families.modbus import profile_of
+from fieldscribe.families.modbus import BROADCAST, profile_of
 from fieldscribe.model import Command, Device, Place
 from fieldscribe.targets.python.forms import Scope, place
 from fieldscribe.targets.python.identifiers import attribute
@@ -18,7 +18,8 @@ if TYPE_CHECKING:
 def profile(device: Device) -> Node:
     """What the device takes from the bus."""
     bus = device.bus
-    functions = [f"0x{function:02X}: {most}" for function, most in profile_of(bus).most.items()]
+    taken = profile_of(bus)
+    functions = [f"0x{function:02X}: {most}" for function, most in taken.most.items()]
     exceptions = [f"0x{one.number:02X}: {python_string(one.name)}" for one in bus.exceptions]
     arguments: list[Node] = [
         Group("functions={", tuple(functions), "}"),
@@ -27,6 +28,8 @@ def profile(device: Device) -> Node:
     ]
     if bus.pad_coil_bytes == "even":
         arguments.append("pad_coil_bytes_even=True")
+    if taken.broadcasts != BROADCAST:
+        arguments.append(Group("broadcasts=(", tuple(f"0x{one:02X}" for one in sorted(taken.broadcasts))))
     if exceptions:
         arguments.append(Group("exceptions={", tuple(exceptions), "}"))
     return call("Profile", arguments)

@@ -103,9 +103,11 @@ def _arguments(point: Point, scope: Scope) -> list[Node]:
     arguments.append(f"group={python_string(point.group)}")
     if point.code:
         arguments.append(f"code={python_string(point.code)}")
+    if point.references:
+        arguments.append(_references(point))
     if point.unit.symbol:
         arguments.append(f"unit={python_string(point.unit.symbol)}")
-    if point.writable and (limits := allowed(point, scope)) is not None:
+    if (limits := allowed(point, scope)) is not None:
         arguments.append(limits)
     if point.default is not None:
         arguments.append(f"default={number(point.default)}")
@@ -118,6 +120,15 @@ def _arguments(point: Point, scope: Scope) -> list[Node]:
         arguments.append(Group("variant=(", (python_string(axis), python_string(value))))
         arguments.append(f"name={python_string(point.name)}")
     return arguments
+
+
+def _references(point: Point) -> Group:
+    """The manual's other numberings of the point, as literals by name."""
+    pairs = [
+        f'"{key}": {python_string(number) if isinstance(number, str) else number}'
+        for key, number in point.references.items()
+    ]
+    return Group("references={", tuple(pairs), "}")
 
 
 def _by_variant(points: list[Point], scope: Scope) -> PointView:

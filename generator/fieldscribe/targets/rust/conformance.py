@@ -11,6 +11,7 @@ from fieldscribe.text import rust_string
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
+    from fieldscribe.model import Point
     from fieldscribe.targets.rust.subjects import Scope, Subject
 
 Table = tuple[str, str, tuple[str, ...]]
@@ -35,18 +36,28 @@ def conformance_tables(scope: Scope) -> tuple[Table, ...]:
         ("encode_count", "encode_count", write_scaled),
         ("encode_plain", "encode_plain", write_plain),
         ("encode_mixed", "encode_count", write_mixed),
-        ("check", "check", (*write_scaled, *write_plain, *write_mixed)),
+        ("check", "check", (*write_scaled, *write_plain, *write_mixed, *_writes(floats))),
         ("name", "name", tuple(_names(whole))),
         ("special", "special", tuple(_specials(scope.subjects))),
         ("flag", "flag", tuple(_flags(whole))),
+        ("flag_name", "flag_name", tuple(_flag_names(whole))),
         ("bits", "bits", tuple(_row(one, "alone") for one in scope.subjects if one.point.bits)),
-        ("words", "words", tuple(_row(one, "alone") for one in scope.subjects if one.point.words > 1)),
-        ("address", "address", tuple(_row(one, "alone") for one in scope.subjects)),
+        ("words", "words", tuple(_row(one, "alone") for one in scope.subjects if _has_words(one.point))),
+        ("address", "address", tuple(_row(one, _references(one.point)) for one in scope.subjects)),
     )
 
 
 def _row(subject: Subject, how: str) -> str:
     return f"{rust_string(subject.point.item)} {subject.name} ({how})"
+
+
+def _has_words(point: Point) -> bool:
+    """Whether the words of a point are more than its raw number."""
+    return point.bits is None and (point.words > 1 or point.info.signed)
+
+
+def _references(point: Point) -> str:
+    return " ".join(("at", *(f"{key.upper()} {rust_string(key)}" for key in point.references)))
 
 
 def _reads(subjects: Iterable[Subject]) -> Iterator[str]:
@@ -88,3 +99,11 @@ def _flags(subjects: Iterable[Subject]) -> Iterator[str]:
                 how = ("on" if flag.active else "off") if flag.width == 1 else "bits"
                 calls = f"{how} {one.raw} {getter_name(flag.name)} with_{flag.name}"
                 yield f"{rust_string(f'{one.point.item} {flag.name}')} {one.name} ({calls})"
+
+
+def _flag_names(subjects: Iterable[Subject]) -> Iterator[str]:
+    for one in subjects:
+        for flag in one.point.flags:
+            for entry in flag.values if flag.width > 1 else ():
+                key = rust_string(f"{one.point.item} {flag.name} {entry.name}")
+                yield f"{key} {one.name} (value {flag.name.upper()}_{entry.name.upper()})"

@@ -73,7 +73,11 @@ def _computes(point: PointView) -> bool:
 
 def _bus(device: Device) -> dict[str, object]:
     bus = device.bus
-    functions = [f"Function::new({code.number}, {_MOST if code.most is None else code.most})" for code in bus.functions]
+    functions = [
+        f"Function::new({code.number}, {_MOST if code.most is None else code.most})"
+        + (".without_broadcast()" if code.broadcast is False else "")
+        for code in bus.functions
+    ]
     return {
         "modbus": True,
         "functions": array(functions),

@@ -40,6 +40,8 @@ def _of_point(subject: Subject) -> Iterator[Identifier]:
     yield "points", subject.name, own
     for old in subject.point.was:
         yield "points", type_name(old), f"former name {old} of {own}"
+    for key in subject.point.references:
+        yield f"points::{item}", key.upper(), f"numbering {key} of {own}"
     for special in subject.point.specials:
         yield f"points::{item}", special.name.upper(), f"special {special.name} of {own}"
     if subject.arguments:

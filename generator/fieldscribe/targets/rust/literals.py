@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import struct
 from functools import lru_cache
 
 from fieldscribe.names import RUST_RESERVED, pascal
@@ -14,6 +15,9 @@ RAW_TYPES = {
     "f64": "u64",
 }
 """The Rust type of a raw number by wire type; a plain bit is a `bool`."""
+
+FLOAT_GREATEST = {32: 3.4028234663852886e38, 64: 1.7976931348623157e308}
+"""The greatest finite number of a binary floating-point type by its bits."""
 
 _PRELUDE = frozenset({"Err", "None", "Ok", "Option", "Result", "Some", "Self"})
 _NOT_RAW = frozenset({"crate", "self", "super", "Self"})
@@ -61,6 +65,17 @@ def mask(number: int, rust_type: str) -> str:
     digits = int(rust_type[1:]) // 4
     text = f"{number:0{digits}X}"
     return "0x" + "_".join(text[at : at + 4] for at in range(0, digits, 4))
+
+
+def nearest_float(number: float, bits: int) -> float:
+    """The binary32 or binary64 nearest to a number, the largest one where that is infinite."""
+    if bits == 64:
+        return number
+    try:
+        result: float = struct.unpack("<f", struct.pack("<f", number))[0]
+    except OverflowError:
+        return FLOAT_GREATEST[32] if number > 0 else -FLOAT_GREATEST[32]
+    return result
 
 
 @lru_cache(maxsize=4096)

@@ -7,14 +7,16 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.targets.rust.documentation import point_doc, sentence
 from fieldscribe.targets.rust.layout import binding
-from fieldscribe.targets.rust.literals import mask, raw_literal, type_name, type_range
+from fieldscribe.targets.rust.literals import integer, mask, raw_literal, type_name, type_range
 from fieldscribe.targets.rust.reading import read_view
 from fieldscribe.targets.rust.rules import bounds, run_time_rules
-from fieldscribe.targets.rust.views import BitsView, OrderView, PointView, SpecialView
+from fieldscribe.targets.rust.views import BitsView, ConstantView, OrderView, PointView
 from fieldscribe.targets.rust.writing import write_view
 from fieldscribe.text import rust_string
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from fieldscribe.model import Point
     from fieldscribe.targets.rust.subjects import Scope, Subject
 
@@ -49,7 +51,7 @@ def point_view(subject: Subject, scope: Scope) -> PointView:
         last_rule_holds=bool(rules) and not rules[-1].held,
         read=read_view(subject, low, high) if "r" in point.access else None,
         write=write_view(subject, low, high, scope) if "w" in point.access else None,
-        specials=_specials(subject) if point.specials else (),
+        own_constants=(*_references(point), *_specials(subject)) if point.specials or point.references else (),
         was=tuple(binding(0, f"pub type {type_name(old)}", subject.name) for old in point.was),
     )
 
@@ -71,6 +73,8 @@ def _constants(subject: Subject, low: int, high: int) -> tuple[str, ...]:
     lines.append(f"const ADDRESS: u16 = 0x{min(point.places[0].addresses):04X};")
     if point.words != 1:
         lines.append(f"const WORDS: u16 = {point.words};")
+    if subject.form == "scaled" and point.decimals:
+        lines.append(f"const DECIMALS: u32 = {point.decimals};")
     if point.unit.symbol:
         lines.append(f"const UNIT: &'static str = {rust_string(point.unit.symbol)};")
     least, greatest = type_range(raw)
@@ -100,11 +104,21 @@ def _bits(point: Point) -> BitsView | None:
     return BitsView(low, bits, f"arithmetic::extract{signed}(word, {low}, {bits})")
 
 
-def _specials(subject: Subject) -> tuple[SpecialView, ...]:
-    views, raw = [], subject.raw
+def _references(point: Point) -> Iterator[ConstantView]:
+    """The manual's other numberings of the point."""
+    for key, number in point.references.items():
+        if isinstance(number, str):
+            type_, literal = "&'static str", rust_string(number)
+        else:
+            type_, literal = "u32" if 0 <= number < 1 << 32 else "i64", integer(number)
+        doc = sentence(f"the number in the numbering {key}")
+        yield ConstantView(doc, binding(4, f"pub const {key.upper()}: {type_}", literal))
+
+
+def _specials(subject: Subject) -> Iterator[ConstantView]:
+    raw = subject.raw
     for one in subject.point.specials:
         single = one.low == one.high
         literal = raw_literal(one.low, raw) if single else f"{raw_literal(one.low, raw)}..={raw_literal(one.high, raw)}"
         type_ = raw if single else f"core::ops::RangeInclusive<{raw}>"
-        views.append(SpecialView(sentence(one.name), binding(4, f"pub const {one.name.upper()}: {type_}", literal)))
-    return tuple(views)
+        yield ConstantView(sentence(one.name), binding(4, f"pub const {one.name.upper()}: {type_}", literal))

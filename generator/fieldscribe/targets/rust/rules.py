@@ -113,19 +113,13 @@ def run_time_rules(point: Point, points: Mapping[str, Point]) -> tuple[RuleView,
     found: list[RuleView] = []
     for case in point.scale or ():
         held = "" if case.point is None else _raw_of(case.point)
-        # Exponents last: a zero factor is reported before an exponent that is out of its bounds.
-        factors = sorted(case.rule.factors, key=lambda factor: factor.ten_to)
-        found.append(
-            _rule(case.rule, held, integer(case.raw or 0), [_factor(one, points, limit=False) for one in factors])
-        )
+        found.append(_rule(case.rule, held, integer(case.raw or 0), _factors(case.rule, points, limit=False)))
         if case.point is None:
             break
     return tuple(found)
 
 
-def limit_views(
-    point: Point, points: Mapping[str, Point], arguments: frozenset[str]
-) -> tuple[tuple[LimitView, ...], tuple[str, ...]]:
+def limit_views(point: Point, points: Mapping[str, Point]) -> tuple[tuple[LimitView, ...], tuple[str, ...]]:
     """The limits to work out, and for each interval the condition that `number` lies in it."""
     views: list[LimitView] = []
     conditions: list[str] = []
@@ -136,7 +130,7 @@ def limit_views(
         ends: list[str] = []
         for end, bound in (("low", one.low), ("high", one.high)):
             if isinstance(bound, Limit):
-                views.append(_limit(f"{end}_{place}", bound, points, arguments))
+                views.append(_limit(f"{end}_{place}", bound, points))
             ends.append(f"{end}_{place}" if isinstance(bound, Limit) else integer(bound))
         conditions.append(f"({ends[0]}..={ends[1]}).contains(&number)")
     return tuple(views), tuple(conditions)
@@ -181,12 +175,10 @@ def outer(bound: Bound, *, lower: bool) -> int:
     return bound.least if lower else bound.greatest
 
 
-def _limit(local: str, limit: Limit, points: Mapping[str, Point], arguments: frozenset[str]) -> LimitView:
+def _limit(local: str, limit: Limit, points: Mapping[str, Point]) -> LimitView:
     lower = local.startswith("low")
-    unless = tuple(
-        (_raw_of(name), " | ".join(map(integer, codes))) for name, codes in limit.unless if name in arguments
-    )
-    rule = _rule(limit.rule, "", "", [_factor(one, points, limit=True) for one in limit.rule.factors])
+    unless = tuple((_raw_of(name), " | ".join(map(integer, codes))) for name, codes in limit.unless if codes)
+    rule = _rule(limit.rule, "", "", _factors(limit.rule, points, limit=True))
     bound = integer(outer(limit, lower=lower))
     return LimitView(local, unless, bound, rule, f"max({bound})" if lower else f"min({bound})")
 
@@ -197,11 +189,17 @@ def _rule(rule: Linear, held: str, code: str, factors: list[FactorView]) -> Rule
     return RuleView(held, code, ratio, offset, tuple(factors))
 
 
+def _factors(rule: Linear, points: Mapping[str, Point], *, limit: bool) -> list[FactorView]:
+    """Exponents last: a zero factor is reported before an exponent that is out of its bounds."""
+    factors = sorted(rule.factors, key=lambda factor: factor.ten_to)
+    return [_factor(one, points, limit=limit) for one in factors]
+
+
 def _factor(factor: Factor, points: Mapping[str, Point], *, limit: bool) -> FactorView:
     exponent_bounds = ""
     if factor.ten_to:
         method = "times_ten_to" if factor.power > 0 else "over_ten_to"
-        if not limit and factor.point in points:
+        if factor.point in points:
             low, high = bounds(points[factor.point])
             exponent_bounds = f"{integer(low)}, {integer(high)}"
     elif factor.power > 0:

@@ -39,11 +39,15 @@ class LimitView:
 
 @dataclass(frozen=True, slots=True)
 class CheckView:
-    """Whether a raw number may be written: conditions of which one has to hold; none if every number may."""
+    """Whether a raw number may be written: conditions of which one has to hold; none if every number may.
+
+    `number` is what the conditions are about, where that is not `raw` itself.
+    """
 
     report: str
     raw: str
     parameter: str
+    number: str
     conditions: tuple[str, ...]
     limits: tuple[LimitView, ...]
 
@@ -78,7 +82,6 @@ class WriteView:
     kind: str
     bounded: bool
     value: str
-    ranges: tuple[str, ...]
     count_type: str
     count_parameter: str
     within: str
@@ -89,8 +92,8 @@ class WriteView:
 
 
 @dataclass(frozen=True, slots=True)
-class SpecialView:
-    """A constant for raw numbers that are no quantity."""
+class ConstantView:
+    """A constant of a point of its own: another numbering, or raw numbers that are no quantity."""
 
     doc: str
     lines: tuple[str, ...]
@@ -131,7 +134,7 @@ class PointView:
     last_rule_holds: bool
     read: ReadView | None
     write: WriteView | None
-    specials: tuple[SpecialView, ...]
+    own_constants: tuple[ConstantView, ...]
     was: tuple[tuple[str, ...], ...]
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.targets.rust.literals import float_literal, integer, type_range
+from fieldscribe.targets.rust.literals import FLOAT_GREATEST, float_literal, integer, nearest_float, type_range
 from fieldscribe.targets.rust.reading import parameter, plain_count
 from fieldscribe.targets.rust.rules import count_path, encode_float, limit_views, merged, patterns
 from fieldscribe.targets.rust.views import CheckView, WriteView
@@ -43,7 +43,6 @@ def write_view(subject: Subject, low: int, high: int, scope: Scope) -> WriteView
         kind=kind,
         bounded=bounded,
         value=value,
-        ranges=_float_ranges(point) if form == "float" else (),
         count_type=count_type,
         count_parameter=parameter(with_type, "With", used=kind != "scaled" or not bounded),
         within=within,
@@ -66,23 +65,28 @@ def _held(number: str, *, closed: bool) -> str:
 
 
 def _float_ranges(point: Point) -> tuple[str, ...]:
-    """Conditions of which one holds if a value is within the limits; none if there are none."""
-    ends = [(float_literal(float(low)), float_literal(float(high))) for low, high in point.allowed.units]
-    return tuple(f"({low}..={high}).contains(&value)" for low, high in ends)
+    """Conditions of which one holds if a number of the type is within the limits, as the type has those."""
+    greatest = FLOAT_GREATEST[point.width]
+    ends = [[nearest_float(float(end), point.width) for end in pair] for pair in point.allowed.units]
+    literals = [map(float_literal, pair) for pair in ends or [[-greatest, greatest]]]
+    return tuple(f"({low}..={high}).contains(&number)" for low, high in literals)
 
 
 def _check(subject: Subject, with_type: str, scope: Scope) -> CheckView:
     point, raw = subject.point, subject.raw
     report = "listed" if subject.closed else "allowed"
     if subject.limits:
-        limits, conditions = limit_views(point, scope.points, frozenset(subject.arguments))
-        return CheckView(report, "raw", parameter(with_type, "With", used=True), conditions, limits)
+        limits, conditions = limit_views(point, scope.points)
+        number = "runtime::Raw::to_i64(raw)"
+        return CheckView(report, "raw", parameter(with_type, "With", used=True), number, conditions, limits)
     unused = parameter(with_type, "With", used=False)
+    if subject.form == "float":
+        return CheckView(report, "raw", unused, f"arithmetic::f{point.width}_number(raw)?", _float_ranges(point), ())
     numbers = _numbers(point)
     least, greatest = type_range(raw)
-    if subject.form == "float" or any(low <= least and greatest <= high for low, high in merged(numbers)):
-        return CheckView(report, "_", unused, (), ())
-    return CheckView(report, "raw", unused, patterns(numbers, raw), ())
+    if any(low <= least and greatest <= high for low, high in merged(numbers)):
+        return CheckView(report, "_", unused, "", (), ())
+    return CheckView(report, "raw", unused, "", patterns(numbers, raw), ())
 
 
 def _numbers(point: Point) -> list[tuple[int, int]]:

@@ -12,8 +12,9 @@ from fieldscribe.targets.vectors.floats import floats
 from fieldscribe.targets.vectors.frames import blocks, builds, printed, replies
 from fieldscribe.targets.vectors.lines import Lines
 from fieldscribe.targets.vectors.oracle import Oracle
+from fieldscribe.targets.vectors.places import address, words
 from fieldscribe.targets.vectors.scaled import scaled
-from fieldscribe.targets.vectors.whole import address, bits, flags, names, specials, whole, words
+from fieldscribe.targets.vectors.whole import bits, flags, names, specials, whole
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

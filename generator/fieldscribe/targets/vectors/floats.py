@@ -36,13 +36,17 @@ _TIES = (
     16777217.0,
     2.0**-126,
 )
-_GREATEST_32 = 2.0**128 - 2.0**103
+_BEYOND_32 = 2.0**128 - 2.0**103
 """Halfway between the greatest binary32 and the next step: the first number that rounds to infinity."""
+
+_GREATEST_32 = 2.0**128 - 2.0**104
+_GREATEST_64 = 1.7976931348623157e308
 
 
 def floats(lines: Lines, point: Point) -> None:
-    """Decoding of patterns and encoding of values; limits are compared in the unit, as binary64."""
+    """Decoding of patterns, encoding of values and checking; limits are compared after the conversion to the type."""
     head, wide = subject(point.item), point.width == 64
+    limits = _limits(point, wide)
     if point.readable:
         patterns = dict.fromkeys(_PATTERNS_64 if wide else _PATTERNS_32 + _EDGES_32)
         for special in point.specials:
@@ -50,9 +54,12 @@ def floats(lines: Lines, point: Point) -> None:
         for bits in patterns:
             lines.add("decode", f'{head}, "raw": {bits}, {_decoded(point, bits)}')
     if point.writable:
-        for value in dict.fromkeys(map(_Same, _values(point, wide))):
+        for value in dict.fromkeys(map(_Same, _values(point, limits, wide))):
             text = f'"float": "{hex64(value.value)}", "value": "{float_text(value.value)}"'
-            lines.add("encode", f"{head}, {text}, {_encoded(point, value.value, wide)}")
+            lines.add("encode", f"{head}, {text}, {_encoded(value.value, limits, wide)}")
+        for bits in _patterns_to_check(limits, wide):
+            status = _admitted(float_of_bits(bits, point.width), limits)
+            lines.add("check", f'{head}, "raw": {bits}, "status": "{status}"')
 
 
 class _Same:
@@ -76,28 +83,73 @@ def _decoded(point: Point, bits: int) -> str:
     return f'"status": "ok", "float": "{hex64(value)}", "value": "{text if len(text) <= 40 else float_text(value)}"'
 
 
-def _values(point: Point, wide: bool) -> list[float]:
+def _limits(point: Point, wide: bool) -> list[tuple[float, float]]:
+    """The limits as numbers of the type, to which they round as values do; those of the type where there are none."""
+    greatest = _GREATEST_64 if wide else _GREATEST_32
+    return [(_typed(float(low), wide), _typed(float(high), wide)) for low, high in point.allowed.units] or [
+        (-greatest, greatest)
+    ]
+
+
+def _typed(value: float, wide: bool) -> float:
+    """The number of the type nearest to a value."""
+    if wide:
+        return value
+    pattern = bits32(value)
+    return (inf if value > 0 else -inf) if pattern is None else float_of_bits(pattern, 32)
+
+
+def _values(point: Point, limits: list[tuple[float, float]], wide: bool) -> list[float]:
     values = [0.0, -0.0, 0.1, -1.5]
     for low, high in point.allowed.units:
         for limit in (float(low), float(high)):
             values += [limit, nextafter(limit, inf), nextafter(limit, -inf), limit - 1, limit + 1]
     if not wide:
+        if point.allowed.units:
+            # Around each limit as the type has it: the halves to its neighbours, and what lies beside those halves.
+            for limit in (limit for pair in limits for limit in pair if isfinite(limit)):
+                for beside in _neighbours(limit, wide):
+                    half = (limit + beside) / 2  # of two binary32 numbers: exact
+                    values += [limit, half, nextafter(half, limit), nextafter(half, beside)]
         values += _TIES
-        values += [_GREATEST_32, -_GREATEST_32, nextafter(_GREATEST_32, 0), nextafter(-_GREATEST_32, 0)]
+        values += [_BEYOND_32, -_BEYOND_32, nextafter(_BEYOND_32, 0), nextafter(-_BEYOND_32, 0)]
     return [*values, nan, inf, -inf, 1e300, -1e300]
 
 
-def _encoded(point: Point, value: float, wide: bool) -> str:
-    if isnan(value):
-        return '"status": "not_a_number"'
-    if not _inside(point, value):
-        return '"status": "out_of_range"'
-    pattern = bits64(value) if wide else bits32(value)
-    return '"status": "out_of_range"' if pattern is None else f'"status": "ok", "raw": {pattern}'
+def _neighbours(value: float, wide: bool) -> list[float]:
+    """The next numbers of the type below and above a number of the type."""
+    if wide:
+        return [nextafter(value, -inf), nextafter(value, inf)]
+    if value == 0:
+        return [-(2.0**-149), 2.0**-149]
+    bits = bits32(value) or 0  # patterns grow with the size of their number, whatever its sign
+    return [beside for step in (-1, 1) if isfinite(beside := float_of_bits(bits + step, 32))]
 
 
-def _inside(point: Point, value: float) -> bool:
+def _patterns_to_check(limits: list[tuple[float, float]], wide: bool) -> list[int]:
+    """The limits, their neighbours, both zeros, infinities and what is no number."""
+    numbers = [0.0, -0.0, inf, -inf]
+    for limit in (limit for pair in limits for limit in pair if isfinite(limit)):
+        numbers += [limit, *_neighbours(limit, wide)]
+    if wide:
+        found = [bits64(number) for number in numbers] + [0x7FF8 << 48, 0xFFF0 << 48 | 1]
+    else:
+        found = [bits for number in numbers if isfinite(number) and (bits := bits32(number)) is not None]
+        found += [0x7F80_0000, 0xFF80_0000, 0x7FC0_0000, 0xFF80_0001]
+    return list(dict.fromkeys(found))
+
+
+def _encoded(value: float, limits: list[tuple[float, float]], wide: bool) -> str:
     if not isfinite(value):
-        return False
-    units = point.allowed.units
-    return not units or any(float(low) <= value <= float(high) for low, high in units)
+        return '"status": "not_a_number"' if isnan(value) else '"status": "out_of_range"'
+    pattern = bits64(value) if wide else bits32(value)
+    status = "out_of_range" if pattern is None else _admitted(_typed(value, wide), limits)
+    return f'"status": "{status}"' + (f', "raw": {pattern}' if status == "ok" else "")
+
+
+def _admitted(number: float, limits: list[tuple[float, float]]) -> str:
+    """Whether a number of the type may be written."""
+    if isnan(number):
+        return "not_a_number"
+    inside = isfinite(number) and any(low <= number <= high for low, high in limits)
+    return "ok" if inside else "out_of_range"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from json import dumps
+from json import JSONEncoder, dumps
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -17,6 +17,7 @@ KINDS = (
     "name",
     "special",
     "flag",
+    "flag_name",
     "bits",
     "words",
     "address",
@@ -26,6 +27,8 @@ KINDS = (
     "printed_reply",
     "block",
 )
+
+_TEXT = JSONEncoder(ensure_ascii=False)
 
 
 class Lines:
@@ -61,6 +64,11 @@ class Lines:
 def subject(item: str) -> str:
     """The JSON text that names a point."""
     return f'"point": {dumps(item)}'
+
+
+def quoted(text: str) -> str:
+    """The JSON text of a string, as UTF-8 will have it."""
+    return _TEXT.encode(text)
 
 
 def with_text(settings: Mapping[str, int]) -> str:

@@ -6,6 +6,10 @@ import math
 import struct
 from fractions import Fraction
 from functools import lru_cache
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from fieldscribe.model import Point
 
 INFINITY = math.inf
 EXACT = 1 << 53
@@ -25,6 +29,12 @@ def quotient(over: int, under: int) -> float:
         return over / under  # of integers: correctly rounded
     except OverflowError:
         return INFINITY if (over < 0) == (under < 0) else -INFINITY
+
+
+def as_raw(point: Point, pattern: int) -> int:
+    """A pattern of the point's bits as its raw number; bits above them do not count."""
+    pattern &= (1 << point.width) - 1
+    return pattern - (1 << point.width) if point.info.signed and pattern >> (point.width - 1) else pattern
 
 
 def hex64(value: float) -> str:

@@ -96,13 +96,11 @@ def _product(rule: Linear, settings: Settings) -> tuple[int, int]:
     return over, under
 
 
-def _limit_number(limit: Limit, settings: Settings) -> int | None:
-    """The raw number that a limit is now; None if it divides by zero."""
+def _limit_number(limit: Limit, settings: Settings) -> int:
+    """The raw number that a limit is now; it does not divide by zero."""
     over, under = _product(limit.rule, settings)
     offset = limit.rule.offset
     over, under = over * offset.denominator + offset.numerator * under, under * offset.denominator
-    if under == 0:
-        return None
     return half_away(over, under) if under > 0 else half_away(-over, -under)
 
 
@@ -133,7 +131,7 @@ class Oracle:
         return low <= settings[factor.point] <= high
 
     def limits(self, point: Point, settings: Settings) -> list[tuple[int, int]] | str:
-        """The intervals that hold now, or `zero_factor`."""
+        """The intervals that hold now, or why a limit cannot be told: `zero_factor`, `overflow`."""
         found: list[tuple[int, int]] = []
         for one in point.allowed.intervals:
             if isinstance(one.low, int) and isinstance(one.high, int):
@@ -141,19 +139,24 @@ class Oracle:
                 continue
             low = self._bound(one.low, settings, lower=True)
             high = self._bound(one.high, settings, lower=False)
-            if isinstance(low, str) or isinstance(high, str):
-                return "zero_factor"
+            if isinstance(low, str):
+                return low
+            if isinstance(high, str):
+                return high
             found.append((low, high))
         return found or [(point.least, point.greatest)]
 
     def _bound(self, bound: Bound, settings: Settings, *, lower: bool) -> int | str:
         if isinstance(bound, int):
             return bound
-        if any(settings.get(name) in codes for name, codes in bound.unless):
+        if any(codes and settings[name] in codes for name, codes in bound.unless):
             return bound.least if lower else bound.greatest
-        number = _limit_number(bound, settings)
-        if number is None:
+        factors = bound.rule.factors
+        if any(one.power < 0 and not one.ten_to and _number(one, settings) == 0 for one in factors):
             return "zero_factor"
+        if any(one.ten_to and not self.exponent_fits(one, settings) for one in factors):
+            return "overflow"
+        number = _limit_number(bound, settings)
         return max(bound.least, number) if lower else min(bound.greatest, number)
 
 

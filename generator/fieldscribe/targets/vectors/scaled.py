@@ -137,13 +137,17 @@ class _Sheet:
             add("encode_count", f'{head}, "count": {count}, {self._encoded(ratio.raw_of_count(count, decimals))}')
 
     def _counts(self) -> list[int]:
-        """Counts of the limits, beyond them, around the first and the last half, and the ends of the integers."""
+        """Counts of the limits and beyond, around the halves on both sides of each limit, and ends of the integers."""
         point, ratio, power = self.point, self.ratio, 10**self.point.decimals
         found = {ratio.count_of_raw(raw, point.decimals): None for raw in samples.edges(self.limits)}
         if ratio.denominator != power * abs(ratio.den) * ratio.under:  # else a count is a raw number
-            for raw in (self.limits[0][0], self.limits[-1][1] - 1):
-                below = (ratio.numerator(raw) + ratio.numerator(raw + 1)) * power // (2 * ratio.denominator)
-                found.update({below: None, below + 1: None})
+            low, high = self.limits[0][0], self.limits[-1][1]
+            for raw in (low - 1, low, high - 1, high):
+                over = (ratio.numerator(raw) + ratio.numerator(raw + 1)) * power
+                below, rest = divmod(over, 2 * ratio.denominator)
+                found.update({below if rest else below - 1: None, below + 1: None})
+                if not rest:
+                    found[below] = None
         ends = [ratio.count_of_raw(raw, point.decimals) for raw in (point.least, point.greatest)]
         edge = INT32 if all(-INT32 <= count < INT32 for count in ends) else INT64
         if self.full:

@@ -1,4 +1,4 @@
-"""Vectors of points whose raw number is the value (integers, enums, flags, bits), of bit groups, words, addresses."""
+"""Vectors of points whose raw number is the value (integers, enums, flags, bits), of names and of bit groups."""
 
 from __future__ import annotations
 
@@ -6,7 +6,8 @@ from json import dumps
 from typing import TYPE_CHECKING
 
 from fieldscribe.targets.vectors import samples
-from fieldscribe.targets.vectors.lines import Lines, array, subject, with_text
+from fieldscribe.targets.vectors.lines import Lines, subject, with_text
+from fieldscribe.targets.vectors.numbers import as_raw
 from fieldscribe.targets.vectors.oracle import INT64, Oracle, admit, is_no_value
 
 if TYPE_CHECKING:
@@ -32,7 +33,7 @@ def _sheet(lines: Lines, point: Point, head: str, limits: samples.Limits) -> Non
     if point.enum is not None:
         raws.update(dict.fromkeys(entry.raw for entry in point.enum.entries))
     for flag in point.flags:
-        raws[_signed(point, (1 << flag.width) - 1 << flag.low)] = None
+        raws[as_raw(point, (1 << flag.width) - 1 << flag.low)] = None
     top = INT64 if point.width > 16 else 1 << 31
     if point.readable:
         for raw in raws:
@@ -51,11 +52,6 @@ def _sheet(lines: Lines, point: Point, head: str, limits: samples.Limits) -> Non
             )
     for raw in raws:
         lines.add("check", f'{head}, "raw": {raw}, "status": "{admit(point, raw, limits)}"')
-
-
-def _signed(point: Point, pattern: int) -> int:
-    """A pattern of the point's bits as its raw number."""
-    return pattern - (1 << point.width) if point.info.signed and pattern >> (point.width - 1) else pattern
 
 
 def names(lines: Lines, point: Point) -> None:
@@ -79,7 +75,7 @@ def specials(lines: Lines, point: Point) -> None:
 
 
 def flags(lines: Lines, point: Point) -> None:
-    """Each flag alone, all but each flag, and each of its named numbers."""
+    """Each flag alone, all but each flag, and each of its named numbers, with the names of numbers of several bits."""
     full = (1 << point.width) - 1
     for flag in point.flags:
         ones = (1 << flag.width) - 1
@@ -88,8 +84,12 @@ def flags(lines: Lines, point: Point) -> None:
         words += [entry.raw << flag.low for entry in flag.values if 0 <= entry.raw <= ones]
         for word in dict.fromkeys(words):
             number = word >> flag.low & ones
-            rest = f'"raw": {_signed(point, word)}, "flag": {dumps(flag.name)}, "number": {number}'
+            rest = f'"raw": {as_raw(point, word)}, "flag": {dumps(flag.name)}, "number": {number}'
             lines.add("flag", f"{subject(point.item)}, {rest}")
+        if flag.width > 1:
+            for entry in flag.values:
+                rest = f'"flag": {dumps(flag.name)}, "raw": {entry.raw}, "name": {dumps(entry.name)}'
+                lines.add("flag_name", f"{subject(point.item)}, {rest}")
 
 
 def bits(lines: Lines, point: Point) -> None:
@@ -102,25 +102,5 @@ def bits(lines: Lines, point: Point) -> None:
     tries += [(0, put) for put in patterns] + [(pattern << low, ones ^ pattern) for pattern in patterns]
     for word, put in dict.fromkeys(tries):
         raw, result = word >> low & ones, word & ~(ones << low) | put << low
-        rest = f'"raw": {_signed(point, raw)}, "replaced": {_signed(point, put)}, "result": {result}'
+        rest = f'"raw": {as_raw(point, raw)}, "replaced": {as_raw(point, put)}, "result": {result}'
         lines.add("bits", f'{head}, "word": {word}, {rest}')
-
-
-def words(lines: Lines, point: Point) -> None:
-    """Patterns of a point of several words, in ascending order of the addresses."""
-    if point.words < 2 or not point.places:
-        return
-    count = point.words
-    order = sorted(range(count), key=point.places[0].addresses.__getitem__)
-    ascending = sum(0x0001_0203_0405_0607 >> 64 - 16 * count & 0xFFFF << 16 * place for place in range(count))
-    patterns = (0, 1, ascending, 1 << 16 * count - 1, (1 << 16 * count - 1) - 1, (1 << 16 * count) - 1, 0xFFFF)
-    for pattern in patterns:
-        parts = [pattern >> 16 * (count - 1 - place) & 0xFFFF for place in order]
-        lines.add("words", f'{subject(point.item)}, "raw": {_signed(point, pattern)}, "words": {array(parts)}')
-
-
-def address(lines: Lines, point: Point) -> None:
-    """Where the point is on the wire."""
-    if point.address is not None:
-        rest = f'"space": {dumps(point.places[0].space)}, "address": {point.address}, "words": {point.words}'
-        lines.add("address", f"{subject(point.item)}, {rest}")

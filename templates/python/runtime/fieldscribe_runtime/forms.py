@@ -79,8 +79,12 @@ class Form(ABC, Generic[R_co, W_contra]):
 
     def checked(self, raw: int, allowed: Allowed, raws: Raws) -> int | None:
         """The same number; None if it may not be written."""
-        fits = any(low_end(low, raws) <= raw <= high_end(high, raws) for low, high in allowed)
-        return raw if fits else None
+        ends = [(low_end(low, raws), high_end(high, raws)) for low, high in allowed]  # all, whichever holds
+        return raw if any(low <= raw <= high for low, high in ends) else None
+
+    def limits(self, width: int) -> tuple[int, int]:
+        """The least and the greatest number of `width` bits that the form knows, where nothing else bounds them."""
+        return self.wire.limits(width)
 
     def shown(self, raw: int, raws: Raws) -> str:
         """The raw number as people read it, in the unit."""
@@ -152,6 +156,10 @@ class Named(Form[E | int, E | int]):
         if self.closed and not isinstance(self.decode(raw, raws), self.names):
             return None
         return super().checked(raw, allowed, raws)
+
+    def limits(self, width: int) -> tuple[int, int]:
+        """The ends of a closed enum, else of the type."""
+        return (min(self.names).value, max(self.names).value) if self.closed else super().limits(width)
 
     def name_of(self, raw: int) -> str | None:
         """The member's name in lower case."""

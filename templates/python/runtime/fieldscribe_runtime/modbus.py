@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from .errors import ExceptionReplyError, FrameError, RequestError
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Collection, Mapping
 
 READ_COILS, READ_DISCRETE, READ_HOLDING, READ_INPUT = 0x01, 0x02, 0x03, 0x04
 WRITE_COIL, WRITE_REGISTER, DIAGNOSTICS, WRITE_COILS, WRITE_REGISTERS = 0x05, 0x06, 0x08, 0x0F, 0x10
@@ -26,13 +26,17 @@ RTU, TCP = "rtu", "tcp"
 
 @dataclass(frozen=True, slots=True)
 class Profile:
-    """What a device takes: functions with the most items of one request, unit numbers, and its peculiarities."""
+    """What a device takes: functions with the most items of one request, unit numbers, and its peculiarities.
+
+    `broadcast` is the unit number that means all units, `broadcasts` the functions that may be sent to it.
+    """
 
     functions: Mapping[int, int]
     units: tuple[int, int] = (1, 247)
     broadcast: int | None = 0
     pad_coil_bytes_even: bool = False
     exceptions: Mapping[int, str] = field(default_factory=dict)
+    broadcasts: Collection[int] = WRITES
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,7 +83,7 @@ def check_request(request: Request, profile: Profile) -> None:
     if most is None:
         raise RequestError("bad_function", f"the device has no function {request.function:02X}h")
     if request.unit == profile.broadcast:
-        if request.function not in WRITES:
+        if request.function not in profile.broadcasts:
             raise RequestError("bad_unit", f"function {request.function:02X}h cannot be sent to all units")
     elif not low <= request.unit <= high:
         raise RequestError("bad_unit", f"unit {request.unit} is outside {low}..{high}")

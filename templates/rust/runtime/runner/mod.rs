@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use std::process::ExitCode;
 
 use fieldscribe_runtime::{
-    BitGroup, CountReadable, CountWritable, Decoded, Error, Point, Raw, Readable, Whole, Writable,
+    BitGroup, CountReadable, CountWritable, Decoded, Error, Point, Readable, Whole, Writable,
 };
 use serde_json::Value;
 
@@ -19,7 +19,7 @@ pub use frames::{block, build, reply};
 pub type Outcome = Result<(), String>;
 
 /// The kinds of vectors in the order of the report.
-const KINDS: [&str; 16] = [
+const KINDS: [&str; 17] = [
     "decode",
     "encode",
     "decode_count",
@@ -28,6 +28,7 @@ const KINDS: [&str; 16] = [
     "name",
     "special",
     "flag",
+    "flag_name",
     "bits",
     "words",
     "address",
@@ -36,6 +37,11 @@ const KINDS: [&str; 16] = [
     "printed_build",
     "printed_reply",
     "block",
+];
+
+/// The keys of an `address` vector that are no numbering of the manual.
+const OWN_KEYS: [&str; 9] = [
+    "kind", "point", "space", "address", "words", "code", "raw_min", "raw_max", "decimals",
 ];
 
 /// A function over the points of a device: which of them runs a vector, none if it is not in the table.
@@ -65,6 +71,15 @@ macro_rules! table {
     };
     ($run:ident $point:ident (alone) $vector:ident) => {
         runner::$run::<device::points::$point>($vector)
+    };
+    ($run:ident $point:ident (at $($constant:ident $key:literal)*) $vector:ident) => {
+        runner::$run::<device::points::$point>(
+            $vector,
+            &[$(($key, device::points::$point::$constant.into())),*],
+        )
+    };
+    ($run:ident $word:ident (value $constant:ident) $vector:ident) => {
+        runner::$run($vector, u64::from(device::flags::$word::$constant))
     };
     ($run:ident $point:ident (one $special:ident) $vector:ident) => {{
         let raw = device::points::$point::$special;
@@ -136,7 +151,10 @@ impl Vector {
 
     /// The point, and what of it.
     pub fn subject(&self) -> String {
-        let part = [self.text("special"), self.text("flag")].concat();
+        let mut part = [self.text("special"), self.text("flag")].concat();
+        if self.text("kind") == "flag_name" {
+            part = format!("{part} {}", self.text("name"));
+        }
         let point = self.text("point");
         if part.is_empty() {
             point.to_owned()
@@ -310,6 +328,11 @@ pub fn flag(vector: &Vector, found: u64, same_word: bool) -> Outcome {
     same(true, same_word)
 }
 
+/// The number that a name of a flag's numbers stands for.
+pub fn flag_name(vector: &Vector, found: u64) -> Outcome {
+    same(vector.raw("raw"), found)
+}
+
 /// A group of bits out of a word and into it.
 pub fn bits<P>(vector: &Vector) -> Outcome
 where
@@ -342,16 +365,28 @@ where
     )
 }
 
-/// Where a point is.
-pub fn address<P: Point>(vector: &Vector) -> Outcome {
+/// Where a point is, and what stands beside it: the manual's code and other numberings, the outer limits, decimals.
+pub fn address<P>(vector: &Vector, references: &[(&str, Value)]) -> Outcome
+where
+    P: Point<Raw: Number + PartialEq + std::fmt::Debug>,
+{
     same(vector.text("space"), P::SPACE.name())?;
     same(vector.text("point"), P::NAME)?;
     same(vector.raw("address"), P::ADDRESS)?;
     same(vector.raw("words"), P::WORDS)?;
-    same(
-        true,
-        P::RAW_MIN <= P::RAW_MAX && P::RAW_MIN >= <P::Raw as Raw>::MIN,
-    )
+    same(vector.0["code"].as_str(), P::CODE)?;
+    if vector.number("raw_min").is_some() {
+        same(vector.raw("raw_min"), P::RAW_MIN)?;
+        same(vector.raw("raw_max"), P::RAW_MAX)?;
+    }
+    let decimals = vector.number("decimals").unwrap_or_default();
+    same(decimals, i128::from(P::DECIMALS))?;
+    for (key, number) in references {
+        same(&vector.0[*key], number)?;
+    }
+    let keys = vector.0.as_object().into_iter().flat_map(|all| all.keys());
+    let others = keys.filter(|key| !OWN_KEYS.contains(&key.as_str())).count();
+    same(others, references.len())
 }
 
 /// Runs all vectors of the file and reports one line per kind.

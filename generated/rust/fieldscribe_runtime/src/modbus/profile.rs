@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: 0BSD
 //! What the frames need to know of a device, as constants of the generated code.
 
-use super::function::longest_count;
+use super::function::{longest_count, writes};
 use crate::{Readable, Space};
 
 /// A function that a device knows.
@@ -11,13 +11,28 @@ pub struct Function {
     pub number: u8,
     /// The largest count of items in one request.
     pub most: u16,
+    /// Whether it may be sent to all units at once.
+    pub broadcast: bool,
 }
 
 impl Function {
-    /// A function and the largest count of items in one request.
+    /// A function and the largest count of items in one request; it may be broadcast if it writes.
     #[must_use]
     pub const fn new(number: u8, most: u16) -> Self {
-        Self { number, most }
+        Self {
+            number,
+            most,
+            broadcast: writes(number),
+        }
+    }
+
+    /// The same function where the device does not take it as a broadcast.
+    #[must_use]
+    pub const fn without_broadcast(self) -> Self {
+        Self {
+            broadcast: false,
+            ..self
+        }
     }
 }
 
@@ -59,9 +74,18 @@ impl Profile {
         self.broadcast == Some(unit)
     }
 
+    /// Whether the function may be sent to all units at once.
+    pub(super) fn broadcasts(&self, function: u8) -> bool {
+        self.find(function).is_some_and(|known| known.broadcast)
+    }
+
     pub(super) fn most(&self, function: u8) -> Option<u16> {
-        let known = self.functions.iter().find(|one| one.number == function)?;
+        let known = self.find(function)?;
         Some(known.most.min(longest_count(function)?))
+    }
+
+    fn find(&self, function: u8) -> Option<&Function> {
+        self.functions.iter().find(|one| one.number == function)
     }
 }
 

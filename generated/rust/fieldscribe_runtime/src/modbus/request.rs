@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: 0BSD
 //! Requests and their frames.
 
-use super::function::{is_read, read_function, write_function, writes};
+use super::function::{is_read, read_function, write_function};
 use super::{crc, Block, BuildError, Command, Framing, Profile};
 use crate::{BitGroup, Readable, Whole, Writable};
 
@@ -156,7 +156,7 @@ impl<'a> Request<'a> {
         let most = profile.most(self.function).ok_or(BuildError::BadFunction)?;
         let (least, greatest) = profile.units;
         let fits = if profile.is_broadcast(self.unit) {
-            writes(self.function)
+            profile.broadcasts(self.function)
         } else {
             (least..=greatest).contains(&self.unit)
         };

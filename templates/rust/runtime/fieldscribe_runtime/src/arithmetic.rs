@@ -193,6 +193,24 @@ pub fn f64_bits(value: f64) -> Result<u64, Error> {
     }
 }
 
+/// The number that a binary32 pattern is.
+///
+/// # Errors
+/// [`Error::NotANumber`].
+#[inline]
+pub fn f32_number(bits: u32) -> Result<f64, Error> {
+    number(f64::from(f32::from_bits(bits)))
+}
+
+/// The number that a binary64 pattern is.
+///
+/// # Errors
+/// [`Error::NotANumber`].
+#[inline]
+pub fn f64_number(bits: u64) -> Result<f64, Error> {
+    number(f64::from_bits(bits))
+}
+
 /// The bits of the group in `word`, right-aligned.
 #[must_use]
 #[inline]

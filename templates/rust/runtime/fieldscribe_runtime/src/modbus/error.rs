@@ -7,7 +7,7 @@ use core::fmt;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum BuildError {
-    /// The unit is outside the device's range, or is the broadcast unit and the function does not write.
+    /// The unit is outside the device's range, or is the broadcast unit and the function does not go to all.
     BadUnit,
     /// The device does not know the function.
     BadFunction,

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 POINTS_PER_GROUP = 250
 
@@ -20,7 +23,10 @@ bus:
   framings: [rtu, tcp]
   units: 1..247
   broadcast: 0
-  functions: {{03h: {{name: read_holding_registers, max: 125}}, 06h: write_register, 10h: {{name: write_registers, max: 100}}}}
+  functions:
+    03h: {{name: read_holding_registers, max: 125}}
+    06h: write_register
+    10h: {{name: write_registers, max: 100}}
 enums:
   contact: {{0: normally_open, 1: normally_closed, 2: disabled}}
 formats:
@@ -39,7 +45,7 @@ _GROUP = """\
 """
 
 _KINDS = (
-    "range: 0..4000, scale: value = raw * 0.1, unit: Hz, default: 50.0, printed: {{modicon: [{next:04X}h, {next}], wire: {at:04X}h, resolution: 0.1 Hz}}",
+    "range: 0..4000, scale: value = raw * 0.1, unit: Hz, default: 50, printed: {{wire: {at:04X}h, resolution: 0.1 Hz}}",
     "format: percent_tenth, default: 12.5",
     "enum: contact, default: 1",
     "type: u32, range: 0..999999, scale: value = raw * 0.01, unit: s",

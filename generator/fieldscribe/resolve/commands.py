@@ -1,0 +1,88 @@
+"""Commands: named constant writes."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from fieldscribe.families.modbus import SPACES
+from fieldscribe.model import Bus, Command
+from fieldscribe.resolve.bus import NO_BUS
+from fieldscribe.resolve.drafts import humanised
+from fieldscribe.resolve.scope import Scope, source_of, titles
+from fieldscribe.resolve.values import integer
+
+if TYPE_CHECKING:
+    from fieldscribe.diagnostics import Span
+    from fieldscribe.language.nodes import Map
+
+
+def commands_of(scope: Scope, bus: Bus) -> tuple[Command, ...]:
+    """The named constant writes of all files."""
+    result: dict[str, Command] = {}
+    places: dict[str, Span] = {}
+    for raw in scope.listed("commands"):
+        name = str(raw["name"])
+        if name in result or name in ("no", "yes"):
+            first = [(places[name], "first declared here")] if name in places else []
+            message = f"the command `{name}` is declared twice" if first else f"a command cannot be called `{name}`"
+            hint = "rename one of them" if first else "`keeps` knows yes, no and names of commands"
+            scope.report.error("duplicate-name", message, raw.span("name"), hint, first)
+            continue
+        command = _command(scope, bus, raw)
+        if command is not None:
+            result[name] = command
+            places[name] = raw.span("name")
+    return tuple(result.values())
+
+
+def _command(scope: Scope, bus: Bus, raw: Map) -> Command | None:
+    address = integer(raw["at"], raw.span("at"), scope.report)
+    function = integer(raw["function"], raw.span("function"), scope.report)
+    value = None if raw["value"] == "any" else integer(raw["value"], raw.span("value"), scope.report)
+    space = raw.get("space", "holding")
+    if space not in scope.family.spaces:
+        scope.unknown("space", space, raw.span("space"), scope.family.spaces)
+        return None
+    if address is None or function is None:
+        return None
+    if not all([_reaches(scope, bus, raw, space, function), _fits(scope, raw, space, address, value)]):
+        return None
+    return Command(
+        name=str(raw["name"]),
+        title=titles(raw.get("title"), humanised(raw["name"])),
+        note=titles(raw.get("note")),
+        space=space,
+        address=address,
+        function=function,
+        value=value,
+        wears=raw.get("wears"),
+        busy=raw.get("busy"),
+        source=source_of(scope, raw),
+    )
+
+
+def _fits(scope: Scope, raw: Map, space: str, address: int, value: int | None) -> bool:
+    """Whether the space has the address and holds the value; a finding if not."""
+    last = scope.family.last_address
+    greatest = 1 if scope.family.spaces[space] == "bit" else 0xFFFF
+    there, held = 0 <= address <= last, value is None or 0 <= value <= greatest
+    if not there:
+        message = f"the address {address} lies outside 0..{last}"
+        scope.report.error("address-outside-space", message, raw.span("at"), "`at` is the number on the wire")
+    if not held:
+        message = f"the value {value} does not fit into `{space}`"
+        scope.report.error("range-outside-type", message, raw.span("value"), f"0..{greatest} can be written")
+    return there and held
+
+
+def _reaches(scope: Scope, bus: Bus, raw: Map, space: str, function: int) -> bool:
+    """Whether the device has the function and it writes into the space; a finding if not."""
+    known = [one for one in (SPACES[space].write_one, SPACES[space].write_many) if one is not None]
+    if function in known and (bus is NO_BUS or function in {code.number for code in bus.functions}):
+        return True
+    message, hint = f"the device has no function {function:02X}h", "declare it under `bus`, `functions`"
+    if function not in known:
+        message = f"function {function:02X}h does not write into `{space}`"
+        hint = f"functions that do: {', '.join(f'{one:02X}h' for one in known) or 'none'}"
+    scope.report.error("unknown-function", message, raw.span("function"), hint)
+    return False

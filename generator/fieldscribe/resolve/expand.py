@@ -1,0 +1,163 @@
+"""From the points of the text to drafts: every record, set and variant written out."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from fieldscribe.language.nodes import Map
+from fieldscribe.resolve.drafts import Draft, groups, humanised
+from fieldscribe.resolve.scope import Scope, titles
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from fieldscribe.model import Titles
+
+_OWN = frozenset({"code", "at", "printed", "was", "name", "sets", "members", "record", "title"})
+"""What a further set does not take from the point it repeats (the title is extended instead)."""
+
+_OF_RECORDS = ("code", "line", "section", "page", "access", "keeps", "changes", "conditions", "when", "since", "until")
+"""What the use of a record says for all its members."""
+
+_NOT_OF_RECORDS = frozenset({*_OF_RECORDS, "name", "title", "note", "record", "at", "members"})
+
+_OF_FORMATS = ("type", "range", "scale", "unit", "enum", "flags", "special")
+"""What an unknown format leaves open."""
+
+_SET_WORDS = {"en": "set", "de": "Parametersatz"}
+
+
+def expand(scope: Scope) -> list[Draft]:
+    """All points of all groups, in the order of the text."""
+    return [
+        draft for group in groups(scope) for point in group.get("points", ()) for draft in _point(scope, group, point)
+    ]
+
+
+def _point(scope: Scope, group: Map, point: Map) -> Iterator[Draft]:
+    if "record" in point:
+        yield from _record(scope, group, point)
+        return
+    name = point["name"]
+    layers = (point, *_format(scope, point))
+    title = titles(point.get("title"), humanised(name))
+    sets: Map | None = point.get("sets")
+    yield from _variants(
+        scope, Draft(name, layers, group, point, title, set_number=1 if sets else None, enum_name=name)
+    )
+    for number, override in sets.items() if sets is not None else ():
+        own_title = titles(override.get("title")) or _set_title(title, number)
+        own_name = f"{name}_set_{int(number)}"
+        enum_name = own_name if "enum" in override else name
+        repeated = Draft(
+            own_name,
+            (override, *layers),
+            group,
+            override,
+            own_title,
+            set_number=int(number),
+            enum_name=enum_name,
+            hidden=_OWN,
+        )
+        yield from _variants(scope, repeated)
+
+
+def _variants(scope: Scope, draft: Draft) -> Iterator[Draft]:
+    overrides: Map | None = draft.get("variants")
+    if not overrides:
+        yield draft
+        return
+    axes = scope.axes
+    first = ""
+    for key, override in overrides.items():
+        axis, _, value = key.partition("=")
+        span = overrides.key_span(key)
+        if axis not in axes or value not in axes[axis]["values"]:
+            known = [f"{one}={each}" for one, entry in axes.items() for each in entry["values"]]
+            scope.unknown("variant", key, span, known)
+        elif axis != (first := first or axis):
+            message = f"`{draft.name}` differs by `{first}` and by `{axis}`"
+            scope.report.error(
+                "two-axes", message, span, "a point can differ by one axis only; make it two points with `when`"
+            )
+        else:
+            yield _varied(draft, key, value, override)
+
+
+def _varied(draft: Draft, key: str, value: str, override: Map) -> Draft:
+    return Draft(
+        draft.name,
+        (override, *draft.layers),
+        draft.group,
+        draft.own,
+        draft.title,
+        variant=key,
+        record=draft.record,
+        set_number=draft.set_number,
+        use=draft.use,
+        enum_name=f"{draft.enum_name}_{value.lower()}" if "enum" in override else draft.enum_name,
+        hidden=draft.hidden - override.keys(),
+    )
+
+
+def _record(scope: Scope, group: Map, use: Map) -> Iterator[Draft]:
+    record = scope.records.get(use["record"])
+    if record is None:
+        scope.unknown("record", use["record"], use.span("record"), scope.records)
+        return
+    for key in use:
+        if key not in _NOT_OF_RECORDS and not key.startswith("x-"):
+            message = f"`{key}` cannot be said for a whole record"
+            scope.report.error("record-key", message, use.key_span(key), "say it for one member under `members`")
+    members = {point["name"] for point in record["points"]}
+    for name in use.get("members", {}):
+        if name not in members:
+            span = use["members"].key_span(name)
+            scope.unknown("member", name, span, sorted(members))
+    for point in record["points"]:
+        if "record" in point:
+            message = f"a record cannot contain the record `{point['record']}`"
+            scope.report.error("record-cycle", message, point.span("record"), "write its points out")
+        elif "sets" in point:
+            message = "the points of a record cannot repeat in sets"
+            scope.report.error("record-key", message, point.key_span("sets"), "use the record once for each set")
+        else:
+            yield from _variants(scope, _member(scope, group, use, point))
+
+
+def _member(scope: Scope, group: Map, use: Map, point: Map) -> Draft:
+    override: Map | None = use.get("members", {}).get(point["name"])
+    shared = (point,) if override is None else (override, point)
+    together = titles(use.get("title"), humanised(use["name"]))
+    single = titles(point.get("title"), humanised(point["name"]))
+    title = {language: f"{text}: {single.get(language, single['en'])}" for language, text in together.items()}
+    layers = (*shared, *_format(scope, point), _whole_record(use))
+    name = f"{use['name']}_{point['name']}"
+    enum_name = name if override is not None and "enum" in override else f"{use['record']}_{point['name']}"
+    return Draft(name, layers, group, shared[0], title, record=use["name"], use=use, enum_name=enum_name)
+
+
+def _whole_record(use: Map) -> Map:
+    """What the use of a record says for all its members: where it stands in the manual, and the code of the whole."""
+    result = Map(use.file, use.at)
+    for key in _OF_RECORDS:
+        if key in use:
+            result[key] = use[key]
+            result.value_at[key] = use.value_at[key]
+    return result
+
+
+def _format(scope: Scope, point: Map) -> tuple[Map, ...]:
+    if "format" not in point:
+        return ()
+    found = scope.formats.get(point["format"])
+    if found is None:
+        scope.unknown("format", point["format"], point.span("format"), scope.formats)
+        nothing = Map(point.file, point.at)
+        nothing.broken = _OF_FORMATS
+        return (nothing,)
+    return (found,)
+
+
+def _set_title(title: Titles, number: str) -> Titles:
+    return {language: f"{text} ({_SET_WORDS.get(language, 'set')} {int(number)})" for language, text in title.items()}

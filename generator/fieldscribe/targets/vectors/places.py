@@ -1,0 +1,59 @@
+"""Vectors of what stands beside the conversions: where a point is, its other constants, and its words."""
+
+from __future__ import annotations
+
+from json import dumps
+from typing import TYPE_CHECKING
+
+from fieldscribe.targets.vectors.lines import Lines, array, quoted, subject
+from fieldscribe.targets.vectors.numbers import as_raw
+from fieldscribe.targets.vectors.oracle import outer_bounds
+from fieldscribe.text import line
+
+if TYPE_CHECKING:
+    from fieldscribe.model import Point
+
+KEYS = frozenset({"kind", "point", "space", "address", "words", "code", "raw_min", "raw_max", "decimals"})
+"""Keys of their own in `address` vectors; the manual's other numberings stand beside them under their own names."""
+
+
+def address(lines: Lines, point: Point) -> None:
+    """Where the point is on the wire and in the manual, the outer limits of its raw numbers, the unit of its counts."""
+    if point.address is None:
+        return
+    text = f'"space": {dumps(point.places[0].space)}, "address": {point.address}, "words": {point.words}'
+    text += f', "code": {"null" if point.code is None else quoted(line(point.code))}'
+    form = point.form
+    if form != "float":
+        low, high = outer_bounds(point)
+        text += f', "raw_min": {low}, "raw_max": {high}'
+    if form == "scaled":
+        text += f', "decimals": {point.decimals}'
+    for key, number in point.references.items():
+        if key not in KEYS:
+            text += f', "{key}": {quoted(line(number)) if isinstance(number, str) else number}'
+    lines.add("address", f"{subject(point.item)}, {text}")
+
+
+def words(lines: Lines, point: Point) -> None:
+    """Patterns of a point of several words, or of a signed word, in ascending order of the addresses."""
+    if not point.places or point.bits is not None or (point.words < 2 and not point.info.signed):
+        return
+    count = point.words
+    order = sorted(range(count), key=point.places[0].addresses.__getitem__)
+    for pattern in _wide_patterns(count) if count > 1 else _NARROW:
+        raw = as_raw(point, pattern)
+        whole = raw & (1 << 16 * count) - 1  # a signed byte fills its word with its sign
+        parts = [whole >> 16 * (count - 1 - place) & 0xFFFF for place in order]
+        lines.add("words", f'{subject(point.item)}, "raw": {raw}, "words": {array(parts)}')
+
+
+_NARROW = (0x8000, 0x8001, 0xFFFD, 0x7FFE)
+"""Patterns of one signed word: the least number, odd negative ones, a positive one."""
+
+
+def _wide_patterns(count: int) -> tuple[int, ...]:
+    top = 1 << 16 * count - 1
+    ascending = sum(0x0001_0203_0405_0607 >> 64 - 16 * count & 0xFFFF << 16 * place for place in range(count))
+    mixed = sum((0x8000 if place % 2 else 0x8001) << 16 * place for place in range(count))
+    return (0, 1, ascending, top, top + 1, top - 1, mixed, (1 << 16 * count) - 1, 0xFFFF)
