@@ -7,9 +7,6 @@ from fractions import Fraction
 from time import perf_counter
 
 import pytest
-from hypothesis import example, given
-from hypothesis import strategies as st
-
 from fieldscribe.language.formula import (
     AllOf,
     AnyOf,
@@ -31,6 +28,8 @@ from fieldscribe.language.formula import (
     parse_range,
     parse_scale,
 )
+from hypothesis import example, given
+from hypothesis import strategies as st
 
 VALUES = {"wire": Fraction(100), "base": Fraction(7), "b082": Fraction(3), "b082.raw": Fraction(30), "ffh": Fraction(1)}
 

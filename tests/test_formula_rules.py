@@ -7,9 +7,6 @@ from math import gcd
 from time import perf_counter
 
 import pytest
-from hypothesis import assume, given
-from hypothesis import strategies as st
-
 from fieldscribe.language.formula import (
     Affine,
     FormulaError,
@@ -22,6 +19,8 @@ from fieldscribe.language.formula import (
     scale_rule,
 )
 from fieldscribe.model import Factor, Linear
+from hypothesis import assume, given
+from hypothesis import strategies as st
 
 POINTS = {
     "k": Affine("factor", Fraction(1), Fraction(0)),

@@ -1,4 +1,4 @@
-"""`fieldscribe generate` as a user runs it: in a folder of their own, again after a change, and with broken descriptions."""
+"""`fieldscribe generate` as a user runs it: in a folder of their own, after a change, with broken descriptions."""
 
 from __future__ import annotations
 
@@ -24,13 +24,20 @@ def project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def files(folder: Path) -> dict[str, int]:
-    return {path.relative_to(folder).as_posix(): path.stat().st_mtime_ns for path in folder.rglob("*") if path.is_file()}
+    return {
+        path.relative_to(folder).as_posix(): path.stat().st_mtime_ns for path in folder.rglob("*") if path.is_file()
+    }
 
 
 def test_writes_every_target_once(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["generate"]) == 0
     first = files(project / "generated")
-    assert {"c/hitachi_l200.h", "python/hitachi_l200/__init__.py", "docs/hitachi_l200.md", "vectors/hitachi_l200.json"} <= first.keys()
+    assert {
+        "c/hitachi_l200.h",
+        "python/hitachi_l200/__init__.py",
+        "docs/hitachi_l200.md",
+        "vectors/hitachi_l200.json",
+    } <= first.keys()
     assert main(["generate"]) == 0
     assert files(project / "generated") == first
     assert f"0 written, 0 removed, {len(first)} unchanged" in capsys.readouterr().out
@@ -85,7 +92,9 @@ def test_the_same_device_twice_is_refused(project: Path, capsys: pytest.CaptureF
 def test_depfile_and_list(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["generate", "--target", "docs", "--out", "my out", "--depfile", "deps/docs.d"]) == 0
     rule = (project / "deps/docs.d").read_text("utf-8")
-    assert rule.startswith("my\\ out/docs/hitachi_l200.csv my\\ out/docs/hitachi_l200.md my\\ out/manifest/hitachi_l200.json:")
+    assert rule.startswith(
+        "my\\ out/docs/hitachi_l200.csv my\\ out/docs/hitachi_l200.md my\\ out/manifest/hitachi_l200.json:"
+    )
     assert "descriptions/hitachi_l200/standard_a.yaml" in rule
     capsys.readouterr()
     assert main(["generate", "--target", "docs", "--out", "elsewhere", "--list-outputs"]) == 0
@@ -108,6 +117,8 @@ def test_json_tells_what_happened(project: Path, capsys: pytest.CaptureFixture[s
         (["--out", "descriptions/hitachi_l200/device.yaml"], 2, "cannot write"),
     ],
 )
-def test_wrong_calls(project: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], code: int, says: str) -> None:
+def test_wrong_calls(
+    project: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], code: int, says: str
+) -> None:
     assert main(["generate", *arguments]) == code
     assert says in capsys.readouterr().err

@@ -6,10 +6,9 @@ from fractions import Fraction
 from time import perf_counter
 
 import pytest
+from fieldscribe.language.numbers import LONGEST, NumberError, parse_integer, parse_number
 from hypothesis import example, given
 from hypothesis import strategies as st
-
-from fieldscribe.language.numbers import LONGEST, NumberError, parse_integer, parse_number
 
 NUMBERS = {
     "4136": Fraction(4136),

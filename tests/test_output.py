@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import json
-from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
 from fieldscribe.output import UnsafePathError, apply, compare, read_manifest
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 FILES = {"c": {"c/drive.h": b"one\n", "c/runtime.h": b"shared\n"}, "docs": {"docs/drive.md": b"# drive\n"}}
 

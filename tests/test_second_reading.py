@@ -1,7 +1,7 @@
 """Each description agrees with a second reading of the same manual, made by other eyes from the manual alone.
 
-`readings/<device>.jsonl` holds that reading, one row of the manual a line. Where the two differ it was settled against the
-manual; SETTLED says how. A row that agrees now and differs later is a slip in the description.
+`readings/<device>.jsonl` holds that reading, one row of the manual a line. Where the two differ it was settled against
+the manual; SETTLED says how. A row that agrees now and differs later is a slip in the description.
 """
 
 from __future__ import annotations
@@ -11,15 +11,19 @@ import re
 from fractions import Fraction
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import pytest
 from fieldscribe.diagnostics import Report
-from fieldscribe.model import Device, Interval, Point
 from fieldscribe.pipeline import load_device
 
+if TYPE_CHECKING:
+    from fieldscribe.model import Device, Interval, Point
+
 ROOT = Path(__file__).resolve().parents[1]
-READINGS = sorted(path for path in (ROOT / "tests/readings").glob("*.jsonl") if (ROOT / "descriptions" / path.stem).is_dir())
+READINGS = sorted(
+    path for path in (ROOT / "tests/readings").glob("*.jsonl") if (ROOT / "descriptions" / path.stem).is_dir()
+)
 
 SETTLED: dict[tuple[int, str], str] = {
     (661, "access"): "blank in the manual; a setpoint must be writable (erratum)",
@@ -34,7 +38,7 @@ SETTLED: dict[tuple[int, str], str] = {
 """What the two readings saw differently, by line and fact, and why the description stays."""
 
 
-PLAIN = {None: "", "Anzahl": "", "Abtastung": "", "Pol": ""}
+PLAIN: dict[str | None, str] = {None: "", "Anzahl": "", "Abtastung": "", "Pol": ""}
 """What a reader noted as a unit and is a plain number here."""
 
 
@@ -61,7 +65,7 @@ def test_the_description_says_what_the_second_reading_says(name: str, row: dict[
     points = points_of(name, row)
     assert points, f"no point cites line {row['line']}"
     for point in points:
-        seen = {
+        seen: dict[str, tuple[object, object]] = {
             "wire": (point.address, row["wire"]),
             "words": (point.words, row["words"]),
             "code": (point.code, row["code"]),

@@ -1,15 +1,18 @@
-"""What may change in a description without touching code: titles, notes, sources, and the words of errata are for people."""
+"""What may change in a description without touching code: titles, notes and sources are for people."""
 
 from __future__ import annotations
 
 import re
 import shutil
-from collections.abc import Callable
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
 from fieldscribe.diagnostics import Report
 from fieldscribe.pipeline import load_device, outputs
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 ROOT = Path(__file__).resolve().parents[1]
 CODE = ("c", "python", "rust")

@@ -429,7 +429,9 @@ class Reading:
         form = ">f" if subject.type == "f32" else ">d"
         if math.isnan(number):
             raise RefusedError("not_a_number")
-        spans = [[struct.unpack(form, struct.pack(form, float(end)))[0] for end in one] for one in subject.allowed.units]
+        spans = [
+            [struct.unpack(form, struct.pack(form, float(end)))[0] for end in one] for one in subject.allowed.units
+        ]
         if math.isinf(number) or (spans and not any(low <= number <= high for low, high in spans)):
             raise RefusedError("out_of_range")
 
@@ -609,7 +611,8 @@ def names_and_places(subject: Point) -> Iterator[tuple[str, Point]]:
         flags = list(subject.flags)
         others = [replace(flag, low=flag.low + 1), replace(flag, width=flag.width + 1)]
         if flag.values:
-            others.append(replace(flag, values=(replace(flag.values[0], raw=flag.values[-1].raw + 7), *flag.values[1:])))
+            moved = replace(flag.values[0], raw=flag.values[-1].raw + 7)
+            others.append(replace(flag, values=(moved, *flag.values[1:])))
         for other in others:
             flags[index] = other
             yield f"flag {flag.name}", replace(subject, flags=tuple(flags))

@@ -20,7 +20,18 @@ def run(*command: object, folder: Path) -> str:
 
 @pytest.mark.full
 def test_wheel_installs_and_compiles(tmp_path: Path) -> None:
-    run(sys.executable, "-m", "pip", "wheel", "--quiet", "--no-deps", "--wheel-dir", tmp_path / "dist", ROOT, folder=tmp_path)
+    run(
+        sys.executable,
+        "-m",
+        "pip",
+        "wheel",
+        "--quiet",
+        "--no-deps",
+        "--wheel-dir",
+        tmp_path / "dist",
+        ROOT,
+        folder=tmp_path,
+    )
     (wheel,) = (tmp_path / "dist").glob("fieldscribe-*.whl")
     venv.create(tmp_path / "empty", with_pip=True)
     scripts = tmp_path / "empty" / "bin"
@@ -28,7 +39,12 @@ def test_wheel_installs_and_compiles(tmp_path: Path) -> None:
     project = tmp_path / "project"
     project.mkdir()
     run(scripts / "fieldscribe", "generate", "hitachi_l200", "--out", "bindings", folder=project)
-    for path in ("c/hitachi_l200.h", "rust/hitachi_l200/Cargo.toml", "vectors/hitachi_l200.json", "docs/hitachi_l200.md"):
+    for path in (
+        "c/hitachi_l200.h",
+        "rust/hitachi_l200/Cargo.toml",
+        "vectors/hitachi_l200.json",
+        "docs/hitachi_l200.md",
+    ):
         made = (project / "bindings" / path).read_bytes()
         assert made == (ROOT / "generated" / path).read_bytes(), f"{path} differs from the checkout's"
     assert "base_frequency" in run(scripts / "fieldscribe", "explain", "hitachi_l200", "A020", folder=project)

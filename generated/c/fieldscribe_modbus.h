@@ -368,6 +368,9 @@ static inline fieldscribe_modbus_status fieldscribe_modbus_parse_tcp(const field
         return FIELDSCRIBE_MODBUS_WRONG_UNIT;
     }
     if (bytes[7] == (request->function | 0x80U)) {
+        if (length > 9U) {
+            return FIELDSCRIBE_MODBUS_LONG_FRAME;
+        }
         reply->exception = bytes[8];
         return FIELDSCRIBE_MODBUS_EXCEPTION;
     }

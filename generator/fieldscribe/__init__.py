@@ -1,3 +1,3 @@
-"""Fieldscribe: compiles descriptions of fieldbus devices into C, Python, Rust, documentation and conformance vectors."""
+"""Fieldscribe compiles descriptions of fieldbus devices into C, Python, Rust, documentation and vectors."""
 
 __version__ = "0.1.0"

@@ -63,7 +63,7 @@ def _example(device: Device, function: int, address: int, count: int, values: tu
 
 
 def _sample_raw(point: Point) -> int | None:
-    """A raw number that may be written: the default, else the smallest, which moves a machine least when it is tried."""
+    """A raw number that may be written: the default, else the smallest: it moves a machine least when tried."""
     if point.info.floating:
         number = (
             point.default if point.default is not None else point.allowed.units[0][0] if point.allowed.units else 0

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from fractions import Fraction
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from fractions import Fraction
 
 Titles = Mapping[str, str]
 """Text for people by language code; `en` is always there."""
@@ -59,7 +62,7 @@ class Place:
 
 @dataclass(frozen=True, slots=True)
 class Factor:
-    """A run-time factor of a rule: (raw * slope + intercept) of a point to the power of 1 or -1, or ten to that number."""
+    """A run-time factor of a rule: (raw * slope + intercept) of a point to the power of 1 or -1; or ten to that."""
 
     point: str
     slope: int
@@ -112,9 +115,10 @@ class Interval:
 
 @dataclass(frozen=True, slots=True)
 class Allowed:
-    """Which raw numbers may be written: a union of intervals in ascending order; `listed` if the author wrote single numbers.
+    """Which raw numbers may be written: a union of intervals in ascending order.
 
-    For f32 and f64 the numbers are values in the unit, and `units` holds them instead.
+    `listed` says that the author wrote single numbers. For f32 and f64 the numbers are values in the unit, and `units`
+    holds them instead.
     """
 
     intervals: tuple[Interval, ...]
@@ -155,7 +159,7 @@ class Special:
 
 @dataclass(frozen=True, slots=True)
 class Flag:
-    """A bit, or several, inside a word, named in the word's description. `low` is the lowest bit, bit 0 the lowest of all.
+    """A bit, or several, inside a word, named in the word's description. `low` is the lowest bit; bits count from 0.
 
     `active` is the value of a single bit that means the name is true (0 for inverted bits). `values` names the numbers.
     """
@@ -316,7 +320,7 @@ class Group:
 
 @dataclass(frozen=True, slots=True)
 class Erratum:
-    """A place where the manual is wrong, unclear or silent: what is printed, what was taken, why, and how sure that is."""
+    """A place where the manual is wrong, unclear or silent: what is printed, what was taken, why, how sure that is."""
 
     id: str
     points: tuple[str, ...]
@@ -330,9 +334,10 @@ class Erratum:
 
 @dataclass(frozen=True, slots=True)
 class Frame:
-    """A worked example of the manual. `answers` names the request that a response answers; `valid` is False when it is misprinted.
+    """A worked example of the manual. `answers` names the request that a response answers.
 
-    `meaning` gives raw numbers by point name; `corrected` is the frame as it should read (the printed bytes when valid).
+    `valid` is False when it is misprinted; `corrected` is the frame as it should read (the printed bytes when valid).
+    `meaning` gives raw numbers by point name.
     """
 
     name: str

@@ -1,7 +1,7 @@
-"""Files on disk: written only if they changed, whole or not at all; removed only if a manifest says that they are ours.
+"""Files on disk: written only if they changed, whole or not at all; removed only if a manifest says they are ours.
 
-A manifest per device (`manifest/<device>.json`) names the files of each target. Nothing outside the output folder is ever
-touched, whatever a manifest or a link in the folder says.
+A manifest per device (`manifest/<device>.json`) names the files of each target. Nothing outside the output folder is
+ever touched, whatever a manifest or a link in the folder says.
 """
 
 from __future__ import annotations
@@ -9,9 +9,12 @@ from __future__ import annotations
 import json
 import os
 import tempfile
-from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
 
 MANIFESTS = "manifest"
 _FORMAT = 1

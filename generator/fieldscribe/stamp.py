@@ -1,20 +1,23 @@
 """Remembers what the last run read and wrote, so that a run on unchanged input ends before anything heavy is imported.
 
-The memory lies in the user's cache folder. It holds checksums of the inputs, of the compiler itself and of the outputs as
-they were left; any difference, also in an output, means that the run is done in full.
+The memory lies in the user's cache folder. It holds checksums of the inputs, of the compiler itself and of the outputs
+as they were left; any difference, also in an output, means that the run is done in full.
 """
 
 from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterable
 from hashlib import sha256
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from fieldscribe import __version__
 from fieldscribe.cache import cache_dir
 from fieldscribe.resources import templates_dir
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
 
 _PACKAGE = Path(__file__).resolve().parent
 

@@ -1,6 +1,7 @@
 """The one place where text from a description becomes a comment or a literal of some language.
 
-Descriptions come from strangers: whatever a title holds, the result of these functions stays inside its comment or quotes.
+Descriptions come from strangers: whatever a title holds, the result of these functions stays inside its comment or
+quotes.
 """
 
 from __future__ import annotations

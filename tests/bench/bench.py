@@ -1,6 +1,6 @@
 """Measures the compiler as whole processes: medians of several runs, wall time, peak memory, points per second.
 
-    .venv/bin/python tests/bench/bench.py [--runs 5] [--sizes 100,1000,10000]
+.venv/bin/python tests/bench/bench.py [--runs 5] [--sizes 100,1000,10000]
 """
 
 from __future__ import annotations
@@ -12,11 +12,14 @@ import statistics
 import sys
 import tempfile
 import time
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from synthetic import write_device
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 ROOT = Path(__file__).resolve().parents[2]
 FIELDSCRIBE = [str(Path(sys.executable).with_name("fieldscribe"))]
@@ -30,13 +33,17 @@ class Figures:
     mebibytes: float
 
 
-def measure(command: list[str], runs: int, before: Callable[[], None] = lambda: None, *, environment: dict[str, str]) -> Figures:
+def measure(
+    command: list[str], runs: int, before: Callable[[], None] = lambda: None, *, environment: dict[str, str]
+) -> Figures:
     """Run a command once to warm up, then `runs` times; `before` restores what each run needs."""
     seconds, peaks = [], []
     for number in range(runs + 1):
         before()
         start = time.perf_counter()
-        process = os.posix_spawn(command[0], command, environment, file_actions=[(os.POSIX_SPAWN_OPEN, 1, os.devnull, os.O_WRONLY, 0)])
+        process = os.posix_spawn(
+            command[0], command, environment, file_actions=[(os.POSIX_SPAWN_OPEN, 1, os.devnull, os.O_WRONLY, 0)]
+        )
         _, status, usage = os.wait4(process, 0)
         took = time.perf_counter() - start
         if status != 0:

@@ -42,7 +42,7 @@ HEAD = """- code: P{index}
 
 KINDS = (
     "  range: 0..4000\n  scale: value = raw * 0.1\n  unit: Hz\n",
-    "  range: 0..1000\n  scale: value = raw * 0.1\n  unit: \"%\"\n",
+    '  range: 0..1000\n  scale: value = raw * 0.1\n  unit: "%"\n',
     "  range: 0..65535\n  unit: h\n  access: r\n",
     "  type: s16\n  range: -400..1250\n  scale: value = raw * 0.1\n  unit: °C\n",
     "  range: 0..3\n  enum: {0: off_mode, 1: slow, 2: fast, 3: automatic}\n",

@@ -79,8 +79,8 @@ class Form(ABC, Generic[R_co, W_contra]):
 
     def checked(self, raw: int, allowed: Allowed, raws: Raws) -> int | None:
         """The same number; None if it may not be written."""
-        fits = any(low_end(low, raws) <= raw <= high_end(high, raws) for low, high in allowed)
-        return raw if fits else None
+        ends = [(low_end(low, raws), high_end(high, raws)) for low, high in allowed]  # all, whichever holds
+        return raw if any(low <= raw <= high for low, high in ends) else None
 
     def limits(self, width: int) -> tuple[int, int]:
         """The least and the greatest number of `width` bits that the form knows, where nothing else bounds them."""

@@ -42,7 +42,7 @@ class Claim(NamedTuple):
             return self.holder.span(self.key)
         if self.holder is None:
             return Span("", 1, 1)
-        return self.holder.key_span(self.key) if self.key in self.holder.key_at else self.holder.span(self.key)
+        return self.holder.key_span(self.key) if self.key in self.holder.places else self.holder.span(self.key)
 
 
 def claims(subject: Subject) -> Iterator[Claim]:

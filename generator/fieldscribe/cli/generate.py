@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from argparse import ArgumentParser, Namespace
 from dataclasses import dataclass, field
 from itertools import groupby
 from operator import itemgetter
@@ -13,6 +12,8 @@ from fieldscribe.output import UnsafePathError
 from fieldscribe.targets import TARGETS
 
 if TYPE_CHECKING:
+    from argparse import ArgumentParser, Namespace
+
     from fieldscribe.diagnostics import Report
     from fieldscribe.output import Changes
 
@@ -24,9 +25,22 @@ EXAMPLE = """examples:
 
 def add_arguments(parser: ArgumentParser) -> None:
     """The command's arguments."""
-    parser.add_argument("paths", nargs="*", type=Path, metavar="PATH", help="device ids, folders with device.yaml, or folders of such folders (default: descriptions)")
-    parser.add_argument("--target", default=",".join(TARGETS), metavar="LIST", help=f"what to make, of {', '.join(TARGETS)} (default: all)")
-    parser.add_argument("--out", type=Path, default=Path("generated"), metavar="DIR", help="where to (default: generated)")
+    parser.add_argument(
+        "paths",
+        nargs="*",
+        type=Path,
+        metavar="PATH",
+        help="device ids, folders with device.yaml, or folders of such folders (default: descriptions)",
+    )
+    parser.add_argument(
+        "--target",
+        default=",".join(TARGETS),
+        metavar="LIST",
+        help=f"what to make, of {', '.join(TARGETS)} (default: all)",
+    )
+    parser.add_argument(
+        "--out", type=Path, default=Path("generated"), metavar="DIR", help="where to (default: generated)"
+    )
     parser.add_argument("--check", action="store_true", help="write nothing; say what is stale, exit 1 if anything is")
     parser.add_argument("--depfile", type=Path, metavar="FILE", help="write a make rule from outputs to inputs")
     parser.add_argument("--list-outputs", action="store_true", help="write nothing; print the paths of all outputs")
@@ -85,11 +99,13 @@ def run(arguments: Namespace) -> int:
     return _say(arguments, result, failed=report.has_errors)
 
 
-def _compile(arguments: Namespace, targets: tuple[str, ...], device_files: list[Path], report: Report, result: _Result) -> None:
-    from fieldscribe.output import compare
-    from fieldscribe.pipeline import DEVICE_FILE, load_device, outputs
+def _compile(
+    arguments: Namespace, targets: tuple[str, ...], device_files: list[Path], report: Report, result: _Result
+) -> None:
     from fieldscribe.diagnostics import Span
     from fieldscribe.language.source import shown
+    from fieldscribe.output import compare
+    from fieldscribe.pipeline import DEVICE_FILE, load_device, outputs
 
     seen: dict[str, Path] = {}
     for device_file in device_files:
@@ -98,7 +114,9 @@ def _compile(arguments: Namespace, targets: tuple[str, ...], device_files: list[
             continue
         if device.id in seen:
             message = f"the device `{device.id}` is described twice in this run, first in {shown(seen[device.id])}"
-            report.error("duplicate-device", message, Span(shown(device_file), 1, 1), f"give one {DEVICE_FILE} another `device`")
+            report.error(
+                "duplicate-device", message, Span(shown(device_file), 1, 1), f"give one {DEVICE_FILE} another `device`"
+            )
             continue
         seen[device.id] = device_file
         # one target at a time: the texts of all targets of a large device would take much memory

@@ -1,9 +1,12 @@
-"""Bus families: the addressing and framing rules that many devices share. A family is one folder here and one line below."""
+"""Bus families: addressing and framing rules that many devices share. A family is a folder here and a line below."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,6 +6,7 @@ from tags, and what aliases and nesting may cost is bounded.
 
 from __future__ import annotations
 
+from sys import intern
 from typing import TYPE_CHECKING, Any, NoReturn
 
 import yaml
@@ -116,7 +117,7 @@ class _Builder:
         mark = event.start_mark
         result = Map(self.source, (mark.line + 1, mark.column + 1))
         next_event, node = self.next_event, self._node
-        key_at, value_at = result.key_at, result.value_at
+        places = result.places
         while True:
             event = next_event()
             if type(event) is yaml.MappingEndEvent:
@@ -128,8 +129,7 @@ class _Builder:
             value = node(event, depth + 1)
             if key is not None:
                 result[key] = value
-                key_at[key] = (mark.line + 1, mark.column + 1)
-                value_at[key] = at
+                places[key] = (mark.line + 1, mark.column + 1, *at)
 
     def _sequence(self, event: Any, depth: int) -> Seq:
         mark = event.start_mark
@@ -148,7 +148,7 @@ class _Builder:
             )
         if event.tag is not None or event.anchor is not None:
             self._error("yaml-tag", "a key takes no tag and no anchor", event, "remove it")
-        key: str = event.value
+        key: str = intern(event.value)
         if key in into:
             span = self._span(event)._replace(width=max(1, len(key)))
             first = (into.key_span(key), "first given here")

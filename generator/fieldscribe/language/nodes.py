@@ -15,31 +15,31 @@ Place = tuple[int, int]
 
 
 class Map(dict[str, Any]):
-    """A YAML mapping. `at` is where it starts; `key_at` and `value_at` give places by key.
+    """A YAML mapping. `at` is where it starts; `places` give line and column of the key, then of the value, by key.
 
     `broken` are the keys whose values had the wrong shape; they are gone from the mapping. `verdict` is what the check
     of its shape said, so that a mapping that aliases repeat is checked once.
     """
 
-    __slots__ = ("at", "broken", "file", "key_at", "value_at", "verdict")
+    __slots__ = ("at", "broken", "file", "places", "verdict")
 
     def __init__(self, file: SourceFile, at: Place) -> None:
         super().__init__()
         self.file = file
         self.at = at
-        self.key_at: dict[str, Place] = {}
-        self.value_at: dict[str, Place] = {}
+        self.places: dict[str, tuple[int, int, int, int]] = {}
         self.broken: tuple[str, ...] = ()
         self.verdict: tuple[object, bool] | None = None
 
     def span(self, key: str | None = None) -> Span:
         """Where the value of `key` stands, or the whole mapping."""
-        line, column = self.at if key is None else self.value_at.get(key, self.at)
+        found = None if key is None else self.places.get(key)
+        line, column = self.at if found is None else found[2:]
         return Span(self.file.name, line, column)
 
     def key_span(self, key: str) -> Span:
         """Where `key` itself stands."""
-        line, column = self.key_at.get(key, self.at)
+        line, column = self.places.get(key, self.at)[:2]
         return Span(self.file.name, line, column, max(1, len(key)))
 
 

@@ -143,7 +143,7 @@ def _whole_record(use: Map) -> Map:
     for key in _OF_RECORDS:
         if key in use:
             result[key] = use[key]
-            result.value_at[key] = use.value_at[key]
+            result.places[key] = use.places[key]
     return result
 
 

@@ -1,4 +1,4 @@
-"""The languages that a device is compiled to. A target is one module here, one folder of templates and one line below."""
+"""The languages that a device is compiled to. A target is a module here, a folder of templates and a line below."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
             """The files of a device: path relative to the output folder, and text."""
 
         def runtime(self, device: Device) -> Iterable[tuple[str, str]]:
-            """Real source that goes beside them: path relative to the output folder, and path below the templates folder."""
+            """Real source that goes beside them: path below the output folder, and path below the templates folder."""
 
 
 TARGETS = ("c", "python", "rust", "docs", "vectors")

@@ -51,7 +51,8 @@ def scope_of(device: Device) -> Scope:
         points.setdefault(point.name, point)
         points.setdefault(point.item, point)
     lines = {
-        one.id: f"Erratum {one.id} ({one.certainty}): printed: {one.printed.rstrip('.')}; taken: {one.taken.rstrip('.')}."
+        one.id: f"Erratum {one.id} ({one.certainty}): "
+        f"printed: {one.printed.rstrip('.')}; taken: {one.taken.rstrip('.')}."
         for one in device.errata
     }
     return Scope(device.id, upper(device.id), points, lines)

@@ -67,7 +67,8 @@ def _functions(bus: Bus) -> Table | None:
     if bus.broadcast is None:
         return by_rows(heads, rows)
     taken = [one.number in BROADCAST if one.broadcast is None else one.broadcast for one in bus.functions]
-    return by_rows((*heads, "Broadcast"), [(*row, "yes" if yes else "no") for row, yes in zip(rows, taken, strict=True)])
+    answers = ["yes" if yes else "no" for yes in taken]
+    return by_rows((*heads, "Broadcast"), [(*row, answer) for row, answer in zip(rows, answers, strict=True)])
 
 
 def _code(one: Code) -> tuple[str, str, str]:

@@ -94,17 +94,7 @@ def _point(point: Point, scope: Scope, errata: Mapping[str, Erratum]) -> PointVi
 
 
 def _arguments(point: Point, scope: Scope) -> list[Node]:
-    arguments: list[Node] = [form(point, scope), place("at", point.places[0], scope)]
-    write_place = next((one for one in point.places if one.purpose == "write"), point.places[0])
-    if write_place is not point.places[0] and point.writable:
-        arguments.append(place("write_at", write_place, scope))
-    if point.bits is not None:
-        arguments.append(f"bits=({point.bits[0]}, {point.bits[1]})")
-    arguments.append(f"group={python_string(point.group)}")
-    if point.code:
-        arguments.append(f"code={python_string(point.code)}")
-    if point.references:
-        arguments.append(_references(point))
+    arguments = [form(point, scope), *_places(point, scope)]
     if point.unit.symbol:
         arguments.append(f"unit={python_string(point.unit.symbol)}")
     if (limits := allowed(point, scope)) is not None:
@@ -119,6 +109,22 @@ def _arguments(point: Point, scope: Scope) -> list[Node]:
         axis, _, value = point.variant.partition("=")
         arguments.append(Group("variant=(", (python_string(axis), python_string(value))))
         arguments.append(f"name={python_string(point.name)}")
+    return arguments
+
+
+def _places(point: Point, scope: Scope) -> list[Node]:
+    """Where the point is, on the wire and in the manual."""
+    arguments: list[Node] = [place("at", point.places[0], scope)]
+    write_place = next((one for one in point.places if one.purpose == "write"), point.places[0])
+    if write_place is not point.places[0] and point.writable:
+        arguments.append(place("write_at", write_place, scope))
+    if point.bits is not None:
+        arguments.append(f"bits=({point.bits[0]}, {point.bits[1]})")
+    arguments.append(f"group={python_string(point.group)}")
+    if point.code:
+        arguments.append(f"code={python_string(point.code)}")
+    if point.references:
+        arguments.append(_references(point))
     return arguments
 
 
