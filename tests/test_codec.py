@@ -9,15 +9,15 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 import pytest
-from fieldscribe import codec
-from fieldscribe.codec import CodecError
-from fieldscribe.encoding import encode_point
-from fieldscribe.hexadecimal import HexError, parse_hex
-from fieldscribe.meanings import meaning_of
+from fieldscribe.dialogue import codec
+from fieldscribe.dialogue.codec import CodecError
+from fieldscribe.dialogue.encoding import encode_point
+from fieldscribe.dialogue.hexadecimal import HexError, parse_hex
+from fieldscribe.dialogue.meanings import meaning_of
+from fieldscribe.dialogue.refusals import RefusedError, amount
+from fieldscribe.dialogue.selection import UnclearError, choose_point, choose_variants
+from fieldscribe.dialogue.typed_values import read_settings, read_value
 from fieldscribe.model import Special
-from fieldscribe.refusals import RefusedError, amount
-from fieldscribe.selection import UnclearError, choose_point, choose_variants
-from fieldscribe.typed_values import read_settings, read_value
 from hypothesis import given
 from hypothesis import strategies as st
 from models import FILTER_MODE, HERTZ, SECOND, allowed, entry, named, point, sample_device, scaled, titles

@@ -6,9 +6,9 @@ from dataclasses import replace
 
 import pytest
 from fieldscribe.dialogue import Heard, listener
+from fieldscribe.dialogue.refusals import RefusedError
 from fieldscribe.families.modbus import crc16
 from fieldscribe.families.modbus.words import raw_of, words_of, write_request
-from fieldscribe.refusals import RefusedError
 from hypothesis import given
 from hypothesis import strategies as st
 from models import named, sample_device

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import pytest
 from fieldscribe.explain import explain_point, find, near
-from fieldscribe.lookup import number_of
+from fieldscribe.explain.lookup import number_of
 from models import named, point, sample_device
 
 DEVICE = sample_device()

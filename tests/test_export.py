@@ -12,13 +12,13 @@ from typing import Any
 import fieldscribe
 import pytest
 from fieldscribe.export import export_model
-from fieldscribe.export_rules import ExportError, bound_of, use_of
+from fieldscribe.export.rules import ExportError, bound_of, use_of
 from fieldscribe.model import Factor, Limit, Special
 from jsonschema import Draft202012Validator
 from models import linear, named, point, sample_device, scaled, titles, value_of
 
 DEVICE = sample_device()
-SCHEMA: dict[str, Any] = json.loads((Path(fieldscribe.__file__).parent / "export.schema.json").read_text("utf-8"))
+SCHEMA: dict[str, Any] = json.loads((Path(fieldscribe.__file__).parent / "export/schema.json").read_text("utf-8"))
 POINT_KEYS = (
     *("name", "code", "group", "space", "telegram", "direction", "address", "index", "addresses", "references"),
     *("places", "type", "words", "access", "bits", "variant", "when", "since", "until", "record", "set", "repeat"),

@@ -122,3 +122,9 @@ def test_wrong_calls(
 ) -> None:
     assert main(["generate", *arguments]) == code
     assert says in capsys.readouterr().err
+
+
+def test_a_changed_compiler_is_not_mistaken_for_unchanged_input() -> None:
+    from fieldscribe.output import stamp
+
+    assert (stamp.PACKAGE / "pipeline.py").is_file()

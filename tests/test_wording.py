@@ -6,8 +6,8 @@ from fractions import Fraction
 
 import pytest
 from fieldscribe import wording
-from fieldscribe.exact import exact, fixed_rule, hex_text, number_text, value_multiple
 from fieldscribe.model import Factor
+from fieldscribe.wording.exact import exact, fixed_rule, hex_text, number_text, value_multiple
 from models import HERTZ, named, point, sample_device, scaled
 
 DEVICE = sample_device()

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from fieldscribe.cache import cache_dir
+from fieldscribe.output.cache import cache_dir
 from fieldscribe.resources import templates_dir
 
 if TYPE_CHECKING:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.checks.subject import Subject, inside
-from fieldscribe.exact import number_text
+from fieldscribe.wording.exact import number_text
 
 if TYPE_CHECKING:
     from fractions import Fraction

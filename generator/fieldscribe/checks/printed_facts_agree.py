@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 from fieldscribe import wording
 from fieldscribe.checks.subject import Printed, Subject, same
-from fieldscribe.exact import number_text
 from fieldscribe.language.formula import FormulaError
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.numbers import NumberError, parse_number
 from fieldscribe.resolve.addresses import WIRE
 from fieldscribe.resolve.bounds import as_text, constant_range
+from fieldscribe.wording.exact import number_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping

@@ -51,7 +51,7 @@ def usage_error(message: str, hint: str = "") -> int:
 
 def unknown_command(name: str, known: Iterable[str]) -> int:
     """Say that there is no such command; the exit code."""
-    from fieldscribe.selection import quoted
+    from fieldscribe.dialogue.selection import quoted
 
     return usage_error(f"there is no command `{quoted(name)}`", _near(name, list(known)))
 
@@ -104,8 +104,8 @@ def _known_folder(name: Path) -> Path | None:
 def open_device(arguments: Namespace) -> Device:
     """The device that the command line names, with its chosen variants. Findings go to stderr. Raises StopError."""
     from fieldscribe.diagnostics import Report
+    from fieldscribe.dialogue.selection import UnclearError, choose_variants
     from fieldscribe.pipeline import load_device
-    from fieldscribe.selection import UnclearError, choose_variants
 
     report = Report()
     device = load_device(_device_file(arguments), report)
@@ -209,9 +209,9 @@ def _reader() -> ReadLines:
 
 def settings_of(device: Device, pairs: list[str]) -> dict[str, int]:
     """What `--with` says of other points, as raw numbers. Raises StopError."""
-    from fieldscribe.refusals import RefusedError
-    from fieldscribe.selection import UnclearError
-    from fieldscribe.typed_values import read_settings
+    from fieldscribe.dialogue.refusals import RefusedError
+    from fieldscribe.dialogue.selection import UnclearError
+    from fieldscribe.dialogue.typed_values import read_settings
 
     try:
         return read_settings(device, pairs)

@@ -71,7 +71,7 @@ def _frames(words: list[str]) -> list[str]:
 
 def _bytes(text: str) -> bytes:
     from fieldscribe.cli.common import StopError
-    from fieldscribe.hexadecimal import HexError, parse_hex
+    from fieldscribe.dialogue.hexadecimal import HexError, parse_hex
 
     try:
         return parse_hex(text)
@@ -83,7 +83,7 @@ def _bytes(text: str) -> bytes:
 
 def _print(heard: list[Heard]) -> None:
     from fieldscribe.cli.terminal import print_lines, print_rows
-    from fieldscribe.hexadecimal import spaced
+    from fieldscribe.dialogue.hexadecimal import spaced
     from fieldscribe.report import visible
 
     for place, one in enumerate(heard):

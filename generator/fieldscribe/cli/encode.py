@@ -8,7 +8,7 @@ if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
     from collections.abc import Mapping
 
-    from fieldscribe.encoding import Encoded
+    from fieldscribe.dialogue.encoding import Encoded
 
 HELP = "turn a value into its raw number, or into the whole request frame"
 EXAMPLE = """examples:
@@ -48,9 +48,9 @@ def run(arguments: Namespace) -> int:
     """Encode; the exit code: 1 when the value is refused."""
     from fieldscribe.cli import FINDINGS, FINE, USAGE
     from fieldscribe.cli.common import StopError, open_device, settings_of
-    from fieldscribe.encoding import encode_point, frame_for
-    from fieldscribe.refusals import RefusedError
-    from fieldscribe.selection import UnclearError, choose_point
+    from fieldscribe.dialogue.encoding import encode_point, frame_for
+    from fieldscribe.dialogue.refusals import RefusedError
+    from fieldscribe.dialogue.selection import UnclearError, choose_point
 
     device = open_device(arguments)
     settings = settings_of(device, arguments.given)
@@ -72,7 +72,7 @@ def _tell(form: str, encoded: Encoded, data: bytes | None) -> None:
 
     from fieldscribe.cli.common import print_json
     from fieldscribe.cli.terminal import print_lines
-    from fieldscribe.hexadecimal import spaced
+    from fieldscribe.dialogue.hexadecimal import spaced
     from fieldscribe.report import visible
 
     if form == "json":

@@ -37,9 +37,9 @@ def run(arguments: Namespace) -> int:
     """Explain; the exit code."""
     from fieldscribe.cli import FINE
     from fieldscribe.cli.common import StopError, open_device, print_json
-    from fieldscribe.explain_others import explain_others
-    from fieldscribe.lookup import near, number_of
-    from fieldscribe.selection import did_you_mean, quoted
+    from fieldscribe.dialogue.selection import did_you_mean, quoted
+    from fieldscribe.explain.lookup import near, number_of
+    from fieldscribe.explain.others import explain_others
 
     device = open_device(arguments)
     found = _points(device, arguments.what, as_documented=arguments.as_documented)
@@ -60,7 +60,7 @@ def run(arguments: Namespace) -> int:
 def _points(device: Device, what: str, *, as_documented: bool) -> list[tuple[list[str], Explanation]]:
     """Every point that is meant, with all readings that lead to it."""
     from fieldscribe.explain import explain_point
-    from fieldscribe.lookup import find
+    from fieldscribe.explain.lookup import find
 
     readings: dict[str, list[str]] = {}
     points = {}
@@ -75,7 +75,7 @@ def _points(device: Device, what: str, *, as_documented: bool) -> list[tuple[lis
 
 def _print(found: list[tuple[list[str], Explanation]], what: str) -> None:
     from fieldscribe.cli.terminal import print_lines, print_rows
-    from fieldscribe.selection import quoted
+    from fieldscribe.dialogue.selection import quoted
 
     if len(found) > 1:
         print_lines([[("strong", f"`{quoted(what)}` can mean {len(found)} things.")], []])

@@ -26,7 +26,7 @@ def run(arguments: Namespace) -> int:
     from fieldscribe.cli import FINE
     from fieldscribe.cli.common import StopError, open_device, print_json
     from fieldscribe.export import export_model
-    from fieldscribe.export_rules import ExportError
+    from fieldscribe.export.rules import ExportError
 
     device = open_device(arguments)
     try:

@@ -69,9 +69,9 @@ class _Result:
 
 def run(arguments: Namespace) -> int:
     """Compile; the exit code: 0 fine, 1 findings or stale, 2 environment."""
-    from fieldscribe import stamp
     from fieldscribe.cli.common import description_paths, report_findings, usage_error
     from fieldscribe.diagnostics import Report
+    from fieldscribe.output import stamp
     from fieldscribe.pipeline import description_files, find_devices
 
     targets = tuple(dict.fromkeys(name.strip() for name in arguments.target.split(",") if name.strip()))

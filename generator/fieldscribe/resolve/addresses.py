@@ -6,12 +6,12 @@ import re
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from fieldscribe.exact import number_text
 from fieldscribe.language.formula import FormulaError, evaluate, parse_expression
 from fieldscribe.language.formula.syntax import names
 from fieldscribe.language.nodes import Map
 from fieldscribe.model import TYPES, Place
 from fieldscribe.resolve.values import formula_finding, formula_value, integer
+from fieldscribe.wording.exact import number_text
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

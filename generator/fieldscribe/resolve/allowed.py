@@ -5,12 +5,12 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from fieldscribe.exact import number_text
 from fieldscribe.language.formula import Expression, FormulaError, parse_range
 from fieldscribe.model import Allowed, Bound, Enum, Interval, Limit, Linear
 from fieldscribe.resolve.bounds import Bounds, as_text, constant_range, round_half_away
 from fieldscribe.resolve.rules import UnknownError
 from fieldscribe.resolve.values import formula_finding
+from fieldscribe.wording.exact import number_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

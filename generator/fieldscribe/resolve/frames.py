@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from fieldscribe.exact import number_text
 from fieldscribe.model import Bus, Frame, Point
 from fieldscribe.resolve.drafts import humanised
 from fieldscribe.resolve.scope import Scope, source_of, titles
 from fieldscribe.resolve.values import number
+from fieldscribe.wording.exact import number_text
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

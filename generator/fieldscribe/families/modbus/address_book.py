@@ -6,19 +6,19 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.dialogue import Item
-from fieldscribe.exact import hex_text
+from fieldscribe.dialogue.meanings import meaning_of, range_remark, raw_text
+from fieldscribe.dialogue.selection import label
+from fieldscribe.explain.lookup import word_text
 from fieldscribe.families.modbus.functions import READS, SPACES
 from fieldscribe.families.modbus.words import raw_of
-from fieldscribe.lookup import word_text
-from fieldscribe.meanings import meaning_of, range_remark, raw_text
-from fieldscribe.selection import label
 from fieldscribe.text import line
 from fieldscribe.wording import title_text
+from fieldscribe.wording.exact import hex_text
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from fieldscribe.codec import Settings
+    from fieldscribe.dialogue.codec import Settings
     from fieldscribe.model import Command, Device, Place, Point
 
 _SPACE_OF: Mapping[int, str] = {

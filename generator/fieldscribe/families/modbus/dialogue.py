@@ -23,7 +23,7 @@ from fieldscribe.families.modbus.replies import Reply, parse_reply
 from fieldscribe.families.modbus.requests import Request, parse_request
 
 if TYPE_CHECKING:
-    from fieldscribe.codec import Settings
+    from fieldscribe.dialogue.codec import Settings
     from fieldscribe.model import Device
 
 _UNASKED = "which addresses these are, only the request says: give it before this frame, or with --request"

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.exact import hex_text
+from fieldscribe.dialogue.selection import label
 from fieldscribe.families.modbus.address_book import AddressBook, Area, span_text
 from fieldscribe.families.modbus.functions import BROADCAST, profile_of
-from fieldscribe.selection import label
 from fieldscribe.text import line
+from fieldscribe.wording.exact import hex_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping

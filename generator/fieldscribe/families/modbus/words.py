@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.exact import hex_text
+from fieldscribe.dialogue.refusals import RefusedError
+from fieldscribe.dialogue.selection import label
 from fieldscribe.families.modbus.functions import BROADCAST, SPACES, profile_of
 from fieldscribe.families.modbus.requests import Request, build
-from fieldscribe.refusals import RefusedError
-from fieldscribe.selection import label
+from fieldscribe.wording.exact import hex_text
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -5,7 +5,6 @@ from __future__ import annotations
 import textwrap
 from typing import TYPE_CHECKING
 
-from fieldscribe.exact import number_text
 from fieldscribe.names import upper
 from fieldscribe.targets.c.limits import any_of, check_view, interval_test
 from fieldscribe.targets.c.literals import (
@@ -25,6 +24,7 @@ from fieldscribe.targets.c.scales import scaled_view
 from fieldscribe.targets.c.views import Codec, Define, EnumView, FlagView, FloatView, PlainView, PointView
 from fieldscribe.text import c_comment, c_string
 from fieldscribe.wording import access_text, range_text, raw_range_text, resolution_text, with_unit
+from fieldscribe.wording.exact import number_text
 
 if TYPE_CHECKING:
     from fieldscribe.model import Enum, Flag, Point, Special

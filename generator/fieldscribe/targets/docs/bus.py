@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from fieldscribe.exact import hex_text
 from fieldscribe.families.modbus import BROADCAST
 from fieldscribe.targets.docs.cells import Table, by_rows, cell, code, paragraph, source_text, target
 from fieldscribe.wording import address_text, title_text
+from fieldscribe.wording.exact import hex_text
 
 if TYPE_CHECKING:
     from fieldscribe.model import Bus, Code, Device

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 
 import fieldscribe
 from fieldscribe import wording
-from fieldscribe.exact import hex_text
 from fieldscribe.targets.docs.bus import BusView, bus_view
 from fieldscribe.targets.docs.cells import Table, anchor, by_rows, cell, code, link, paragraph, source_text, target
 from fieldscribe.targets.docs.points import GroupView, group_views, reference_heads
+from fieldscribe.wording.exact import hex_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator

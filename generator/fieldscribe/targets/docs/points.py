@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe import wording
-from fieldscribe.exact import fixed_rule, number_text
 from fieldscribe.targets.docs.cells import (
     Table,
     anchor,
@@ -19,6 +18,7 @@ from fieldscribe.targets.docs.cells import (
     table,
     target,
 )
+from fieldscribe.wording.exact import fixed_rule, number_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence

@@ -6,8 +6,8 @@ from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from fieldscribe import text, wording
-from fieldscribe.exact import hex_text, number_text
 from fieldscribe.targets.docs.points import reference_heads
+from fieldscribe.wording.exact import hex_text, number_text
 
 if TYPE_CHECKING:
     from fieldscribe.model import Device, Point

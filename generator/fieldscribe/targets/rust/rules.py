@@ -7,10 +7,10 @@ from functools import lru_cache
 from math import gcd
 from typing import TYPE_CHECKING
 
-from fieldscribe.exact import inverse
 from fieldscribe.model import Bound, Factor, Limit, Linear, Point
 from fieldscribe.targets.rust.literals import float_literal, integer, type_range, value_name
 from fieldscribe.targets.rust.views import FactorView, LimitView, RuleView
+from fieldscribe.wording.exact import inverse
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe import wording
-from fieldscribe.exact import hex_text
 from fieldscribe.explain import Explanation
-from fieldscribe.lookup import number_of
+from fieldscribe.explain.lookup import number_of
 from fieldscribe.text import line
+from fieldscribe.wording.exact import hex_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

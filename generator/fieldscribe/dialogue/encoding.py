@@ -6,14 +6,14 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe import wording
-from fieldscribe.meanings import meaning_of, raw_text, rounding_remarks
-from fieldscribe.refusals import RefusedError
-from fieldscribe.selection import label
+from fieldscribe.dialogue.meanings import meaning_of, raw_text, rounding_remarks
+from fieldscribe.dialogue.refusals import RefusedError
+from fieldscribe.dialogue.selection import label
+from fieldscribe.dialogue.typed_values import encode_typed, read_value
 from fieldscribe.text import line
-from fieldscribe.typed_values import encode_typed, read_value
 
 if TYPE_CHECKING:
-    from fieldscribe.codec import Settings
+    from fieldscribe.dialogue.codec import Settings
     from fieldscribe.model import Device, Point
 
 

@@ -6,8 +6,8 @@ import struct
 from typing import TYPE_CHECKING
 
 from fieldscribe import wording
-from fieldscribe.exact import fixed_rule, hex_text
 from fieldscribe.families.modbus import SPACES, Request, build, profile_of
+from fieldscribe.wording.exact import fixed_rule, hex_text
 
 if TYPE_CHECKING:
     from fieldscribe.model import Device, Point

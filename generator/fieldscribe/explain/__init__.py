@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe import wording
-from fieldscribe.exact import hex_text, number_text
-from fieldscribe.explain_requests import read_text, write_text
-from fieldscribe.lookup import Match, find, near
+from fieldscribe.explain.lookup import Match, find, near
+from fieldscribe.explain.requests import read_text, write_text
 from fieldscribe.text import line
+from fieldscribe.wording.exact import hex_text, number_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

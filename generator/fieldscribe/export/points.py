@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.exact import fixed_rule, number_text
-from fieldscribe.export_rules import PointsByName, bound_of, scale_of
+from fieldscribe.export.rules import PointsByName, bound_of, scale_of
+from fieldscribe.wording.exact import fixed_rule, number_text
 
 if TYPE_CHECKING:
     from fieldscribe.model import Allowed, Entry, Enum, Flag, Place, Point, Source, Special

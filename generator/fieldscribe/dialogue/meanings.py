@@ -6,12 +6,13 @@ from dataclasses import dataclass
 from struct import pack, unpack
 from typing import TYPE_CHECKING
 
-from fieldscribe import codec, wording
-from fieldscribe.codec import CodecError, Settings
-from fieldscribe.exact import hex_text, number_text
-from fieldscribe.refusals import amount_with_unit, failure, refusal
-from fieldscribe.selection import label
+from fieldscribe import wording
+from fieldscribe.dialogue import codec
+from fieldscribe.dialogue.codec import CodecError, Settings
+from fieldscribe.dialogue.refusals import amount_with_unit, failure, refusal
+from fieldscribe.dialogue.selection import label
 from fieldscribe.text import line
+from fieldscribe.wording.exact import hex_text, number_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Protocol
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from fieldscribe.codec import Settings
+    from fieldscribe.dialogue.codec import Settings
     from fieldscribe.model import Device
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from fractions import Fraction
 
-from fieldscribe.exact import exact, inverse, number_text, plus_text, times_text, value_multiple
 from fieldscribe.model import Bound, Factor, Interval, Limit, Linear, Point
+from fieldscribe.wording.exact import exact, inverse, number_text, plus_text, times_text, value_multiple
 
 Points = Mapping[str, Point]
 """Points by name, for wording that looks at the points a limit refers to."""

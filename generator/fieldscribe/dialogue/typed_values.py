@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 from typing import TYPE_CHECKING
 
-from fieldscribe import codec
-from fieldscribe.codec import CodecError, Settings
+from fieldscribe.dialogue import codec
+from fieldscribe.dialogue.codec import CodecError, Settings
+from fieldscribe.dialogue.refusals import refusal
+from fieldscribe.dialogue.selection import UnclearError, choose_point, did_you_mean, label, quoted
 from fieldscribe.language.numbers import NumberError, parse_number
-from fieldscribe.refusals import refusal
-from fieldscribe.selection import UnclearError, choose_point, did_you_mean, label, quoted
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping

@@ -1,4 +1,4 @@
-"""The exported model: one JSON object per device that tools outside rely on (`export.schema.json` describes it).
+"""The exported model: one JSON object per device that tools outside rely on (`schema.json` beside this describes it).
 
 It changes only with its `format` number. JSON numbers are integers; every other exact number is text.
 """
@@ -7,10 +7,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.export_points import export_point, source_of
+from fieldscribe.export.points import export_point, source_of
 
 if TYPE_CHECKING:
-    from fieldscribe.export_rules import PointsByName
+    from fieldscribe.export.rules import PointsByName
     from fieldscribe.model import Bus, Code, Command, Device, Document, Erratum, Frame
 
 FORMAT = 1

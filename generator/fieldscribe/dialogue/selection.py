@@ -6,7 +6,7 @@ from dataclasses import replace
 from difflib import get_close_matches
 from typing import TYPE_CHECKING
 
-from fieldscribe.lookup import find, near
+from fieldscribe.explain.lookup import find, near
 from fieldscribe.text import line
 
 if TYPE_CHECKING:

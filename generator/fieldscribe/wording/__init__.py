@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.exact import exact, fixed_rule, hex_text, number_text
-from fieldscribe.rule_words import RAW, Points, inverse_text, ranges_text, shown
+from fieldscribe.wording.exact import exact, fixed_rule, hex_text, number_text
+from fieldscribe.wording.rules import RAW, Points, inverse_text, ranges_text, shown
 
 if TYPE_CHECKING:
     from fieldscribe.model import Device, Entry, Flag, Point, Special, Titles

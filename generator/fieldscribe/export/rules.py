@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from fractions import Fraction
 
-from fieldscribe.exact import fixed_rule, value_multiple
 from fieldscribe.model import Bound, Factor, Limit, Linear, Point
+from fieldscribe.wording.exact import fixed_rule, value_multiple
 
 PointsByName = Mapping[str, Point]
 """The points that rules refer to."""

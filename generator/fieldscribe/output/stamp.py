@@ -13,13 +13,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from fieldscribe import __version__
-from fieldscribe.cache import cache_dir
+from fieldscribe.output.cache import cache_dir
 from fieldscribe.resources import templates_dir
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-_PACKAGE = Path(__file__).resolve().parent
+PACKAGE = Path(__file__).resolve().parents[1]
+"""The compiler itself: every file below it counts as input."""
 
 
 def digest_of(inputs: Iterable[Path], words: Iterable[str]) -> str:
@@ -31,7 +32,7 @@ def digest_of(inputs: Iterable[Path], words: Iterable[str]) -> str:
         data = path.read_bytes()
         summed.update(f"\0{path}\0{len(data)}\0".encode())
         summed.update(data)
-    for root in (_PACKAGE, templates_dir()):
+    for root in (PACKAGE, templates_dir()):
         _add_tree(summed.update, root)
     return summed.hexdigest()
 

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe import codec, wording
-from fieldscribe.codec import CodecError, Settings
-from fieldscribe.exact import number_text
-from fieldscribe.selection import label, points_by_name
+from fieldscribe import wording
+from fieldscribe.dialogue import codec
+from fieldscribe.dialogue.codec import CodecError, Settings
+from fieldscribe.dialogue.selection import label, points_by_name
 from fieldscribe.text import line
+from fieldscribe.wording.exact import number_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
