@@ -123,8 +123,8 @@ static inline hitachi_l200_status hitachi_l200_round_wide(double number, int64_t
 
 /* Run command */
 enum {
-    HITACHI_L200_RUN_COMMAND_STOP = 0, /* Stop */
-    HITACHI_L200_RUN_COMMAND_RUN = 1 /* Run */
+    HITACHI_L200_RUN_COMMAND_STOP = 0,
+    HITACHI_L200_RUN_COMMAND_RUN = 1
 };
 
 static inline const char *hitachi_l200_run_command_name(int32_t raw)
@@ -172,8 +172,8 @@ static inline bool hitachi_l200_run_command_decode(bool raw)
 
 /* Direction command */
 enum {
-    HITACHI_L200_DIRECTION_COMMAND_FORWARD = 0, /* Forward */
-    HITACHI_L200_DIRECTION_COMMAND_REVERSE = 1 /* Reverse */
+    HITACHI_L200_DIRECTION_COMMAND_FORWARD = 0,
+    HITACHI_L200_DIRECTION_COMMAND_REVERSE = 1
 };
 
 static inline const char *hitachi_l200_direction_command_name(int32_t raw)
@@ -225,8 +225,8 @@ static inline bool hitachi_l200_direction_command_decode(bool raw)
 
 /* External trip */
 enum {
-    HITACHI_L200_EXTERNAL_TRIP_NO_TRIP = 0, /* No trip */
-    HITACHI_L200_EXTERNAL_TRIP_TRIP = 1 /* Trip */
+    HITACHI_L200_EXTERNAL_TRIP_NO_TRIP = 0,
+    HITACHI_L200_EXTERNAL_TRIP_TRIP = 1
 };
 
 static inline const char *hitachi_l200_external_trip_name(int32_t raw)
@@ -274,8 +274,8 @@ static inline bool hitachi_l200_external_trip_decode(bool raw)
 
 /* Trip reset */
 enum {
-    HITACHI_L200_TRIP_RESET_NO_RESET = 0, /* No reset */
-    HITACHI_L200_TRIP_RESET_RESET = 1 /* Reset */
+    HITACHI_L200_TRIP_RESET_NO_RESET = 0,
+    HITACHI_L200_TRIP_RESET_RESET = 1
 };
 
 static inline const char *hitachi_l200_trip_reset_name(int32_t raw)
@@ -335,8 +335,8 @@ static inline bool hitachi_l200_trip_reset_decode(bool raw)
 
 /* Off on */
 enum {
-    HITACHI_L200_OFF_ON_OFF = 0, /* Off */
-    HITACHI_L200_OFF_ON_ON = 1 /* On */
+    HITACHI_L200_OFF_ON_OFF = 0,
+    HITACHI_L200_OFF_ON_ON = 1
 };
 
 static inline const char *hitachi_l200_off_on_name(int32_t raw)
@@ -532,8 +532,8 @@ static inline bool hitachi_l200_digital_input_5_decode(bool raw)
 
 /* Running */
 enum {
-    HITACHI_L200_RUNNING_STOPPED = 0, /* Stopped */
-    HITACHI_L200_RUNNING_RUNNING = 1 /* Running */
+    HITACHI_L200_RUNNING_STOPPED = 0,
+    HITACHI_L200_RUNNING_RUNNING = 1
 };
 
 static inline const char *hitachi_l200_running_name(int32_t raw)
@@ -568,8 +568,8 @@ static inline bool hitachi_l200_running_decode(bool raw)
 
 /* Direction status */
 enum {
-    HITACHI_L200_DIRECTION_STATUS_FORWARD = 0, /* Forward */
-    HITACHI_L200_DIRECTION_STATUS_REVERSE = 1 /* Reverse */
+    HITACHI_L200_DIRECTION_STATUS_FORWARD = 0,
+    HITACHI_L200_DIRECTION_STATUS_REVERSE = 1
 };
 
 static inline const char *hitachi_l200_direction_status_name(int32_t raw)
@@ -606,8 +606,8 @@ static inline bool hitachi_l200_direction_status_decode(bool raw)
 
 /* Ready */
 enum {
-    HITACHI_L200_READY_NOT_READY = 0, /* Not ready */
-    HITACHI_L200_READY_READY = 1 /* Ready */
+    HITACHI_L200_READY_NOT_READY = 0,
+    HITACHI_L200_READY_READY = 1
 };
 
 static inline const char *hitachi_l200_ready_name(int32_t raw)
@@ -658,8 +658,8 @@ static inline bool hitachi_l200_ready_decode(bool raw)
 
 /* Alarm */
 enum {
-    HITACHI_L200_ALARM_NORMAL = 0, /* Normal */
-    HITACHI_L200_ALARM_TRIPPED = 1 /* Tripped */
+    HITACHI_L200_ALARM_NORMAL = 0,
+    HITACHI_L200_ALARM_TRIPPED = 1
 };
 
 static inline const char *hitachi_l200_alarm_name(int32_t raw)
@@ -772,8 +772,8 @@ static inline bool hitachi_l200_run_mode_decode(bool raw)
 
 /* Data write */
 enum {
-    HITACHI_L200_DATA_WRITE_NORMAL = 0, /* Normal */
-    HITACHI_L200_DATA_WRITE_WRITING = 1 /* Writing */
+    HITACHI_L200_DATA_WRITE_NORMAL = 0,
+    HITACHI_L200_DATA_WRITE_WRITING = 1
 };
 
 static inline const char *hitachi_l200_data_write_name(int32_t raw)
@@ -808,8 +808,8 @@ static inline bool hitachi_l200_data_write_decode(bool raw)
 
 /* Error flag */
 enum {
-    HITACHI_L200_ERROR_FLAG_NO_ERROR = 0, /* No error */
-    HITACHI_L200_ERROR_FLAG_ERROR = 1 /* Error */
+    HITACHI_L200_ERROR_FLAG_NO_ERROR = 0,
+    HITACHI_L200_ERROR_FLAG_ERROR = 1
 };
 
 static inline const char *hitachi_l200_error_flag_name(int32_t raw)
@@ -981,16 +981,16 @@ static inline hitachi_l200_real hitachi_l200_network_frequency_setpoint_decode(u
 
 /* Inverter status */
 enum {
-    HITACHI_L200_INVERTER_STATUS_INITIAL_STATE = 0, /* Initial state */
-    HITACHI_L200_INVERTER_STATUS_RESERVED = 1, /* Reserved */
-    HITACHI_L200_INVERTER_STATUS_STOPPED = 2, /* Stopped */
-    HITACHI_L200_INVERTER_STATUS_RUNNING = 3, /* Running */
-    HITACHI_L200_INVERTER_STATUS_COASTING = 4, /* Coasting */
-    HITACHI_L200_INVERTER_STATUS_JOGGING = 5, /* Jogging */
-    HITACHI_L200_INVERTER_STATUS_DC_BRAKING = 6, /* Dc braking */
-    HITACHI_L200_INVERTER_STATUS_RESTARTING = 7, /* Restarting */
-    HITACHI_L200_INVERTER_STATUS_TRIPPED = 8, /* Tripped */
-    HITACHI_L200_INVERTER_STATUS_UNDERVOLTAGE = 9 /* Undervoltage */
+    HITACHI_L200_INVERTER_STATUS_INITIAL_STATE = 0,
+    HITACHI_L200_INVERTER_STATUS_RESERVED = 1,
+    HITACHI_L200_INVERTER_STATUS_STOPPED = 2,
+    HITACHI_L200_INVERTER_STATUS_RUNNING = 3,
+    HITACHI_L200_INVERTER_STATUS_COASTING = 4,
+    HITACHI_L200_INVERTER_STATUS_JOGGING = 5,
+    HITACHI_L200_INVERTER_STATUS_DC_BRAKING = 6,
+    HITACHI_L200_INVERTER_STATUS_RESTARTING = 7,
+    HITACHI_L200_INVERTER_STATUS_TRIPPED = 8,
+    HITACHI_L200_INVERTER_STATUS_UNDERVOLTAGE = 9
 };
 
 static inline const char *hitachi_l200_inverter_status_name(int32_t raw)
@@ -1170,9 +1170,9 @@ static inline hitachi_l200_real hitachi_l200_motor_current_decode(uint16_t raw)
 
 /* Rotation direction */
 enum {
-    HITACHI_L200_ROTATION_DIRECTION_STOPPED = 0, /* Stopped */
-    HITACHI_L200_ROTATION_DIRECTION_FORWARD = 1, /* Forward */
-    HITACHI_L200_ROTATION_DIRECTION_REVERSE = 2 /* Reverse */
+    HITACHI_L200_ROTATION_DIRECTION_STOPPED = 0,
+    HITACHI_L200_ROTATION_DIRECTION_FORWARD = 1,
+    HITACHI_L200_ROTATION_DIRECTION_REVERSE = 2
 };
 
 static inline const char *hitachi_l200_rotation_direction_name(int32_t raw)
@@ -1414,9 +1414,9 @@ static inline int32_t hitachi_l200_trip_count_decode(uint16_t raw)
 
 /* Trip code */
 enum {
-    HITACHI_L200_TRIP_CODE_OVERVOLTAGE = 7, /* Overvoltage */
-    HITACHI_L200_TRIP_CODE_UNDERVOLTAGE = 9, /* Undervoltage */
-    HITACHI_L200_TRIP_CODE_NO_TRIP = 255 /* No trip */
+    HITACHI_L200_TRIP_CODE_OVERVOLTAGE = 7,
+    HITACHI_L200_TRIP_CODE_UNDERVOLTAGE = 9,
+    HITACHI_L200_TRIP_CODE_NO_TRIP = 255
 };
 
 static inline const char *hitachi_l200_trip_code_name(int32_t raw)
@@ -2259,8 +2259,8 @@ static inline uint32_t hitachi_l200_deceleration_time_set_2_from_words(const uin
 
 /* Motor direction */
 enum {
-    HITACHI_L200_MOTOR_DIRECTION_FORWARD = 0, /* Forward */
-    HITACHI_L200_MOTOR_DIRECTION_REVERSE = 1 /* Reverse */
+    HITACHI_L200_MOTOR_DIRECTION_FORWARD = 0,
+    HITACHI_L200_MOTOR_DIRECTION_REVERSE = 1
 };
 
 static inline const char *hitachi_l200_motor_direction_name(int32_t raw)
@@ -2314,11 +2314,11 @@ static inline int32_t hitachi_l200_motor_direction_decode(uint16_t raw)
 
 /* Frequency source */
 enum {
-    HITACHI_L200_FREQUENCY_SOURCE_KEYPAD_POTENTIOMETER = 0, /* Keypad potentiometer */
-    HITACHI_L200_FREQUENCY_SOURCE_TERMINAL_O_OI = 1, /* Terminal o oi */
-    HITACHI_L200_FREQUENCY_SOURCE_F001_OR_A020 = 2, /* F001 or a020 */
-    HITACHI_L200_FREQUENCY_SOURCE_MODBUS = 3, /* Modbus */
-    HITACHI_L200_FREQUENCY_SOURCE_CALCULATION_RESULT = 10 /* Calculation result */
+    HITACHI_L200_FREQUENCY_SOURCE_KEYPAD_POTENTIOMETER = 0,
+    HITACHI_L200_FREQUENCY_SOURCE_TERMINAL_O_OI = 1,
+    HITACHI_L200_FREQUENCY_SOURCE_F001_OR_A020 = 2,
+    HITACHI_L200_FREQUENCY_SOURCE_MODBUS = 3,
+    HITACHI_L200_FREQUENCY_SOURCE_CALCULATION_RESULT = 10
 };
 
 static inline const char *hitachi_l200_frequency_source_name(int32_t raw)
@@ -2417,9 +2417,9 @@ static inline int32_t hitachi_l200_frequency_source_set_2_decode(uint16_t raw)
 
 /* Run source */
 enum {
-    HITACHI_L200_RUN_SOURCE_TERMINAL_FW_RV = 1, /* Terminal fw rv */
-    HITACHI_L200_RUN_SOURCE_RUN_KEY = 2, /* Run key */
-    HITACHI_L200_RUN_SOURCE_MODBUS = 3 /* Modbus */
+    HITACHI_L200_RUN_SOURCE_TERMINAL_FW_RV = 1,
+    HITACHI_L200_RUN_SOURCE_RUN_KEY = 2,
+    HITACHI_L200_RUN_SOURCE_MODBUS = 3
 };
 
 static inline const char *hitachi_l200_run_source_name(int32_t raw)
@@ -2680,10 +2680,10 @@ static inline int32_t hitachi_l200_maximum_frequency_set_2_decode(uint16_t raw)
 
 /* At terminal selection */
 enum {
-    HITACHI_L200_AT_TERMINAL_SELECTION_O_AND_OI = 0, /* O and oi */
-    HITACHI_L200_AT_TERMINAL_SELECTION_O_AND_OI_AT_IGNORED = 1, /* O and oi at ignored */
-    HITACHI_L200_AT_TERMINAL_SELECTION_O_AND_POTENTIOMETER = 2, /* O and potentiometer */
-    HITACHI_L200_AT_TERMINAL_SELECTION_OI_AND_POTENTIOMETER = 3 /* Oi and potentiometer */
+    HITACHI_L200_AT_TERMINAL_SELECTION_O_AND_OI = 0,
+    HITACHI_L200_AT_TERMINAL_SELECTION_O_AND_OI_AT_IGNORED = 1,
+    HITACHI_L200_AT_TERMINAL_SELECTION_O_AND_POTENTIOMETER = 2,
+    HITACHI_L200_AT_TERMINAL_SELECTION_OI_AND_POTENTIOMETER = 3
 };
 
 static inline const char *hitachi_l200_at_terminal_selection_name(int32_t raw)
@@ -2900,8 +2900,8 @@ static inline int32_t hitachi_l200_input_o_maximum_setpoint_decode(uint16_t raw)
 
 /* Input o start condition */
 enum {
-    HITACHI_L200_INPUT_O_START_CONDITION_MINIMUM_FREQUENCY = 0, /* Minimum frequency */
-    HITACHI_L200_INPUT_O_START_CONDITION_ZERO_HZ = 1 /* Zero hz */
+    HITACHI_L200_INPUT_O_START_CONDITION_MINIMUM_FREQUENCY = 0,
+    HITACHI_L200_INPUT_O_START_CONDITION_ZERO_HZ = 1
 };
 
 static inline const char *hitachi_l200_input_o_start_condition_name(int32_t raw)
@@ -2950,7 +2950,7 @@ static inline int32_t hitachi_l200_input_o_start_condition_decode(uint16_t raw)
 
 /* Analog input filter */
 enum {
-    HITACHI_L200_ANALOG_INPUT_FILTER_SAMPLES_16_DEAD_BAND = 17 /* Samples 16 dead band */
+    HITACHI_L200_ANALOG_INPUT_FILTER_SAMPLES_16_DEAD_BAND = 17
 };
 
 static inline const char *hitachi_l200_analog_input_filter_name(int32_t raw)
@@ -3909,9 +3909,9 @@ static inline hitachi_l200_real hitachi_l200_jog_frequency_decode(uint16_t raw)
 
 /* Jog stop mode */
 enum {
-    HITACHI_L200_JOG_STOP_MODE_COAST = 0, /* Coast */
-    HITACHI_L200_JOG_STOP_MODE_RAMP = 1, /* Ramp */
-    HITACHI_L200_JOG_STOP_MODE_DC_BRAKE = 2 /* Dc brake */
+    HITACHI_L200_JOG_STOP_MODE_COAST = 0,
+    HITACHI_L200_JOG_STOP_MODE_RAMP = 1,
+    HITACHI_L200_JOG_STOP_MODE_DC_BRAKE = 2
 };
 
 static inline const char *hitachi_l200_jog_stop_mode_name(int32_t raw)
@@ -3962,8 +3962,8 @@ static inline int32_t hitachi_l200_jog_stop_mode_decode(uint16_t raw)
 
 /* Boost mode */
 enum {
-    HITACHI_L200_BOOST_MODE_MANUAL = 0, /* Manual */
-    HITACHI_L200_BOOST_MODE_AUTOMATIC = 1 /* Automatic */
+    HITACHI_L200_BOOST_MODE_MANUAL = 0,
+    HITACHI_L200_BOOST_MODE_AUTOMATIC = 1
 };
 
 static inline const char *hitachi_l200_boost_mode_name(int32_t raw)
@@ -4245,8 +4245,8 @@ static inline hitachi_l200_real hitachi_l200_manual_boost_frequency_set_2_decode
 
 /* Vf characteristic */
 enum {
-    HITACHI_L200_VF_CHARACTERISTIC_CONSTANT = 0, /* Constant */
-    HITACHI_L200_VF_CHARACTERISTIC_QUADRATIC = 1 /* Quadratic */
+    HITACHI_L200_VF_CHARACTERISTIC_CONSTANT = 0,
+    HITACHI_L200_VF_CHARACTERISTIC_QUADRATIC = 1
 };
 
 static inline const char *hitachi_l200_vf_characteristic_name(int32_t raw)
@@ -4391,8 +4391,8 @@ static inline int32_t hitachi_l200_output_voltage_setting_set_2_decode(uint16_t 
 
 /* Inactive active */
 enum {
-    HITACHI_L200_INACTIVE_ACTIVE_INACTIVE = 0, /* Inactive */
-    HITACHI_L200_INACTIVE_ACTIVE_ACTIVE = 1 /* Active */
+    HITACHI_L200_INACTIVE_ACTIVE_INACTIVE = 0,
+    HITACHI_L200_INACTIVE_ACTIVE_ACTIVE = 1
 };
 
 static inline const char *hitachi_l200_inactive_active_name(int32_t raw)
@@ -4641,8 +4641,8 @@ static inline hitachi_l200_real hitachi_l200_dc_brake_time_decode(uint16_t raw)
 
 /* Dc brake trigger */
 enum {
-    HITACHI_L200_DC_BRAKE_TRIGGER_EDGE = 0, /* Edge */
-    HITACHI_L200_DC_BRAKE_TRIGGER_LEVEL = 1 /* Level */
+    HITACHI_L200_DC_BRAKE_TRIGGER_EDGE = 0,
+    HITACHI_L200_DC_BRAKE_TRIGGER_LEVEL = 1
 };
 
 static inline const char *hitachi_l200_dc_brake_trigger_name(int32_t raw)
@@ -5541,10 +5541,10 @@ static inline hitachi_l200_real hitachi_l200_pid_display_factor_decode(uint16_t 
 
 /* Pid process value source */
 enum {
-    HITACHI_L200_PID_PROCESS_VALUE_SOURCE_TERMINAL_OI = 0, /* Terminal oi */
-    HITACHI_L200_PID_PROCESS_VALUE_SOURCE_TERMINAL_O = 1, /* Terminal o */
-    HITACHI_L200_PID_PROCESS_VALUE_SOURCE_MODBUS = 2, /* Modbus */
-    HITACHI_L200_PID_PROCESS_VALUE_SOURCE_CALCULATION_RESULT = 10 /* Calculation result */
+    HITACHI_L200_PID_PROCESS_VALUE_SOURCE_TERMINAL_OI = 0,
+    HITACHI_L200_PID_PROCESS_VALUE_SOURCE_TERMINAL_O = 1,
+    HITACHI_L200_PID_PROCESS_VALUE_SOURCE_MODBUS = 2,
+    HITACHI_L200_PID_PROCESS_VALUE_SOURCE_CALCULATION_RESULT = 10
 };
 
 static inline const char *hitachi_l200_pid_process_value_source_name(int32_t raw)
@@ -5604,8 +5604,8 @@ static inline int32_t hitachi_l200_pid_process_value_source_decode(uint16_t raw)
 
 /* Pid inversion */
 enum {
-    HITACHI_L200_PID_INVERSION_SETPOINT_MINUS_PROCESS_VALUE = 0, /* Setpoint minus process value */
-    HITACHI_L200_PID_INVERSION_PROCESS_VALUE_MINUS_SETPOINT = 1 /* Process value minus setpoint */
+    HITACHI_L200_PID_INVERSION_SETPOINT_MINUS_PROCESS_VALUE = 0,
+    HITACHI_L200_PID_INVERSION_PROCESS_VALUE_MINUS_SETPOINT = 1
 };
 
 static inline const char *hitachi_l200_pid_inversion_name(int32_t raw)
@@ -5704,9 +5704,9 @@ static inline hitachi_l200_real hitachi_l200_pid_output_limit_decode(uint16_t ra
 
 /* Avr mode */
 enum {
-    HITACHI_L200_AVR_MODE_ACTIVE = 0, /* Active */
-    HITACHI_L200_AVR_MODE_INACTIVE = 1, /* Inactive */
-    HITACHI_L200_AVR_MODE_INACTIVE_IN_DECELERATION = 2 /* Inactive in deceleration */
+    HITACHI_L200_AVR_MODE_ACTIVE = 0,
+    HITACHI_L200_AVR_MODE_INACTIVE = 1,
+    HITACHI_L200_AVR_MODE_INACTIVE_IN_DECELERATION = 2
 };
 
 static inline const char *hitachi_l200_avr_mode_name(int32_t raw)
@@ -5999,8 +5999,8 @@ static inline uint32_t hitachi_l200_deceleration_time_2_set_2_from_words(const u
 
 /* Ramp 2 selection */
 enum {
-    HITACHI_L200_RAMP_2_SELECTION_TERMINAL_2CH = 0, /* Terminal 2ch */
-    HITACHI_L200_RAMP_2_SELECTION_FREQUENCY = 1 /* Frequency */
+    HITACHI_L200_RAMP_2_SELECTION_TERMINAL_2CH = 0,
+    HITACHI_L200_RAMP_2_SELECTION_FREQUENCY = 1
 };
 
 static inline const char *hitachi_l200_ramp_2_selection_name(int32_t raw)
@@ -6285,8 +6285,8 @@ static inline hitachi_l200_real hitachi_l200_deceleration_change_frequency_set_2
 
 /* Ramp curve */
 enum {
-    HITACHI_L200_RAMP_CURVE_LINEAR = 0, /* Linear */
-    HITACHI_L200_RAMP_CURVE_S_CURVE = 1 /* S curve */
+    HITACHI_L200_RAMP_CURVE_LINEAR = 0,
+    HITACHI_L200_RAMP_CURVE_S_CURVE = 1
 };
 
 static inline const char *hitachi_l200_ramp_curve_name(int32_t raw)
@@ -6535,8 +6535,8 @@ static inline int32_t hitachi_l200_input_oi_maximum_setpoint_decode(uint16_t raw
 
 /* Input oi start condition */
 enum {
-    HITACHI_L200_INPUT_OI_START_CONDITION_MINIMUM_FREQUENCY = 0, /* Minimum frequency */
-    HITACHI_L200_INPUT_OI_START_CONDITION_ZERO_HZ = 1 /* Zero hz */
+    HITACHI_L200_INPUT_OI_START_CONDITION_MINIMUM_FREQUENCY = 0,
+    HITACHI_L200_INPUT_OI_START_CONDITION_ZERO_HZ = 1
 };
 
 static inline const char *hitachi_l200_input_oi_start_condition_name(int32_t raw)
@@ -6585,11 +6585,11 @@ static inline int32_t hitachi_l200_input_oi_start_condition_decode(uint16_t raw)
 
 /* Calculation input */
 enum {
-    HITACHI_L200_CALCULATION_INPUT_OPERATOR_PANEL = 0, /* Operator panel */
-    HITACHI_L200_CALCULATION_INPUT_KEYPAD_POTENTIOMETER = 1, /* Keypad potentiometer */
-    HITACHI_L200_CALCULATION_INPUT_TERMINAL_O = 2, /* Terminal o */
-    HITACHI_L200_CALCULATION_INPUT_TERMINAL_OI = 3, /* Terminal oi */
-    HITACHI_L200_CALCULATION_INPUT_NETWORK_VARIABLE = 4 /* Network variable */
+    HITACHI_L200_CALCULATION_INPUT_OPERATOR_PANEL = 0,
+    HITACHI_L200_CALCULATION_INPUT_KEYPAD_POTENTIOMETER = 1,
+    HITACHI_L200_CALCULATION_INPUT_TERMINAL_O = 2,
+    HITACHI_L200_CALCULATION_INPUT_TERMINAL_OI = 3,
+    HITACHI_L200_CALCULATION_INPUT_NETWORK_VARIABLE = 4
 };
 
 static inline const char *hitachi_l200_calculation_input_name(int32_t raw)
@@ -6680,9 +6680,9 @@ static inline int32_t hitachi_l200_calculation_input_b_decode(uint16_t raw)
 
 /* Calculation operator */
 enum {
-    HITACHI_L200_CALCULATION_OPERATOR_ADD = 0, /* Add */
-    HITACHI_L200_CALCULATION_OPERATOR_SUBTRACT = 1, /* Subtract */
-    HITACHI_L200_CALCULATION_OPERATOR_MULTIPLY = 2 /* Multiply */
+    HITACHI_L200_CALCULATION_OPERATOR_ADD = 0,
+    HITACHI_L200_CALCULATION_OPERATOR_SUBTRACT = 1,
+    HITACHI_L200_CALCULATION_OPERATOR_MULTIPLY = 2
 };
 
 static inline const char *hitachi_l200_calculation_operator_name(int32_t raw)
@@ -6784,8 +6784,8 @@ static inline hitachi_l200_real hitachi_l200_frequency_offset_decode(uint16_t ra
 
 /* Frequency offset sign */
 enum {
-    HITACHI_L200_FREQUENCY_OFFSET_SIGN_PLUS = 0, /* Plus */
-    HITACHI_L200_FREQUENCY_OFFSET_SIGN_MINUS = 1 /* Minus */
+    HITACHI_L200_FREQUENCY_OFFSET_SIGN_PLUS = 0,
+    HITACHI_L200_FREQUENCY_OFFSET_SIGN_MINUS = 1
 };
 
 static inline const char *hitachi_l200_frequency_offset_sign_name(int32_t raw)
@@ -7002,8 +7002,8 @@ static inline int32_t hitachi_l200_potentiometer_maximum_setpoint_decode(uint16_
 
 /* Potentiometer start condition */
 enum {
-    HITACHI_L200_POTENTIOMETER_START_CONDITION_MINIMUM_FREQUENCY = 0, /* Minimum frequency */
-    HITACHI_L200_POTENTIOMETER_START_CONDITION_ZERO_HZ = 1 /* Zero hz */
+    HITACHI_L200_POTENTIOMETER_START_CONDITION_MINIMUM_FREQUENCY = 0,
+    HITACHI_L200_POTENTIOMETER_START_CONDITION_ZERO_HZ = 1
 };
 
 static inline const char *hitachi_l200_potentiometer_start_condition_name(int32_t raw)
@@ -7055,10 +7055,10 @@ static inline int32_t hitachi_l200_potentiometer_start_condition_decode(uint16_t
 
 /* Restart mode */
 enum {
-    HITACHI_L200_RESTART_MODE_TRIP = 0, /* Trip */
-    HITACHI_L200_RESTART_MODE_START_AT_0_HZ = 1, /* Start at 0 hz */
-    HITACHI_L200_RESTART_MODE_SYNCHRONIZE = 2, /* Synchronize */
-    HITACHI_L200_RESTART_MODE_SYNCHRONIZE_AND_STOP = 3 /* Synchronize and stop */
+    HITACHI_L200_RESTART_MODE_TRIP = 0,
+    HITACHI_L200_RESTART_MODE_START_AT_0_HZ = 1,
+    HITACHI_L200_RESTART_MODE_SYNCHRONIZE = 2,
+    HITACHI_L200_RESTART_MODE_SYNCHRONIZE_AND_STOP = 3
 };
 
 static inline const char *hitachi_l200_restart_mode_name(int32_t raw)
@@ -7211,8 +7211,8 @@ static inline hitachi_l200_real hitachi_l200_restart_delay_decode(uint16_t raw)
 
 /* Power failure trip at standstill */
 enum {
-    HITACHI_L200_POWER_FAILURE_TRIP_AT_STANDSTILL_NO_TRIP = 0, /* No trip */
-    HITACHI_L200_POWER_FAILURE_TRIP_AT_STANDSTILL_TRIP = 1 /* Trip */
+    HITACHI_L200_POWER_FAILURE_TRIP_AT_STANDSTILL_NO_TRIP = 0,
+    HITACHI_L200_POWER_FAILURE_TRIP_AT_STANDSTILL_TRIP = 1
 };
 
 static inline const char *hitachi_l200_power_failure_trip_at_standstill_name(int32_t raw)
@@ -7261,8 +7261,8 @@ static inline int32_t hitachi_l200_power_failure_trip_at_standstill_decode(uint1
 
 /* Power failure restarts */
 enum {
-    HITACHI_L200_POWER_FAILURE_RESTARTS_ATTEMPTS_16 = 0, /* Attempts 16 */
-    HITACHI_L200_POWER_FAILURE_RESTARTS_UNLIMITED = 1 /* Unlimited */
+    HITACHI_L200_POWER_FAILURE_RESTARTS_ATTEMPTS_16 = 0,
+    HITACHI_L200_POWER_FAILURE_RESTARTS_UNLIMITED = 1
 };
 
 static inline const char *hitachi_l200_power_failure_restarts_name(int32_t raw)
@@ -7413,9 +7413,9 @@ static inline hitachi_l200_real hitachi_l200_motor_protection_level_set_2_decode
 
 /* Motor protection characteristic */
 enum {
-    HITACHI_L200_MOTOR_PROTECTION_CHARACTERISTIC_QUADRATIC_1 = 0, /* Quadratic 1 */
-    HITACHI_L200_MOTOR_PROTECTION_CHARACTERISTIC_CONSTANT = 1, /* Constant */
-    HITACHI_L200_MOTOR_PROTECTION_CHARACTERISTIC_QUADRATIC_2 = 2 /* Quadratic 2 */
+    HITACHI_L200_MOTOR_PROTECTION_CHARACTERISTIC_QUADRATIC_1 = 0,
+    HITACHI_L200_MOTOR_PROTECTION_CHARACTERISTIC_CONSTANT = 1,
+    HITACHI_L200_MOTOR_PROTECTION_CHARACTERISTIC_QUADRATIC_2 = 2
 };
 
 static inline const char *hitachi_l200_motor_protection_characteristic_name(int32_t raw)
@@ -7504,9 +7504,9 @@ static inline int32_t hitachi_l200_motor_protection_characteristic_set_2_decode(
 
 /* Current limit mode */
 enum {
-    HITACHI_L200_CURRENT_LIMIT_MODE_INACTIVE = 0, /* Inactive */
-    HITACHI_L200_CURRENT_LIMIT_MODE_ACTIVE = 1, /* Active */
-    HITACHI_L200_CURRENT_LIMIT_MODE_ACTIVE_AT_CONSTANT_SPEED = 2 /* Active at constant speed */
+    HITACHI_L200_CURRENT_LIMIT_MODE_INACTIVE = 0,
+    HITACHI_L200_CURRENT_LIMIT_MODE_ACTIVE = 1,
+    HITACHI_L200_CURRENT_LIMIT_MODE_ACTIVE_AT_CONSTANT_SPEED = 2
 };
 
 static inline const char *hitachi_l200_current_limit_mode_name(int32_t raw)
@@ -7795,8 +7795,8 @@ static inline hitachi_l200_real hitachi_l200_current_limit_time_set_2_decode(uin
 
 /* Current limit source */
 enum {
-    HITACHI_L200_CURRENT_LIMIT_SOURCE_PARAMETER = 0, /* Parameter */
-    HITACHI_L200_CURRENT_LIMIT_SOURCE_TERMINAL_O = 1 /* Terminal o */
+    HITACHI_L200_CURRENT_LIMIT_SOURCE_PARAMETER = 0,
+    HITACHI_L200_CURRENT_LIMIT_SOURCE_TERMINAL_O = 1
 };
 
 static inline const char *hitachi_l200_current_limit_source_name(int32_t raw)
@@ -7878,10 +7878,10 @@ static inline int32_t hitachi_l200_current_limit_source_set_2_decode(uint16_t ra
 
 /* Parameter lock */
 enum {
-    HITACHI_L200_PARAMETER_LOCK_SFT_PARAMETERS_AND_SETPOINT = 0, /* Sft parameters and setpoint */
-    HITACHI_L200_PARAMETER_LOCK_SFT_PARAMETERS = 1, /* Sft parameters */
-    HITACHI_L200_PARAMETER_LOCK_PARAMETERS_AND_SETPOINT = 2, /* Parameters and setpoint */
-    HITACHI_L200_PARAMETER_LOCK_PARAMETERS = 3 /* Parameters */
+    HITACHI_L200_PARAMETER_LOCK_SFT_PARAMETERS_AND_SETPOINT = 0,
+    HITACHI_L200_PARAMETER_LOCK_SFT_PARAMETERS = 1,
+    HITACHI_L200_PARAMETER_LOCK_PARAMETERS_AND_SETPOINT = 2,
+    HITACHI_L200_PARAMETER_LOCK_PARAMETERS = 3
 };
 
 static inline const char *hitachi_l200_parameter_lock_name(int32_t raw)
@@ -8067,9 +8067,9 @@ static inline hitachi_l200_real hitachi_l200_carrier_frequency_decode(uint16_t r
 
 /* Initialization mode */
 enum {
-    HITACHI_L200_INITIALIZATION_MODE_CLEAR_TRIPS = 0, /* Clear trips */
-    HITACHI_L200_INITIALIZATION_MODE_FACTORY_SETTINGS = 1, /* Factory settings */
-    HITACHI_L200_INITIALIZATION_MODE_CLEAR_TRIPS_AND_FACTORY_SETTINGS = 2 /* Clear trips and factory settings */
+    HITACHI_L200_INITIALIZATION_MODE_CLEAR_TRIPS = 0,
+    HITACHI_L200_INITIALIZATION_MODE_FACTORY_SETTINGS = 1,
+    HITACHI_L200_INITIALIZATION_MODE_CLEAR_TRIPS_AND_FACTORY_SETTINGS = 2
 };
 
 static inline const char *hitachi_l200_initialization_mode_name(int32_t raw)
@@ -8178,8 +8178,8 @@ static inline hitachi_l200_real hitachi_l200_frequency_display_factor_decode(uin
 
 /* Stop key lock */
 enum {
-    HITACHI_L200_STOP_KEY_LOCK_ACTIVE = 0, /* Active */
-    HITACHI_L200_STOP_KEY_LOCK_INACTIVE = 1 /* Inactive */
+    HITACHI_L200_STOP_KEY_LOCK_ACTIVE = 0,
+    HITACHI_L200_STOP_KEY_LOCK_INACTIVE = 1
 };
 
 static inline const char *hitachi_l200_stop_key_lock_name(int32_t raw)
@@ -8228,8 +8228,8 @@ static inline int32_t hitachi_l200_stop_key_lock_decode(uint16_t raw)
 
 /* Coast restart mode */
 enum {
-    HITACHI_L200_COAST_RESTART_MODE_START_AT_0_HZ = 0, /* Start at 0 hz */
-    HITACHI_L200_COAST_RESTART_MODE_SYNCHRONIZE = 1 /* Synchronize */
+    HITACHI_L200_COAST_RESTART_MODE_START_AT_0_HZ = 0,
+    HITACHI_L200_COAST_RESTART_MODE_SYNCHRONIZE = 1
 };
 
 static inline const char *hitachi_l200_coast_restart_mode_name(int32_t raw)
@@ -8278,13 +8278,13 @@ static inline int32_t hitachi_l200_coast_restart_mode_decode(uint16_t raw)
 
 /* Network display */
 enum {
-    HITACHI_L200_NETWORK_DISPLAY_OUTPUT_FREQUENCY = 1, /* Output frequency */
-    HITACHI_L200_NETWORK_DISPLAY_MOTOR_CURRENT = 2, /* Motor current */
-    HITACHI_L200_NETWORK_DISPLAY_ROTATION_DIRECTION = 3, /* Rotation direction */
-    HITACHI_L200_NETWORK_DISPLAY_PROCESS_VALUE = 4, /* Process value */
-    HITACHI_L200_NETWORK_DISPLAY_DIGITAL_INPUTS = 5, /* Digital inputs */
-    HITACHI_L200_NETWORK_DISPLAY_DIGITAL_OUTPUTS = 6, /* Digital outputs */
-    HITACHI_L200_NETWORK_DISPLAY_SCALED_OUTPUT_FREQUENCY = 7 /* Scaled output frequency */
+    HITACHI_L200_NETWORK_DISPLAY_OUTPUT_FREQUENCY = 1,
+    HITACHI_L200_NETWORK_DISPLAY_MOTOR_CURRENT = 2,
+    HITACHI_L200_NETWORK_DISPLAY_ROTATION_DIRECTION = 3,
+    HITACHI_L200_NETWORK_DISPLAY_PROCESS_VALUE = 4,
+    HITACHI_L200_NETWORK_DISPLAY_DIGITAL_INPUTS = 5,
+    HITACHI_L200_NETWORK_DISPLAY_DIGITAL_OUTPUTS = 6,
+    HITACHI_L200_NETWORK_DISPLAY_SCALED_OUTPUT_FREQUENCY = 7
 };
 
 static inline const char *hitachi_l200_network_display_name(int32_t raw)
@@ -8343,8 +8343,8 @@ static inline int32_t hitachi_l200_network_display_decode(uint16_t raw)
 
 /* Stop mode */
 enum {
-    HITACHI_L200_STOP_MODE_RAMP = 0, /* Ramp */
-    HITACHI_L200_STOP_MODE_COAST = 1 /* Coast */
+    HITACHI_L200_STOP_MODE_RAMP = 0,
+    HITACHI_L200_STOP_MODE_COAST = 1
 };
 
 static inline const char *hitachi_l200_stop_mode_name(int32_t raw)
@@ -8905,8 +8905,8 @@ static inline int32_t hitachi_l200_digital_input_5_function_set_2_decode(uint16_
 
 /* Contact */
 enum {
-    HITACHI_L200_CONTACT_NORMALLY_OPEN = 0, /* Normally open */
-    HITACHI_L200_CONTACT_NORMALLY_CLOSED = 1 /* Normally closed */
+    HITACHI_L200_CONTACT_NORMALLY_OPEN = 0,
+    HITACHI_L200_CONTACT_NORMALLY_CLOSED = 1
 };
 
 static inline const char *hitachi_l200_contact_name(int32_t raw)
@@ -9185,8 +9185,8 @@ static inline int32_t hitachi_l200_relay_output_function_decode(uint16_t raw)
 
 /* Analog output source */
 enum {
-    HITACHI_L200_ANALOG_OUTPUT_SOURCE_OUTPUT_FREQUENCY = 0, /* Output frequency */
-    HITACHI_L200_ANALOG_OUTPUT_SOURCE_MOTOR_CURRENT = 1 /* Motor current */
+    HITACHI_L200_ANALOG_OUTPUT_SOURCE_OUTPUT_FREQUENCY = 0,
+    HITACHI_L200_ANALOG_OUTPUT_SOURCE_MOTOR_CURRENT = 1
 };
 
 static inline const char *hitachi_l200_analog_output_source_name(int32_t raw)
@@ -9988,8 +9988,8 @@ static inline hitachi_l200_real hitachi_l200_analog_output_offset_decode(uint16_
 
 /* Motor potentiometer memory */
 enum {
-    HITACHI_L200_MOTOR_POTENTIOMETER_MEMORY_DISCARD = 0, /* Discard */
-    HITACHI_L200_MOTOR_POTENTIOMETER_MEMORY_KEEP = 1 /* Keep */
+    HITACHI_L200_MOTOR_POTENTIOMETER_MEMORY_DISCARD = 0,
+    HITACHI_L200_MOTOR_POTENTIOMETER_MEMORY_KEEP = 1
 };
 
 static inline const char *hitachi_l200_motor_potentiometer_memory_name(int32_t raw)
@@ -10038,9 +10038,9 @@ static inline int32_t hitachi_l200_motor_potentiometer_memory_decode(uint16_t ra
 
 /* Reset mode */
 enum {
-    HITACHI_L200_RESET_MODE_RISING_EDGE = 0, /* Rising edge */
-    HITACHI_L200_RESET_MODE_FALLING_EDGE = 1, /* Falling edge */
-    HITACHI_L200_RESET_MODE_RISING_EDGE_WHEN_TRIPPED = 2 /* Rising edge when tripped */
+    HITACHI_L200_RESET_MODE_RISING_EDGE = 0,
+    HITACHI_L200_RESET_MODE_FALLING_EDGE = 1,
+    HITACHI_L200_RESET_MODE_RISING_EDGE_WHEN_TRIPPED = 2
 };
 
 static inline const char *hitachi_l200_reset_mode_name(int32_t raw)
@@ -10159,9 +10159,9 @@ static inline int32_t hitachi_l200_logic_input_b_decode(uint16_t raw)
 
 /* Logic operator */
 enum {
-    HITACHI_L200_LOGIC_OPERATOR_LOGIC_AND = 0, /* Logic and */
-    HITACHI_L200_LOGIC_OPERATOR_LOGIC_OR = 1, /* Logic or */
-    HITACHI_L200_LOGIC_OPERATOR_LOGIC_XOR = 2 /* Logic xor */
+    HITACHI_L200_LOGIC_OPERATOR_LOGIC_AND = 0,
+    HITACHI_L200_LOGIC_OPERATOR_LOGIC_OR = 1,
+    HITACHI_L200_LOGIC_OPERATOR_LOGIC_XOR = 2
 };
 
 static inline const char *hitachi_l200_logic_operator_name(int32_t raw)
@@ -10514,19 +10514,19 @@ static inline hitachi_l200_real hitachi_l200_relay_output_off_delay_decode(uint1
 
 /* Motor power */
 enum {
-    HITACHI_L200_MOTOR_POWER_KW_0_20 = 0, /* Kw 0 20, 0.20 kW */
-    HITACHI_L200_MOTOR_POWER_KW_0_37 = 1, /* Kw 0 37, 0.37 kW */
-    HITACHI_L200_MOTOR_POWER_KW_0_40 = 2, /* Kw 0 40, 0.40 kW */
-    HITACHI_L200_MOTOR_POWER_KW_0_55 = 3, /* Kw 0 55, 0.55 kW */
-    HITACHI_L200_MOTOR_POWER_KW_0_75 = 4, /* Kw 0 75, 0.75 kW */
-    HITACHI_L200_MOTOR_POWER_KW_1_10 = 5, /* Kw 1 10, 1.10 kW */
-    HITACHI_L200_MOTOR_POWER_KW_1_50 = 6, /* Kw 1 50, 1.50 kW */
-    HITACHI_L200_MOTOR_POWER_KW_2_2 = 7, /* Kw 2 2, 2.2 kW */
-    HITACHI_L200_MOTOR_POWER_KW_3_0 = 8, /* Kw 3 0, 3.0 kW */
-    HITACHI_L200_MOTOR_POWER_KW_3_7 = 9, /* Kw 3 7, 3.7 kW */
-    HITACHI_L200_MOTOR_POWER_KW_4_0 = 10, /* Kw 4 0, 4.0 kW */
-    HITACHI_L200_MOTOR_POWER_KW_5_5 = 11, /* Kw 5 5, 5.5 kW */
-    HITACHI_L200_MOTOR_POWER_KW_7_5 = 12 /* Kw 7 5, 7.5 kW */
+    HITACHI_L200_MOTOR_POWER_KW_0_20 = 0, /* 0.20 kW */
+    HITACHI_L200_MOTOR_POWER_KW_0_37 = 1, /* 0.37 kW */
+    HITACHI_L200_MOTOR_POWER_KW_0_40 = 2, /* 0.40 kW */
+    HITACHI_L200_MOTOR_POWER_KW_0_55 = 3, /* 0.55 kW */
+    HITACHI_L200_MOTOR_POWER_KW_0_75 = 4, /* 0.75 kW */
+    HITACHI_L200_MOTOR_POWER_KW_1_10 = 5, /* 1.10 kW */
+    HITACHI_L200_MOTOR_POWER_KW_1_50 = 6, /* 1.50 kW */
+    HITACHI_L200_MOTOR_POWER_KW_2_2 = 7, /* 2.2 kW */
+    HITACHI_L200_MOTOR_POWER_KW_3_0 = 8, /* 3.0 kW */
+    HITACHI_L200_MOTOR_POWER_KW_3_7 = 9, /* 3.7 kW */
+    HITACHI_L200_MOTOR_POWER_KW_4_0 = 10, /* 4.0 kW */
+    HITACHI_L200_MOTOR_POWER_KW_5_5 = 11, /* 5.5 kW */
+    HITACHI_L200_MOTOR_POWER_KW_7_5 = 12 /* 7.5 kW */
 };
 
 static inline const char *hitachi_l200_motor_power_name(int32_t raw)
@@ -10629,10 +10629,10 @@ static inline int32_t hitachi_l200_motor_power_set_2_decode(uint16_t raw)
 
 /* Motor poles */
 enum {
-    HITACHI_L200_MOTOR_POLES_POLES_2 = 2, /* Poles 2 */
-    HITACHI_L200_MOTOR_POLES_POLES_4 = 4, /* Poles 4 */
-    HITACHI_L200_MOTOR_POLES_POLES_6 = 6, /* Poles 6 */
-    HITACHI_L200_MOTOR_POLES_POLES_8 = 8 /* Poles 8 */
+    HITACHI_L200_MOTOR_POLES_POLES_2 = 2,
+    HITACHI_L200_MOTOR_POLES_POLES_4 = 4,
+    HITACHI_L200_MOTOR_POLES_POLES_6 = 6,
+    HITACHI_L200_MOTOR_POLES_POLES_8 = 8
 };
 
 static inline const char *hitachi_l200_motor_poles_name(int32_t raw)

@@ -203,8 +203,8 @@ def _enum_view(enum: Enum, point: Point, scope: Scope) -> EnumView | None:
     cases: dict[int, tuple[str, str]] = {}
     for entry in enum.entries:
         name = f"{prefix}_{upper(entry.name)}"
-        title = c_comment(entry.title["en"])
-        entries.append((name, signed(entry.raw), f"{title}, {c_comment(entry.quantity)}" if entry.quantity else title))
+        comment = f" /* {c_comment(entry.quantity)} */" if entry.quantity else ""
+        entries.append((name, signed(entry.raw), comment))
         cases.setdefault(entry.raw, (name, c_string(entry.name)))
     fits = all(-(1 << 15) <= entry.raw < 1 << 15 for entry in enum.entries)
     function = f"{scope.prefix}_{enum.name}_name"
