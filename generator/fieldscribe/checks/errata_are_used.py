@@ -14,7 +14,8 @@ def check(subject: Subject) -> None:
     """Keys of errata that no printed fact contradicts."""
     for erratum in subject.errata:
         printed = erratum.raw["printed"]
-        if not isinstance(printed, Map):
+        on_bus = any(":" in about for about in erratum.subjects)
+        if not isinstance(printed, Map) or (on_bus and not subject.bus_is_whole):
             continue
         for key in printed:
             if key not in erratum.used:

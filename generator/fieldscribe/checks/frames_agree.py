@@ -33,6 +33,8 @@ class _Carried(NamedTuple):
 
 def check(subject: Subject) -> None:
     """Frames with a wrong checksum, count or length, answers that do not fit, meanings that the bytes do not have."""
+    if not subject.bus_is_whole:
+        return
     seen: dict[str, _Seen] = {}
     points = {resolved.point.item: resolved.point for resolved in subject.resolved}
     for one in subject.open_frames:

@@ -65,6 +65,11 @@ class Subject:
                 self.cited.setdefault(subject, []).append(erratum)
 
     @property
+    def bus_is_whole(self) -> bool:
+        """Whether all that was written under `bus` could be read: else what rests on it cannot be judged."""
+        return self.scope.bus is not None and not _lost(self.scope.bus)
+
+    @property
     def report(self) -> Report:
         """Where findings go."""
         return self.scope.report
@@ -96,6 +101,10 @@ def inside(raw: int, allowed: Allowed) -> bool:
         if low <= raw <= high:
             return True
     return False
+
+
+def _lost(value: Any) -> bool:
+    return isinstance(value, Map) and (bool(value.broken) or any(map(_lost, value.values())))
 
 
 def same(left: Any, right: Any) -> bool:

@@ -9,7 +9,7 @@ import struct
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
-from math import isfinite
+from math import isfinite, isnan
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -86,8 +86,9 @@ def encode(point: Point, value: Fraction, settings: Settings) -> int:
 def encode_checked(point: Point, value: Fraction, settings: Settings) -> int:
     """The raw number to write for a value. Raises CodecError."""
     if point.info.floating:
-        _check_units(point, value)
-        return _pattern_of(point, value)
+        pattern = _pattern_of(point, value)
+        _check_units(point, pattern)
+        return pattern
     raw = encode(point, value, settings)
     check(point, raw, settings)
     return raw
@@ -96,10 +97,7 @@ def encode_checked(point: Point, value: Fraction, settings: Settings) -> int:
 def check(point: Point, raw: int, settings: Settings) -> None:
     """Whether a raw number may be written. Raises CodecError: `out_of_range`, `unknown_value`, `missing`, ..."""
     if point.info.floating:
-        number = float_of(point, raw)
-        if not isfinite(number):
-            raise CodecError("out_of_range")
-        _check_units(point, Fraction(number))
+        _check_units(point, raw)
         return
     closed = point.enum is not None and point.enum.closed
     if point.least <= raw <= point.greatest:
@@ -201,14 +199,12 @@ def _pattern_of(point: Point, value: Fraction) -> int:
     return pattern
 
 
-def _check_units(point: Point, value: Fraction) -> None:
-    """Limits of floating points hold in the unit, before the conversion, and compare as binary64."""
+def _check_units(point: Point, pattern: int) -> None:
+    """Limits of floating points are rounded as the value is, and compared with the number that the pattern is."""
+    number = float_of(point, pattern)
+    if isnan(number):
+        raise CodecError("not_a_number")
     spans = point.allowed.units
-    if not spans:
-        return
-    try:
-        number = float(value)
-    except OverflowError as error:
-        raise CodecError("out_of_range") from error
-    if not any(float(low) <= number <= float(high) for low, high in spans):
+    limits = [[float_of(point, _pattern_of(point, end)) for end in span] for span in spans]
+    if not isfinite(number) or (spans and not any(low <= number <= high for low, high in limits)):
         raise CodecError("out_of_range")

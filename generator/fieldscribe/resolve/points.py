@@ -144,7 +144,11 @@ def _unit(scope: Scope, draft: Draft) -> Unit:
     symbol = draft.get("unit")
     found = PLAIN if symbol is None else scope.units.get(symbol)
     if found is None:
-        scope.unknown("unit", str(symbol), draft.span("unit"), scope.units)
+        word = str(symbol).lower()
+        names = ((one, (one.lower(), unit.name, f"{unit.name}s")) for one, unit in scope.units.items())
+        meant = next((one for one, said in names if word in said), None)
+        hint = f"units go by their symbol: write `{meant}`" if meant else None
+        scope.unknown("unit", str(symbol), draft.span("unit"), scope.units, hint)
         draft.failed.add("unit")
     return found or PLAIN
 
