@@ -353,6 +353,55 @@ def test_any_bytes_are_safe_to_parse(compiler: str, sample: Path, tmp_path: Path
     succeed([compiled(compiler, flags, tmp_path / "noise.c", tmp_path / "noise")])
 
 
+ECHO = """
+#include "sample_drive_modbus.h"
+int main(void)
+{
+    static const uint8_t answer[] = {0, 7, 0, 0, 0, 6, 1, 6, 0x10, 0x28, 1, 0xF4};
+    const uint16_t written[1] = {500U};
+    fieldscribe_modbus_request request = fieldscribe_modbus_read(1U, 6U, 0x1028U, 1U);
+    fieldscribe_modbus_reply reply;
+    uint16_t value = 0U;
+    request.values = written;
+    request.transaction = 7U;
+    if (fieldscribe_modbus_parse(FIELDSCRIBE_MODBUS_TCP, &request, answer, sizeof answer, NULL, 0U, &reply) !=
+            FIELDSCRIBE_MODBUS_OK || reply.count != 0U) {
+        return 1;
+    }
+    if (fieldscribe_modbus_parse(FIELDSCRIBE_MODBUS_TCP, &request, answer, sizeof answer, &value, 1U, &reply) !=
+            FIELDSCRIBE_MODBUS_OK || reply.count != 1U || value != 500U) {
+        return 2;
+    }
+    return 0;
+}
+"""
+
+
+def test_an_echo_needs_no_room(sample: Path, tmp_path: Path) -> None:
+    (tmp_path / "echo.c").write_text(ECHO, encoding="utf-8")
+    flags = ("-std=c99", "-O1", *WARNINGS, *SANITIZERS["gcc"], "-I", str(sample / "c"))
+    succeed([compiled("gcc", flags, tmp_path / "echo.c", tmp_path / "echo")])
+
+
+@pytest.mark.parametrize("compiler", COMPILERS)
+@pytest.mark.parametrize("flag", ["-ffast-math", "-Ofast", "-ffinite-math-only"])
+def test_inexact_arithmetic_is_refused(compiler: str, flag: str, sample: Path) -> None:
+    words: list[str | Path] = [tool(compiler), "-std=c99", "-fsyntax-only", flag, "-x", "c", sample / "c/sample_drive.h"]
+    refused = run(words)
+    assert refused.returncode != 0
+    assert "Compile without -ffast-math" in refused.stderr
+    assert run([*words, "-DFIELDSCRIBE_NO_FLOAT"]).returncode == 0
+
+
+def test_a_runtime_of_another_version_is_refused(sample: Path, tmp_path: Path) -> None:
+    for path in (sample / "c").glob("*.h"):
+        text = path.read_text("utf-8").replace("MODBUS_INTERFACE 1\n", "MODBUS_INTERFACE 2\n")
+        (tmp_path / path.name).write_text(text, encoding="utf-8")
+    done = run([tool("gcc"), "-std=c99", "-fsyntax-only", "-x", "c", tmp_path / "sample_drive_modbus.h"])
+    assert done.returncode != 0
+    assert "of another version" in done.stderr
+
+
 FIRMWARE = """
 #define FIELDSCRIBE_NO_FLOAT
 #include "sample_drive.h"

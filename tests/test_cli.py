@@ -175,7 +175,7 @@ def test_device_arguments(run: Callable[..., Result], small: Path, tmp_path: Pat
     assert empty.code == 2
     assert "holds no device.yaml" in empty.err
     assert run("check", "empty").code == 1
-    assert run("check", "nowhere").code == 1
+    assert run("check", "nowhere").code == 2
     assert run("explain", "x" * 5000, "P1").code == 2
 
 
@@ -298,7 +298,8 @@ def test_colour_is_for_terminals(monkeypatch: pytest.MonkeyPatch, small: Path, n
     monkeypatch.setenv("TERM", "xterm")
     monkeypatch.setattr(sys, "stdout", screen)
     assert main(["explain", "small_drive", "P1"]) == 0
-    assert main(["check", "nowhere"]) == 1
+    (small / "empty").mkdir()
+    assert main(["check", str(small / "empty")]) == 1
     assert ("\x1b[" in screen.getvalue()) == coloured
     assert "P1 speed: Speed" in screen.getvalue()
     assert "no-device" in screen.getvalue()

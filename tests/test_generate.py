@@ -90,8 +90,8 @@ def test_the_same_device_twice_is_refused(project: Path, capsys: pytest.CaptureF
 
 
 def test_depfile_and_list(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["generate", "--target", "docs", "--out", "my out", "--depfile", "deps/docs.d"]) == 0
-    rule = (project / "deps/docs.d").read_text("utf-8")
+    assert main(["generate", "--target", "docs", "--out", "my out", "--depfile", "docs.d"]) == 0
+    rule = (project / "docs.d").read_text("utf-8")
     assert rule.startswith(
         "my\\ out/docs/hitachi_l200.csv my\\ out/docs/hitachi_l200.md my\\ out/manifest/hitachi_l200.json:"
     )
@@ -113,7 +113,9 @@ def test_json_tells_what_happened(project: Path, capsys: pytest.CaptureFixture[s
     [
         (["--target", "cobol"], 2, "cobol"),
         (["--target", ""], 2, "target"),
-        (["no/such/folder"], 1, "no such file or folder"),
+        (["no/such/folder"], 2, "no such file or folder"),
+        (["hitachi_l20"], 2, "did you mean `hitachi_l200`?"),
+        (["--out", ""], 2, "the path is empty"),
         (["--out", "descriptions/hitachi_l200/device.yaml"], 2, "cannot write"),
     ],
 )

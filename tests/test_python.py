@@ -7,6 +7,7 @@ import math
 import subprocess
 import sys
 from dataclasses import replace
+from decimal import Decimal
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -253,6 +254,7 @@ def test_tcp_commands_and_refusals(package: Any) -> None:
     drive = package.SampleDrive(slave, unit=5)
     drive.enter.send()
     assert slave.log == [(6, 0x900, 1)]
+    assert slave.words[0x900] == 1  # any number does; it is the same in all languages
     slave.refuses[0x1028] = 0x21
     assert status(drive.base_frequency.read) == (
         "exception",
@@ -337,7 +339,17 @@ def test_generated_code_is_formatted(folder: Path) -> None:
 
 MISUSE = """
 from sample_drive import FrequencySource, SampleDrive, SampleDriveAsync
-from fieldscribe_runtime import Transport
+from typing import assert_type
+from fieldscribe_runtime import Field, ReadOnly, Transport
+from sample_drive import StatusWord, StatusWordMode
+
+def words() -> None:
+    assert_type(SampleDrive.status_word, ReadOnly[StatusWord])
+    assert_type(SampleDrive.status_word.decode(1), StatusWord)
+    assert_type(StatusWord(1).ready, bool)
+    assert_type(StatusWord(1).mode, StatusWordMode | int)
+    assert_type(Field(2, 3).__get__(StatusWord(1), None), int)
+    wrong: str = StatusWord(1).ready  # E: assignment
 
 def use(transport: Transport) -> None:
     drive = SampleDrive(transport, unit=5, voltage_class="400V")
@@ -375,6 +387,58 @@ def test_types_are_strict_and_reject_misuse(folder: Path, tmp_path: Path) -> Non
     seen = [(int(line.split(":")[1]), line.rpartition("[")[2].rstrip("]")) for line in found if line[:6] == "misuse"]
     assert seen == expected
     assert len(found) == len(expected)
+
+
+def test_writes_go_only_to_spaces_that_can_be_written(drive: Any, slave: Slave) -> None:
+    for space in ("discrete", "input", "holdings"):
+        assert status(drive.write_at, space, 1, 1)[0] == "bad_space"
+    assert status(drive.read_at, "holdings", 1)[0] == "bad_space"
+    assert not slave.log
+    drive.write_at("coil", 1, 1)
+    drive.write_at("holding", 1, 7)
+    assert slave.log == [(5, 1, 1), (6, 1, 1)]
+
+
+def test_unknown_variants_are_refused(package: Any) -> None:
+    with pytest.raises(ValueError, match="voltage_class is one of 200V, 400V, not '100V'"):
+        package.SampleDrive(Slave(), unit=1, voltage_class="100V")
+    with pytest.raises(ValueError, match="no variants by 'colour'"):
+        sys.modules["fieldscribe_runtime"].Device(Slave(), 1, {"colour": "red"})
+
+
+def test_nothing_is_cut_off_silently(package: Any) -> None:
+    drive = package.SampleDrive
+    for function, number, expected in (
+        (drive.base_frequency.to_words, 65536, "out_of_range"),
+        (drive.signed_one.to_words, 32768, "out_of_range"),
+        (drive.signed_byte.to_words, -129, "out_of_range"),
+        (drive.base_frequency.from_words, (65536,), "out_of_range"),
+        (drive.base_frequency.from_words, (-1,), "out_of_range"),
+        (drive.base_frequency.from_words, (1.5,), "out_of_range"),
+        (drive.base_frequency.check, 12.5, "out_of_range"),
+        (drive.base_frequency.encode_count, 12.5, "out_of_range"),
+        (drive.voltage_ratio.encode, 60.5, "out_of_range"),
+        (drive.base_frequency.encode, 10**400, "out_of_range"),
+        (drive.base_frequency.encode, 10**5000, "out_of_range"),
+        (drive.base_frequency.check, 10**5000, "out_of_range"),
+        (drive.float_setpoint.encode, 10**400, "out_of_range"),
+        (drive.base_frequency.encode, Decimal("sNaN"), "not_a_number"),
+        (drive.float_setpoint.encode, Decimal("sNaN"), "not_a_number"),
+    ):
+        assert status(function, number)[0] == expected, (function, number)
+
+
+def test_members_of_other_enums_are_refused(package: Any) -> None:
+    point_ = package.SampleDrive.frequency_source
+    assert status(point_.encode, package.StatusWordMode.STOP)[0] == "unknown_value"
+    assert point_.encode(package.FrequencySource.TERMINAL) == point_.encode(1) == 1
+
+
+def test_long_names_of_words_are_formatted(tmp_path: Path) -> None:
+    word = point("a_word_with_an_unusually_long_name_of_its_own", 1, flags=STATUS_FLAGS)
+    folder = write_package(replace(sample_device((word,)), errata=(), blocks={}), tmp_path)
+    ruff("check", folder)
+    ruff("format", "--diff", folder / "sample_drive")
 
 
 def test_separate_places(tmp_path: Path) -> None:

@@ -86,7 +86,7 @@ def test_keys_hold_nothing_nested_but_with() -> None:
 
 def test_the_amount_stays_bounded() -> None:
     one = point("one", 1, scale=scaled(256), decimals=3, allowed=allowed((10, 4000)))
-    assert len([vector for vector in vectors(sample_device((one,))) if vector.get("point") == "one"]) <= 42
+    assert len([vector for vector in vectors(sample_device((one,))) if vector.get("point") == "one"]) <= 44
 
 
 # Numbers worked out by hand

@@ -132,7 +132,31 @@ fn waits_without_blocking() {
     assert_eq!(finish(client.write::<points::BaseFrequency>(50.0)), Ok(()));
 }
 
+fn a_reply_of_another_space_is_no_point() {
+    let replies = ["0103020001", "01010101", "0106102801f4"];
+    let mut client = Client::new(Line::new(Framing::Rtu, &replies), &PROFILE, Framing::Rtu, 1);
+    let mut raw = |request| client.exchange(request).unwrap().unwrap().raw::<points::BaseFrequency>();
+    assert_eq!(raw(Request::new(1, 3, 0x1028, 1)), Ok(1));
+    assert_eq!(raw(Request::new(1, 1, 0x1028, 1)), Err(Error::WrongSpace));
+    assert_eq!(raw(Request::write_values(1, 6, 0x1028, &[500])), Ok(500));
+}
+
+fn clients_share_a_bus() {
+    let mut line = Line::new(Framing::Rtu, &["01030201f4", "02030201f4"]);
+    for unit in 1..=2 {
+        let mut client = Client::new(&mut line, &PROFILE, Framing::Rtu, unit);
+        assert_eq!(client.read::<points::BaseFrequency>(), Ok(50.0));
+    }
+    assert_eq!(line.sent, ["010310280001", "020310280001"]);
+    let mut slow = Slow(Line::new(Framing::Rtu, &["01030201f4"]));
+    let mut client = AsyncClient::new(&mut slow, &PROFILE, Framing::Rtu, 1);
+    assert_eq!(finish(client.read::<points::BaseFrequency>()), Ok(50.0));
+    assert_eq!(slow.0.sent.len(), 1);
+}
+
 fn main() {
+    a_reply_of_another_space_is_no_point();
+    clients_share_a_bus();
     reads_and_writes(Framing::Rtu);
     reads_and_writes(Framing::Tcp);
     all_units_get_a_write_and_none_answers();

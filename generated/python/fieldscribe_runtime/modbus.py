@@ -128,14 +128,28 @@ def build(request: Request, profile: Profile, framing: str = RTU, transaction: i
 
 
 def reply_size(received: bytes, framing: str = RTU) -> int | None:
-    """How long the reply is whose first bytes are `received`; None while that cannot be told. For transports."""
+    """How long the reply is whose first bytes are `received`; None while that cannot be told. For transports.
+
+    Raises FrameError if the reply would be longer than any frame can be.
+    """
     if framing == TCP:
-        return 6 + int.from_bytes(received[4:6], "big") if len(received) >= 6 else None
+        size, most = 6 + int.from_bytes(received[4:6], "big") if len(received) >= 6 else None, 260
+    else:
+        size, most = _rtu_size(received), 256
+    if size is not None and size > most:
+        raise FrameError("long_frame", f"the reply would have {size} bytes, and a frame has at most {most}")
+    return size
+
+
+def _rtu_size(received: bytes) -> int | None:
     if len(received) < 3:
+        return None
+    function = received[1] & 0x7F
+    if function not in READS | WRITES | ECHOES:
         return None
     if received[1] & 0x80:
         return 5
-    return 5 + received[2] if received[1] in READS else 8
+    return 5 + received[2] if function in READS else 8
 
 
 def parse(
@@ -154,8 +168,9 @@ def parse(
 def _open_rtu(request: Request, reply: bytes) -> bytes:
     if len(reply) < 5:
         raise FrameError("short_frame", f"{len(reply)} bytes are too few for a reply")
-    if reply[1] & 0x7F == request.function:
-        _check_size(len(reply), reply_size(reply) or 0)
+    size = _rtu_size(reply)
+    if size is not None and reply[1] & 0x7F == request.function:
+        _check_size(len(reply), size)
     if crc(reply[:-2]) != int.from_bytes(reply[-2:], "little"):
         raise FrameError("bad_crc", "the CRC of the reply is wrong")
     _check_address(request, reply[0], reply[1])

@@ -6,6 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from .errors import RequestError
 from .modbus import READ_COILS, READ_DISCRETE, READ_HOLDING, READ_INPUT, READS, Profile
 
 if TYPE_CHECKING:
@@ -32,7 +33,9 @@ class Block:
 
 
 def read_function(place: Place) -> int:
-    """The function that reads a place."""
+    """The function that reads a place; raises RequestError for an unknown space."""
+    if place.space not in _READS:
+        raise RequestError("bad_space", f"there is no space {place.space!r}, only {', '.join(_READS)}")
     return place.function if place.function in READS else _READS[place.space]
 
 

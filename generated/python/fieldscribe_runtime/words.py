@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import enum
-from typing import Generic, TypeVar, overload
+from typing import Generic, Never, TypeVar, overload
 
 E = TypeVar("E", bound=enum.IntEnum)
 
@@ -33,6 +33,10 @@ class Flag:
 class Field(Generic[E]):
     """Several bits of a word; on a word it is their number, by name where it has one."""
 
+    @overload
+    def __init__(self: Field[Never], low: int, width: int) -> None: ...
+    @overload
+    def __init__(self, low: int, width: int, names: type[E]) -> None: ...
     def __init__(self, low: int, width: int, names: type[E] | None = None) -> None:
         self.low = low
         self.width = width

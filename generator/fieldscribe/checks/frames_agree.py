@@ -119,7 +119,7 @@ def _meaning(subject: Subject, one: OpenFrame, carried: _Carried, points: dict[s
     for word in says:
         draft = subject.index.find(word)
         point = points.get(draft.item) if draft is not None else None
-        if point is None or point.item not in one.frame.meaning:
+        if draft is None or point is None or point.item not in one.frame.meaning or "at" in draft.failed:
             continue
         wanted = one.frame.meaning[point.item]
         found = _raw(point, carried) if point.space in spaces else None
@@ -130,6 +130,8 @@ def _meaning(subject: Subject, one: OpenFrame, carried: _Carried, points: dict[s
 
 
 def _raw(point: Point, carried: _Carried) -> int | None:
+    if not point.addresses:
+        return None
     raw = 0
     for word in point.addresses:
         if not carried.address <= word < carried.address + len(carried.values):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -18,14 +17,14 @@ EXAMPLE = """examples:
 
 def add_arguments(parser: ArgumentParser) -> None:
     """The command's arguments."""
-    from fieldscribe.cli.common import add_format
+    from fieldscribe.cli.common import add_format, some_path
 
     parser.add_argument(
         "paths",
         nargs="*",
-        type=Path,
+        type=some_path,
         metavar="PATH",
-        help="descriptions: a folder with device.yaml, or a folder of such folders (default: descriptions)",
+        help="device ids, folders with device.yaml, or folders of such folders (default: descriptions)",
     )
     add_format(parser)
 

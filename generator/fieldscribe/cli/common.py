@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from argparse import ArgumentTypeError
 from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
@@ -80,25 +81,39 @@ def add_device(parser: ArgumentParser, *, variants: bool = True) -> None:
         )
 
 
+def some_path(text: str) -> Path:
+    """A path from the command line; an empty one (an unset variable, most often) would mean the working folder."""
+    if not text:
+        raise ArgumentTypeError("the path is empty")
+    return Path(text)
+
+
 def description_paths(paths: list[Path]) -> list[Path]:
-    """What was given, ids of devices as their folders; else ./descriptions, else what comes with the compiler."""
-    if paths:
-        return [path if path.exists() else _known_folder(path) or path for path in paths]
-    if LOCAL.is_dir():
-        return [LOCAL]
+    """What was given, ids of devices as their folders; else ./descriptions, else what comes with the compiler.
+
+    Raises StopError for what does not exist.
+    """
     from fieldscribe.resources import descriptions_dir
 
+    if paths:
+        return [path if path.exists() else _known_folder(path) for path in paths]
+    if LOCAL.is_dir():
+        return [LOCAL]
+    print(f"there is no folder {LOCAL} here: these are the devices that come with fieldscribe", file=sys.stderr)
     return [descriptions_dir()]
 
 
-def _known_folder(name: Path) -> Path | None:
+def _known_folder(name: Path) -> Path:
     """The folder of the device of that id, in ./descriptions or among what comes with the compiler."""
     from fieldscribe.pipeline import DEVICE_FILE
     from fieldscribe.resources import descriptions_dir
 
-    if len(name.parts) != 1 or not name.name.replace("_", "").isalnum():
-        return None
-    return next((root / name for root in (LOCAL, descriptions_dir()) if (root / name / DEVICE_FILE).is_file()), None)
+    roots = (LOCAL, descriptions_dir())
+    known = {file.parent.name: file.parent for root in reversed(roots) for file in root.glob(f"*/{DEVICE_FILE}")}
+    if str(name) not in known:
+        hint = _near(str(name), sorted(known)) or f"name a folder with {DEVICE_FILE}, or a device: {', '.join(known)}"
+        raise StopError(f"there is no such file or folder, and no device, as `{name}`", hint)
+    return known[str(name)]
 
 
 def open_device(arguments: Namespace) -> Device:

@@ -47,7 +47,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 def run(arguments: Namespace) -> int:
     """Encode; the exit code: 1 when the value is refused."""
     from fieldscribe.cli import FINDINGS, FINE, USAGE
-    from fieldscribe.cli.common import StopError, open_device, settings_of
+    from fieldscribe.cli.common import StopError, open_device, print_json, settings_of
     from fieldscribe.dialogue.encoding import encode_point, frame_for
     from fieldscribe.dialogue.refusals import RefusedError
     from fieldscribe.dialogue.selection import UnclearError, choose_point
@@ -62,6 +62,8 @@ def run(arguments: Namespace) -> int:
     except UnclearError as error:
         raise StopError(error.message, error.hint) from error
     except RefusedError as error:
+        if arguments.format == "json":
+            print_json({"refused": {"status": error.status, "message": error.message, "hint": error.hint}})
         raise StopError(error.message, error.hint, USAGE if error.status == "missing" else FINDINGS) from error
     _tell(arguments.format, encoded, data)
     return FINE

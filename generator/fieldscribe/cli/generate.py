@@ -25,10 +25,12 @@ EXAMPLE = """examples:
 
 def add_arguments(parser: ArgumentParser) -> None:
     """The command's arguments."""
+    from fieldscribe.cli.common import some_path
+
     parser.add_argument(
         "paths",
         nargs="*",
-        type=Path,
+        type=some_path,
         metavar="PATH",
         help="device ids, folders with device.yaml, or folders of such folders (default: descriptions)",
     )
@@ -39,10 +41,10 @@ def add_arguments(parser: ArgumentParser) -> None:
         help=f"what to make, of {', '.join(TARGETS)} (default: all)",
     )
     parser.add_argument(
-        "--out", type=Path, default=Path("generated"), metavar="DIR", help="where to (default: generated)"
+        "--out", type=some_path, default=Path("generated"), metavar="DIR", help="where to (default: generated)"
     )
     parser.add_argument("--check", action="store_true", help="write nothing; say what is stale, exit 1 if anything is")
-    parser.add_argument("--depfile", type=Path, metavar="FILE", help="write a make rule from outputs to inputs")
+    parser.add_argument("--depfile", type=some_path, metavar="FILE", help="write a make rule from outputs to inputs")
     parser.add_argument("--list-outputs", action="store_true", help="write nothing; print the paths of all outputs")
     parser.add_argument("--format", choices=("text", "json"), default="text", help="how to report (default: text)")
 
@@ -85,18 +87,23 @@ def run(arguments: Namespace) -> int:
     plain = not (arguments.depfile or arguments.list_outputs or report.has_errors)
     known = stamp.remembered(arguments.out, digest) if plain else None
     if known is not None:
-        return _say(arguments, _Result(unchanged=set(known)), failed=False)
+        return _say(arguments, _Result(unchanged=set(known)), report)
     result = _Result()
     try:
         _compile(arguments, targets, device_files, report, result)
-        if arguments.depfile and not report.has_errors:
-            _write_depfile(arguments, result, inputs)
     except (OSError, UnsafePathError) as error:
         return usage_error(f"cannot write to {arguments.out}: {error}")
-    report_findings(report, arguments.format)
-    if not (report.has_errors or arguments.check or arguments.list_outputs):
+    writes = not (report.has_errors or arguments.check or arguments.list_outputs)
+    if arguments.depfile and writes:
+        try:
+            _write_depfile(arguments, result, inputs)
+        except OSError as error:
+            return usage_error(f"cannot write {arguments.depfile}: {error.strerror}")
+    if arguments.format == "text":
+        report_findings(report, "text")
+    if writes:
         stamp.remember(arguments.out, digest, result.outputs)
-    return _say(arguments, result, failed=report.has_errors)
+    return _say(arguments, result, report)
 
 
 def _compile(
@@ -147,25 +154,25 @@ def _write_depfile(arguments: Namespace, result: _Result, inputs: list[Path]) ->
 
     made = " ".join(escaped(arguments.out / path) for path in result.outputs)
     needed = " \\\n  ".join(escaped(path) for path in inputs)
-    arguments.depfile.parent.mkdir(parents=True, exist_ok=True)
     arguments.depfile.write_text(f"{made}: {needed}\n", "utf-8")
 
 
-def _say(arguments: Namespace, result: _Result, *, failed: bool) -> int:
+def _say(arguments: Namespace, result: _Result, report: Report) -> int:
     """Tell what happened; the exit code."""
+    failed = report.has_errors
     if arguments.format == "json":
-        import json
+        from fieldscribe.cli.common import print_json
+        from fieldscribe.report import as_data
 
-        lists = {name: sorted(getattr(result, name)) for name in ("written", "removed", "stale")}
-        if not failed:  # else the findings are the one object on stdout
-            print(json.dumps({"out": str(arguments.out), **lists, "unchanged": result.left}))
+        lists = {name: sorted(getattr(result, name)) for name in ("outputs", "written", "removed", "stale")}
+        print_json({"out": str(arguments.out), **lists, "findings": as_data(report.findings)})
     elif arguments.list_outputs:
         print(*(str(arguments.out / path) for path in result.outputs), sep="\n")
     elif arguments.check:
         for path in sorted(result.stale):
             print(f"stale: {arguments.out / path}")
         print(f"{len(result.stale)} stale, {result.left} current in {arguments.out}")
-    else:
+    elif result.outputs or not failed:
         counts = f"{len(result.written)} written, {len(result.removed)} removed, {result.left} unchanged"
         print(f"{counts} in {arguments.out}")
     return 1 if failed or (arguments.check and result.stale) else 0

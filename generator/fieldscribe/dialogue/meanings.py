@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from decimal import Decimal
 from struct import pack, unpack
 from typing import TYPE_CHECKING
 
@@ -110,16 +111,18 @@ def _quantity(device: Device, point: Point, raw: int, settings: Settings) -> Mea
 def _shortest(point: Point, raw: int) -> str:
     """The shortest decimal that means this bit pattern, as an instrument would show it."""
     number = codec.float_of(point, raw)
-    if point.type == "f64":
-        return repr(number)
-    for digits in range(1, 10):
-        text = f"{number:.{digits}g}"
-        try:
-            if unpack("<f", pack("<f", float(text)))[0] == number:
-                return text
-        except OverflowError:
-            continue
-    return repr(number)
+    text = repr(number)
+    if point.type == "f32":
+        for digits in range(1, 10):
+            shorter = f"{number:.{digits}g}"
+            try:
+                if unpack("<f", pack("<f", float(shorter)))[0] == number:
+                    text = shorter
+                    break
+            except OverflowError:
+                continue
+    plain = 1e-6 <= abs(number) < 1e15
+    return f"{Decimal(text):f}" if plain else text
 
 
 def _flags_text(point: Point, raw: int) -> str:

@@ -24,7 +24,7 @@ _NOT_OF_RECORDS = frozenset({*_OF_RECORDS, "name", "title", "note", "record", "a
 _OF_FORMATS = ("type", "range", "scale", "unit", "enum", "flags", "special")
 """What an unknown format leaves open."""
 
-_SET_WORDS = {"en": "set", "de": "Parametersatz"}
+_SET_WORDS = {"en": "set {}", "de": "{}. Parametersatz"}
 
 
 def expand(scope: Scope) -> list[Draft]:
@@ -160,4 +160,5 @@ def _format(scope: Scope, point: Map) -> tuple[Map, ...]:
 
 
 def _set_title(title: Titles, number: str) -> Titles:
-    return {language: f"{text} ({_SET_WORDS.get(language, 'set')} {int(number)})" for language, text in title.items()}
+    words = {language: _SET_WORDS.get(language, "set {}").format(int(number)) for language in title}
+    return {language: f"{text} ({words[language]})" for language, text in title.items()}

@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from fieldscribe.language.formula import FormulaError, condition_names, parse_condition
-from fieldscribe.model import TYPES, Enum, Point, ScaleCase, Special, Unit
+from fieldscribe.model import TYPES, Allowed, Enum, Point, ScaleCase, Special, Unit
 from fieldscribe.resolve.addresses import Places
 from fieldscribe.resolve.allowed import Ranges
 from fieldscribe.resolve.bounds import Bounds
@@ -76,7 +76,11 @@ def _point(scope: Scope, draft: Draft, shape: Shape, places: Places, ranges: Ran
     get = draft.get
     address = places.address(draft)
     ranged = draft.layer("range") is not None or draft.layer("range_in_units") is not None
-    enum = enum_of(scope, draft, closed=not ranged and not get("open", False))
+    said_open = bool(get("open", False))
+    enum = enum_of(scope, draft, closed=not ranged and not said_open)
+    allowed = ranges.allowed(draft, enum)
+    if enum is not None and not said_open and _all_named(allowed, enum):
+        enum = enum_of(scope, draft, closed=True)
     cases = _cases(draft, ranges.bounds)
     access = str(get("access", "rw"))
     writable = "w" in access
@@ -98,7 +102,7 @@ def _point(scope: Scope, draft: Draft, shape: Shape, places: Places, ranges: Ran
         unit=_unit(scope, draft),
         scale=cases,
         decimals=decimals_of(draft, cases, ranges.bounds),
-        allowed=ranges.allowed(draft, enum),
+        allowed=allowed,
         default=_default(scope, draft, enum),
         steps=_steps(scope, draft),
         enum=enum,
@@ -176,6 +180,18 @@ def _steps(scope: Scope, draft: Draft) -> tuple[tuple[int, int], ...]:
             scope.report.error("duplicate-enum-value", message, raw.key_span(key), "remove one of them")
         found.setdefault(start, step)
     return tuple(sorted(found.items()))
+
+
+def _all_named(allowed: Allowed, enum: Enum) -> bool:
+    """Whether every number that may be written has a name."""
+    numbers = {entry.raw for entry in enum.entries}
+    for one in allowed.intervals:
+        low, high = one.low, one.high
+        if not (isinstance(low, int) and isinstance(high, int)) or high - low >= len(numbers):
+            return False
+        if not numbers.issuperset(range(low, high + 1)):
+            return False
+    return True
 
 
 def _existence(scope: Scope, draft: Draft, index: Index) -> None:

@@ -34,6 +34,28 @@ pub trait AsyncTransport {
     ) -> impl Future<Output = Result<usize, Self::Error>>;
 }
 
+/// Several clients share one bus: each borrows it for as long as it lives.
+impl<T: Transport + ?Sized> Transport for &mut T {
+    type Error = T::Error;
+
+    fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Self::Error> {
+        (**self).exchange(request, reply)
+    }
+}
+
+/// As for [`Transport`].
+impl<T: AsyncTransport + ?Sized> AsyncTransport for &mut T {
+    type Error = T::Error;
+
+    fn exchange(
+        &mut self,
+        request: &[u8],
+        reply: &mut [u8],
+    ) -> impl Future<Output = Result<usize, Self::Error>> {
+        (**self).exchange(request, reply)
+    }
+}
+
 /// Why a point could not be read or written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ClientError<E> {

@@ -41,6 +41,8 @@ pub enum Error {
     NoValue,
     /// There are more or fewer words than the point has.
     WrongLength,
+    /// The reply is of another space than the point's.
+    WrongSpace,
 }
 
 impl Error {
@@ -56,6 +58,7 @@ impl Error {
             Self::Overflow => "overflow",
             Self::NoValue => "no_value",
             Self::WrongLength => "wrong_length",
+            Self::WrongSpace => "wrong_space",
         }
     }
 }
@@ -71,6 +74,7 @@ impl fmt::Display for Error {
             Self::Overflow => "the result does not fit its type",
             Self::NoValue => "the device has no value",
             Self::WrongLength => "the point has another number of words",
+            Self::WrongSpace => "the reply is of another space than the point's",
         })
     }
 }

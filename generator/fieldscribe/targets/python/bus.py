@@ -47,6 +47,15 @@ def blocks(device: Device) -> Node:
     return Group("{", tuple(made), "}")
 
 
+def variants(device: Device) -> Node:
+    """The values of each variant axis."""
+    made = [
+        Group(f"{python_string(axis)}: (", tuple(map(python_string, values)))
+        for axis, values in device.variants.items()
+    ]
+    return Group("{", tuple(made), "}")
+
+
 def commands(device: Device, scope: Scope) -> Iterable[tuple[str, str, tuple[str, ...], tuple[str, ...]]]:
     """Each command: its attribute, what makes it, the arguments and the docstring."""
     points = {point.item for point in device.points} | {point.name for point in device.points}

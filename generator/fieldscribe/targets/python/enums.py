@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.names import upper
 from fieldscribe.targets.python.identifiers import Identifiers, word_attribute
+from fieldscribe.targets.python.layout import call, laid_out
 from fieldscribe.text import python_doc
 
 if TYPE_CHECKING:
@@ -24,10 +25,10 @@ class Member:
 
 @dataclass(frozen=True, slots=True)
 class EnumClass:
-    """One class: its head in parentheses, its docstring, its members, and for words what reads each flag."""
+    """One class: its head (`class Name(...):`), its docstring, its members, and for words what reads each flag."""
 
     name: str
-    base: str
+    head: str
     doc: str
     members: tuple[Member, ...]
     readers: tuple[str, ...]
@@ -53,7 +54,7 @@ def enums_view(device: Device, names: Identifiers) -> EnumsView:
 
 def _enum(name: str, title: Titles, entries: tuple[Entry, ...]) -> EnumClass:
     members = tuple(Member(upper(entry.name), str(entry.raw), _entry_doc(entry)) for entry in entries)
-    return EnumClass(name, "enum.IntEnum", _sentence(title["en"]), members, ())
+    return EnumClass(name, f"class {name}(enum.IntEnum):", _sentence(title["en"]), members, ())
 
 
 def _word(point: Point, names: Identifiers, used: set[str]) -> list[EnumClass]:
@@ -65,8 +66,10 @@ def _word(point: Point, names: Identifiers, used: set[str]) -> list[EnumClass]:
         bits.append(Member(upper(flag.name), f"0x{mask:04X}", _flag_doc(flag)))
         readers.append(f"{word_attribute(flag.name)} = {_reader(point, flag, names)}")
         used.add("Flag" if flag.width == 1 else "Field")
-    base, doc = "enum.IntFlag, boundary=enum.KEEP", _sentence(point.title["en"])
-    return [*classes, EnumClass(names.word_class(point), base, doc, tuple(bits), tuple(readers))]
+    name, doc = names.word_class(point), _sentence(point.title["en"])
+    # what reads the flags is in a base class, because type checkers take an enum's own attributes for members
+    bases = call(f"class {name}", (f"_{name}Flags", "enum.IntFlag", "boundary=enum.KEEP"))
+    return [*classes, EnumClass(name, f"{laid_out(bases, 0)}:", doc, tuple(bits), tuple(readers))]
 
 
 def _reader(point: Point, flag: Flag, names: Identifiers) -> str:

@@ -6,7 +6,7 @@ import textwrap
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from fieldscribe.targets.python.bus import blocks, commands, profile
+from fieldscribe.targets.python.bus import blocks, commands, profile, variants
 from fieldscribe.targets.python.forms import Scope, allowed, form, number, place, spans
 from fieldscribe.targets.python.identifiers import Identifiers, attribute, sorted_imports
 from fieldscribe.targets.python.layout import WIDTH, Group, Node, comment, laid_out
@@ -51,6 +51,7 @@ class PointsView:
     uses_enums: bool
     profile: str
     blocks: str
+    variants: str
     groups: list[GroupView]
     commands: tuple[PointView, ...]
 
@@ -61,7 +62,7 @@ def points_view(device: Device, names: Identifiers) -> PointsView:
     scope = Scope(names, {point.name: point for point in device.points}, used)
     errata = {one.id: one for one in device.errata}
     groups = {group.name: GroupView(comment(f"{group.name}: {group.title['en']}")) for group in device.groups}
-    variants: dict[str, list[Point]] = {}
+    by_name: dict[str, list[Point]] = {}
     for point in device.points:
         group = groups.setdefault(point.group, GroupView(comment(point.group)))
         if not point.generated:
@@ -69,8 +70,8 @@ def points_view(device: Device, names: Identifiers) -> PointsView:
             continue
         group.points.append(_point(point, scope, errata))
         if point.variant is not None:
-            variants.setdefault(point.name, []).append(point)
-    for same in variants.values():
+            by_name.setdefault(point.name, []).append(point)
+    for same in by_name.values():
         groups[same[0].group].points.append(_by_variant(same, scope))
     made = tuple(PointView(*one, ()) for one in commands(device, scope))
     return PointsView(
@@ -78,6 +79,7 @@ def points_view(device: Device, names: Identifiers) -> PointsView:
         uses_enums="enums" in used,
         profile=laid_out(profile(device), 4),
         blocks=laid_out(blocks(device), 4) if device.blocks else "",
+        variants=laid_out(variants(device), 4) if device.variants else "",
         groups=[group for group in groups.values() if group.points or group.left_out],
         commands=made,
     )

@@ -15,11 +15,13 @@ from fieldscribe.text import line, rust_string
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from fieldscribe.model import Device
+    from fieldscribe.model import Code, Device
     from fieldscribe.targets.rust.subjects import Scope
     from fieldscribe.targets.rust.views import PointView
 
-_MOST = 65535
+_MOST = {1: 2000, 2: 2000, 3: 125, 4: 125, 5: 1, 6: 1, 8: 1, 15: 1968, 16: 123}
+"""The functions that the frames know, with the protocol's own limits."""
+
 _SEMANTIC = re.compile(r"\d+\.\d+\.\d+(?:-[0-9A-Za-z.-]+)?")
 
 
@@ -74,8 +76,7 @@ def _computes(point: PointView) -> bool:
 def _bus(device: Device) -> dict[str, object]:
     bus = device.bus
     functions = [
-        f"Function::new({code.number}, {_MOST if code.most is None else code.most})"
-        + (".without_broadcast()" if code.broadcast is False else "")
+        f"Function::new({code.number}, {_most(code)})" + (".without_broadcast()" if code.broadcast is False else "")
         for code in bus.functions
     ]
     return {
@@ -89,6 +90,12 @@ def _bus(device: Device) -> dict[str, object]:
         "groups": array([f"({rust_string(group)}, blocks::{group.upper()})" for group in device.blocks]),
         "commands": tuple(_commands(device)),
     }
+
+
+def _most(code: Code) -> int:
+    """The largest count of items in one request: the device's, within the protocol's."""
+    own = 65535 if code.most is None else code.most
+    return min(own, _MOST.get(code.number, own))
 
 
 def _blocks(device: Device) -> Iterator[tuple[str, str, tuple[str, ...]]]:

@@ -82,6 +82,21 @@ def halves(ratio: Ratio, limits: Limits) -> list[float]:
     return list(found)
 
 
+def just_outside(ratio: Ratio, limits: Limits) -> list[tuple[int, int]]:
+    """Exact values a quarter of a raw step beyond the outermost limits: they round back and are allowed."""
+    step = ratio.numerator(1) - ratio.numerator(0)
+    ends = ((limits[0][0], -1), (limits[-1][1], 1))
+    return [(4 * ratio.numerator(raw) + side * step, 4 * ratio.denominator) for raw, side in ends]
+
+
+@lru_cache(maxsize=4096)
+def telling_raw(ratio: Ratio) -> int | None:
+    """The lowest raw number whose value is another one when it is multiplied by the reciprocal instead of divided."""
+    under = ratio.denominator
+    numerators = ((raw, ratio.numerator(raw)) for raw in range(1, 200))
+    return next((raw for raw, over in numerators if over * (1 / under) != over / under), None)
+
+
 def settings(oracle: Oracle, point: Point) -> list[dict[str, int]]:
     """Raw numbers for all arguments: a typical set, then one argument at a time through all that it may bring."""
     names = point.arguments

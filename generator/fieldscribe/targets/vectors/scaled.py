@@ -89,7 +89,9 @@ class _Sheet:
 
     def _decode(self, raws: list[int]) -> None:
         ratio, head, add, under = self.ratio, self.head, self.lines.add, self.ratio.denominator
-        for raw in raws:
+        telling = samples.telling_raw(ratio)
+        held = telling is not None and self.point.least <= telling <= self.point.greatest
+        for raw in dict.fromkeys((*raws, telling) if held and telling is not None else raws):
             if is_no_value(self.point, raw):
                 add("decode", f'{head}, "raw": {raw}, "status": "no_value"')
             elif ratio.divides_exactly(raw):
@@ -119,6 +121,7 @@ class _Sheet:
     def _encode(self) -> None:
         ratio, head, add = self.ratio, self.head, self.lines.add
         values = {quotient(ratio.numerator(raw), ratio.denominator): None for raw in samples.edges(self.limits)}
+        values.update(dict.fromkeys(quotient(over, under) for over, under in samples.just_outside(ratio, self.limits)))
         for half in samples.halves(ratio, self.limits):
             values.update({half: None, nextafter(half, 0.0): None})
         for value in values:

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 class Command:
-    """A write that makes the device do something; without a `value` any number does."""
+    """A write that makes the device do something; without a `value` any number does (1 if none is given)."""
 
     def __init__(self, *, at: Place, value: int | None = None) -> None:
         self.at = at
@@ -40,7 +40,8 @@ class Command:
         """The write, carried out by a device."""
         if self.value is not None and value not in (None, self.value):
             raise AccessError(f"{self.name} is the number {self.value}, not {value}")
-        return device.put_steps(self.at, (self.value if self.value is not None else value or 0,))
+        number = 1 if value is None else value
+        return device.put_steps(self.at, (number if self.value is None else self.value,))
 
 
 class CommandHandle:

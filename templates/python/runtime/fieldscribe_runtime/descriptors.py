@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from .device import AsyncDevice, Device
-    from .forms import Form
+    from .forms import Decodes, Encodes, Form
     from .handles import (
         AsyncReadHandle,
         AsyncReadWriteHandle,
@@ -49,7 +49,7 @@ class _Attribute:
 class PointAttribute(_Attribute, Point):
     """A point as the attribute of a table of points."""
 
-    def __init__(self, form: Form[Any, Any], **facts: Unpack[FactArguments]) -> None:
+    def __init__(self, form: Any, **facts: Unpack[FactArguments]) -> None:
         self._form = form
         self.facts = Facts(**facts)
 
@@ -64,7 +64,7 @@ class PointAttribute(_Attribute, Point):
 class ReadOnly(PointAttribute, Decoding[R_co]):
     """A point that can only be read."""
 
-    def __init__(self, form: Form[R_co, Any], **facts: Unpack[FactArguments]) -> None:
+    def __init__(self, form: Decodes[R_co], **facts: Unpack[FactArguments]) -> None:
         super().__init__(form, **facts)
 
     @overload
@@ -81,7 +81,7 @@ class ReadOnly(PointAttribute, Decoding[R_co]):
 class WriteOnly(PointAttribute, Encoding[W_contra]):
     """A point that can only be written."""
 
-    def __init__(self, form: Form[Any, W_contra], **facts: Unpack[FactArguments]) -> None:
+    def __init__(self, form: Encodes[W_contra], **facts: Unpack[FactArguments]) -> None:
         super().__init__(form, **facts)
 
     @overload

@@ -51,7 +51,23 @@ S8, S16, S32, S64 = Type(8, True), Type(16, True), Type(32, True), Type(64, True
 F32, F64 = Type(32), Type(64)
 
 
-class Form(ABC, Generic[R_co, W_contra]):
+def whole(number: int) -> int:
+    """The number itself as a plain int; raises RangeError for anything that is no integer."""
+    try:
+        return operator.index(number)
+    except TypeError:
+        raise RangeError(f"{number!r} is no integer") from None
+
+
+class Decodes(Generic[R_co]):
+    """A form by what decoding gives alone, so that type checkers infer it from that alone."""
+
+
+class Encodes(Generic[W_contra]):
+    """A form by what encoding takes alone."""
+
+
+class Form(Decodes[R_co], Encodes[W_contra], ABC, Generic[R_co, W_contra]):
     """What raw numbers mean: R is what decoding gives, W what encoding takes."""
 
     wire: Type
@@ -75,7 +91,7 @@ class Form(ABC, Generic[R_co, W_contra]):
 
     def encode_count(self, count: int, allowed: Allowed, raws: Raws) -> int | None:
         """The raw number for an integer count of 10^-decimals units; None if it may not be written."""
-        return self.checked(operator.index(count), allowed, raws)
+        return self.checked(whole(count), allowed, raws)
 
     def checked(self, raw: int, allowed: Allowed, raws: Raws) -> int | None:
         """The same number; None if it may not be written."""
@@ -111,7 +127,7 @@ class Integer(Form[int, int]):
 
     def encode(self, value: int, allowed: Allowed, raws: Raws) -> int | None:
         """The value itself."""
-        return self.checked(operator.index(value), allowed, raws)
+        return self.checked(whole(value), allowed, raws)
 
 
 class Bit(Form[bool, bool]):
@@ -125,7 +141,7 @@ class Bit(Form[bool, bool]):
 
     def encode(self, value: bool, allowed: Allowed, raws: Raws) -> int | None:
         """1 for True."""
-        return self.checked(operator.index(value), allowed, raws)
+        return self.checked(whole(value), allowed, raws)
 
 
 class Named(Form[E | int, E | int]):
@@ -148,8 +164,10 @@ class Named(Form[E | int, E | int]):
             return raw
 
     def encode(self, value: E | int, allowed: Allowed, raws: Raws) -> int | None:
-        """The member's number."""
-        return self.checked(operator.index(value), allowed, raws)
+        """The member's number; a member of another enum raises UnknownValueError."""
+        if isinstance(value, enum.Enum) and not isinstance(value, self.names):
+            raise UnknownValueError(f"{value!r} is no {self.names.__name__}")
+        return self.checked(whole(value), allowed, raws)
 
     def checked(self, raw: int, allowed: Allowed, raws: Raws) -> int | None:
         """The same number if it is named (for a closed enum) and in range."""
@@ -187,7 +205,7 @@ class Flags(Form[F, F]):
 
     def encode(self, value: F, allowed: Allowed, raws: Raws) -> int | None:
         """The word as the type holds it."""
-        raw = operator.index(value)
+        raw = whole(value)
         if self.wire.signed and raw >> self.wire.bits == 0:
             raw = self.wire.number(raw, self.wire.bits)
         return self.checked(raw, allowed, raws)

@@ -5,7 +5,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
-from .errors import CodecError, WrongLengthError
+from .errors import CodecError, RangeError, WrongLengthError
+from .forms import whole
 from .rules import NO_RAWS, Limit, Raws, high_end, low_end
 
 if TYPE_CHECKING:
@@ -17,6 +18,14 @@ if TYPE_CHECKING:
 
 R_co = TypeVar("R_co", covariant=True)
 W_contra = TypeVar("W_contra", contravariant=True)
+
+
+def _shown(value: object) -> str:
+    """A value for messages."""
+    try:
+        return f"{value:.12g}" if isinstance(value, float) else f"{value!s}"
+    except ValueError:  # more digits than Python prints
+        return "a number of thousands of digits"
 
 
 class Point:
@@ -86,20 +95,26 @@ class Point:
         return self._form.name_of(raw)
 
     def from_words(self, words: Sequence[int]) -> int:
-        """The raw number in unsigned words (or bits) in ascending order of address; raises WrongLengthError."""
+        """The raw number in unsigned words (or bits) in ascending order of address.
+
+        Raises WrongLengthError, and RangeError for what is no word.
+        """
         addresses = self.facts.at.addresses
         if len(words) != len(addresses):
             raise self._named(WrongLengthError(f"takes {len(addresses)} words, not {len(words)}"))
+        for word in words:
+            self._within(word, 0, 0xFFFF)
         if self.facts.bits is not None:
             return self.extract(words[0])
         by_address = dict(zip(sorted(addresses), words, strict=True))
         pattern = 0
         for address in addresses:
-            pattern = pattern << 16 | by_address[address] & 0xFFFF
+            pattern = pattern << 16 | by_address[address]
         return self.wire.number(pattern, self.wire.bits)
 
     def to_words(self, raw: int) -> tuple[int, ...]:
-        """The unsigned words of a raw number in ascending order of address."""
+        """The unsigned words of a raw number in ascending order of address; raises RangeError."""
+        self._within(raw, *self.wire.limits(self.width))
         addresses = (self.facts.write_at or self.facts.at).addresses
         by_address = {address: raw >> 16 * part & 0xFFFF for part, address in enumerate(reversed(addresses))}
         return tuple(by_address[address] for address in sorted(addresses))
@@ -112,6 +127,13 @@ class Point:
         """The whole word with this bit group replaced."""
         mask = (1 << self.width) - 1
         return word & ~(mask << self._lowest_bit) | (raw & mask) << self._lowest_bit
+
+    def _within(self, number: int, low: int, high: int) -> None:
+        try:
+            if not low <= whole(number) <= high:
+                raise RangeError(f"{_shown(number)} is outside {low}..{high}")
+        except CodecError as error:
+            raise self._named(error) from None
 
     @property
     def _lowest_bit(self) -> int:
@@ -155,7 +177,7 @@ class Encoding(Point, Generic[W_contra]):
         try:
             raw = self._form.encode(value, self.allowed, raws)
             if raw is None:
-                raise self._refusal(f"{value:.12g}" if isinstance(value, float) else f"{value!s}", raws)
+                raise self._refusal(_shown(value), raws)
         except CodecError as error:
             raise self._named(error) from None
         return raw
@@ -173,8 +195,8 @@ class Encoding(Point, Generic[W_contra]):
     def check(self, raw: int, raws: Raws = NO_RAWS) -> None:
         """Raises RangeError or UnknownValueError (or ZeroFactorError) if this raw number may not be written."""
         try:
-            if self._form.checked(raw, self.allowed, raws) is None:
-                raise self._form.refused(f"raw {raw} is {self._form.choices() or self._raw_bounds(raws)}")
+            if self._form.checked(whole(raw), self.allowed, raws) is None:
+                raise self._form.refused(f"raw {_shown(raw)} is {self._form.choices() or self._raw_bounds(raws)}")
         except CodecError as error:
             raise self._named(error) from None
 

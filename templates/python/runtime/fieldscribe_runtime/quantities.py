@@ -4,12 +4,11 @@
 from __future__ import annotations
 
 import math
-import operator
 import struct
 from typing import TYPE_CHECKING, TypeVar
 
 from .errors import NotANumberError, NoValueError
-from .forms import Form
+from .forms import Form, whole
 from .rules import Case, Rule, chosen
 
 if TYPE_CHECKING:
@@ -42,7 +41,13 @@ class Scaled(Form[float, float]):
 
     def encode(self, value: float, allowed: Allowed, raws: Raws) -> int | None:
         """Rounded to nearest, halves away from zero, then checked."""
-        if math.isnan(value):
+        try:
+            missing = math.isnan(value)
+        except OverflowError:
+            return None
+        except ValueError:  # a signalling NaN
+            missing = True
+        if missing:
             raise NotANumberError("the value is NaN")
         raw = self._rule(raws).encode(value, raws)
         return None if raw is None else self.checked(raw, allowed, raws)
@@ -53,7 +58,7 @@ class Scaled(Form[float, float]):
 
     def encode_count(self, count: int, allowed: Allowed, raws: Raws) -> int | None:
         """As `encode`, by integers alone."""
-        raw = self._rule(raws).encode_count(operator.index(count), self.decimals, raws)
+        raw = self._rule(raws).encode_count(whole(count), self.decimals, raws)
         return self.checked(raw, allowed, raws)
 
     def shown(self, raw: int, raws: Raws) -> str:
@@ -89,9 +94,12 @@ class Floating(Form[float, float]):
     def _nearest(self, value: float) -> float:
         """The number of the type nearest to a value; infinity beyond the largest."""
         try:
+            math.isnan(value)  # says, unlike struct, what is wrong with an odd value
             number: float = struct.unpack(self._pack, struct.pack(self._pack, value))[0]
         except OverflowError:
             return math.inf if value > 0 else -math.inf
+        except ValueError:  # a signalling NaN
+            return math.nan
         return number
 
     def _fits(self, number: float) -> bool:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 from . import modbus
 from .descriptors import PointAttribute, ReadOnly, ReadWrite, WriteOnly
-from .errors import AccessError
+from .errors import AccessError, RequestError
 from .modbus import Profile, Request
 from .planner import Block, plan, read_function
 from .points import Decoding, Encoding, Point
@@ -25,6 +25,10 @@ Value = float | None
 """What reading can give: numbers (also bool, IntEnum and IntFlag), or None for "no value"."""
 
 _KEPT = frozenset({"never", "rarely"})
+_WRITES = {
+    "coil": (modbus.WRITE_COIL, modbus.WRITE_COILS),
+    "holding": (modbus.WRITE_REGISTER, modbus.WRITE_REGISTERS),
+}
 
 
 class PointTable:
@@ -33,6 +37,7 @@ class PointTable:
     PROFILE: ClassVar[Profile]
     BLOCKS: ClassVar[Mapping[str, tuple[Block, ...]]] = {}
     POINTS: ClassVar[Mapping[str, PointAttribute]] = {}
+    VARIANTS: ClassVar[Mapping[str, tuple[str, ...]]] = {}
 
     def __init_subclass__(cls) -> None:
         points = {name: point for name, point in vars(cls).items() if isinstance(point, PointAttribute)}
@@ -46,6 +51,11 @@ class Session(PointTable):
     def __init__(self, framing: str, unit: int, variants: Mapping[str, str | None]) -> None:
         if framing not in (modbus.RTU, modbus.TCP):
             raise ValueError(f"the framing is 'rtu' or 'tcp', not {framing!r}")
+        for axis, value in variants.items():
+            if axis not in self.VARIANTS:
+                raise ValueError(f"the device has no variants by {axis!r}")
+            if value is not None and value not in self.VARIANTS[axis]:
+                raise ValueError(f"{axis} is one of {', '.join(self.VARIANTS[axis])}, not {value!r}")
         self.unit = unit
         self.variants = variants
         self._framing = framing
@@ -138,9 +148,9 @@ class Session(PointTable):
 
     def put_steps(self, place: Place, values: tuple[int, ...]) -> Steps[None]:
         """Write words or bits at a place."""
-        single, block = modbus.WRITE_REGISTER, modbus.WRITE_REGISTERS
-        if place.space == "coil":
-            single, block = modbus.WRITE_COIL, modbus.WRITE_COILS
+        if place.space not in _WRITES:
+            raise RequestError("bad_space", f"the space {place.space!r} cannot be written, only coil and holding")
+        single, block = _WRITES[place.space]
         function = single if len(values) == 1 and single in self.PROFILE.functions else block
         if place.function in modbus.WRITES:
             function = place.function

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: 0BSD
 //! Replies out of frames.
 
-use super::function::{is_read, longest_count};
+use super::function::{is_read, longest_count, read_function, write_function};
 use super::{crc, Framing, ReplyError, Request};
-use crate::{Error, Point};
+use crate::{Error, Readable};
 
 #[derive(Clone, Copy, Debug)]
 enum Items<'a> {
@@ -15,6 +15,7 @@ enum Items<'a> {
 /// What a device answered: words, or bits as 0 and 1, from the address that was asked for.
 #[derive(Clone, Copy, Debug)]
 pub struct Reply<'a> {
+    function: u8,
     address: u16,
     count: u16,
     items: Items<'a>,
@@ -53,8 +54,13 @@ impl Reply<'_> {
     /// The raw number of a point that the reply brings.
     ///
     /// # Errors
-    /// [`Error::WrongLength`] if the reply does not bring all of the point.
-    pub fn raw<P: Point>(&self) -> Result<P::Raw, Error> {
+    /// [`Error::WrongSpace`] if the function is neither the one that reads the point nor the one that writes a single
+    /// item of its space, [`Error::WrongLength`] if the reply does not bring all of the point.
+    pub fn raw<P: Readable>(&self) -> Result<P::Raw, Error> {
+        let reads = P::READ_FUNCTION.unwrap_or(read_function(P::SPACE));
+        if self.function != reads && self.function != write_function(P::SPACE, 1) {
+            return Err(Error::WrongSpace);
+        }
         let offset = P::ADDRESS
             .checked_sub(self.address)
             .ok_or(Error::WrongLength)?;
@@ -173,6 +179,7 @@ impl Request<'_> {
 
     const fn reply<'b>(&self, items: Items<'b>, count: u16) -> Reply<'b> {
         Reply {
+            function: self.function,
             address: self.address,
             count,
             items,
