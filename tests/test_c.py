@@ -386,7 +386,8 @@ def test_an_echo_needs_no_room(sample: Path, tmp_path: Path) -> None:
 @pytest.mark.parametrize("compiler", COMPILERS)
 @pytest.mark.parametrize("flag", ["-ffast-math", "-Ofast", "-ffinite-math-only"])
 def test_inexact_arithmetic_is_refused(compiler: str, flag: str, sample: Path) -> None:
-    words: list[str | Path] = [tool(compiler), "-std=c99", "-fsyntax-only", flag, "-x", "c", sample / "c/sample_drive.h"]
+    header = sample / "c/sample_drive.h"
+    words: list[str | Path] = [tool(compiler), "-std=c99", "-fsyntax-only", flag, "-x", "c", header]
     refused = run(words)
     assert refused.returncode != 0
     assert "Compile without -ffast-math" in refused.stderr
