@@ -3,19 +3,23 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 from typing import TYPE_CHECKING
 
-from fieldscribe.model import Entry, Enum, Flag, Limit, ScaleCase, Special
+from fieldscribe.diagnostics import Report
+from fieldscribe.model import Digits, Entry, Enum, Fixed, Flag, Limit, ScaleCase, Special, Text
+from fieldscribe.pipeline import load_device
 from fieldscribe.render import render
 from fieldscribe.resources import templates_dir
 from fieldscribe.targets import c, vectors
-from models import HERTZ, allowed, linear, point, sample_device, scaled, titles, units, value_of
+from models import HERTZ, allowed, entry, linear, point, sample_device, scaled, titles, units, value_of
 
 if TYPE_CHECKING:
-    from pathlib import Path
+    from collections.abc import Mapping
 
     from fieldscribe.model import Device, Point
 
+KITCHENS = Path(__file__).parent / "devices"
 WARNINGS = (
     *("-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wsign-conversion", "-Wshadow", "-Wdouble-promotion"),
     *("-Wcast-qual", "-Wundef", "-Wfloat-equal", "-Werror"),
@@ -42,12 +46,29 @@ def driver(compiler: str, standard: str) -> str:
 
 def write_c(device: Device, out: Path) -> Path:
     """Generates headers, conformance program, runtime and vectors of a device; returns the folder."""
+    write_files(dict(vectors.outputs(device, render)), out)
+    return write_headers(device, out)
+
+
+def write_headers(device: Device, out: Path) -> Path:
+    """Generates the same without the vectors; returns the folder."""
     copies = {path: (templates_dir() / source).read_text("utf-8") for path, source in c.runtime(device)}
-    texts = {**dict(c.outputs(device, render)), **dict(vectors.outputs(device, render)), **copies}
+    return write_files({**dict(c.outputs(device, render)), **copies}, out)
+
+
+def write_files(texts: Mapping[str, str], out: Path) -> Path:
+    """Writes files by their paths in a folder; returns the folder."""
     for path, text in texts.items():
         (out / path).parent.mkdir(parents=True, exist_ok=True)
         (out / path).write_text(text, encoding="utf-8")
     return out
+
+
+def kitchen(name: str) -> Device:
+    """The device of that name that uses every mechanism of its family."""
+    device = load_device(KITCHENS / name / "device.yaml", Report())
+    assert device is not None
+    return device
 
 
 def conformance_source(folder: Path, device: str) -> Path:
@@ -110,9 +131,61 @@ def rare_points() -> tuple[Point, ...]:
         point("precise_too", 44, "f64", allowed=units("-1/10", "3/10")),
         point("free_float", 48, "f32", specials=(Special(0x7FC00000, 0x7FC00000, "none", titles("None"), True),)),
         point("flagged", 50, "u32", flags=flags),
+        *floating_factors(),
+        *words_of_parts(),
         point("input_word", 52, access="r", space="input"),
         point("input_bit", 53, "bit", access="r", space="discrete"),
     )  # fmt: skip
+
+
+def floating_factors() -> tuple[Point, ...]:
+    """Rules with the value of f32 points on either side, with other factors, offsets and limits."""
+    gain, over_gain, other = value_of("gain"), value_of("gain", -1), value_of("gain_too", -1)
+    times_gain = ScaleCase(None, None, linear("5/3", 0, gain))
+    by_exponent = (
+        ScaleCase("exponent", 0, linear(16384, 0, over_gain)),
+        ScaleCase("exponent", 1, linear(100)),
+        ScaleCase("exponent", 2, linear(3, "-7/2", value_of("divisor"), over_gain)),
+        ScaleCase("exponent", 3, linear(-4, 9, value_of("exponent", ten_to=True), gain)),
+    )
+    top = Limit(linear(2500, 0, over_gain), (), 0, 60000)
+    bottom = Limit(linear(-1000, "1/2", over_gain), (("divisor", (3,)),), -20000, 100)
+    return (
+        point("gain", 60, "f32", allowed=units("-1000", "1000")),
+        point("gain_too", 62, "f32"),
+        point("times_gain", 64, "s16", scale=(times_gain,), decimals=3, allowed=allowed((-20000, 20000))),
+        point("over_gain", 65, "s16", scale=scaled(16384, 0, over_gain), decimals=4),
+        point("over_gain_wide", 66, "u32", scale=scaled(7, 0, over_gain), decimals=6),
+        point("gains", 68, "s32", scale=scaled("11/7", 0, gain, other), decimals=1),
+        point("gain_and_integers", 70, scale=scaled(1, 3, gain, value_of("divisor", -1)), decimals=2),
+        point("by_exponent", 71, "s16", scale=by_exponent, decimals=2, allowed=allowed((-300, 300))),
+        point("gain_shifted", 72, "s16", scale=scaled("4/3", "5/2", over_gain), decimals=2),
+        point("gain_lowered", 73, "s16", scale=scaled(-8, "-3/2", gain), decimals=2),
+        point("limited_by_gain", 74, allowed=allowed((0, top))),
+        point("limited_over_gain", 75, "s16", allowed=allowed((bottom, 20000)), scale=scaled(10), decimals=1),
+        point("checked_gain", 76, "u32", scale=scaled(1, 0, value_of("big"), value_of("big_too"), gain)),
+    )
+
+
+def words_of_parts() -> tuple[Point, ...]:
+    """Texts, digits, and words with constant bits."""
+    digit = Enum("digit", titles("Digit"), (entry(0, "off"), entry(1, "a"), entry(2, "b"), entry(7, "c")), True)
+    loud = Enum("loud", titles("Loud"), tuple(entry(number, f"n{number}") for number in range(10)), True)
+    latin = {"type": "text", "access": "rw", "references": {}}
+    return (
+        replace(point("name", 100, order=range(107, 99, -1)), text=Text(16, "ascii"), **latin),
+        replace(point("note", 110, order=(110, 112, 111)), text=Text(6, "latin-1"), **latin),
+        replace(point("tag", 114, order=(114, 115)), text=Text(4, "ascii"), **{**latin, "access": "r"}),
+        point("delays", 120, digits=Digits(4, digit)),
+        point("delays_too", 121, digits=Digits(5, loud)),
+        point("pairs", 122, digits=Digits(2, digit), access="w"),
+        point("single", 123, digits=Digits(1, loud)),
+        point("control", 124, flags=(Flag(0, 1, "on", titles("On"), 1, ()),), fixed=Fixed(0x0C00, 0x0400)),
+        point("signed_fixed", 125, "s16", fixed=Fixed(0x4001, 0x0001), allowed=allowed((-32767, -5))),
+        point("several_fixed", 126, fixed=Fixed(0x000F, 0x0003), allowed=allowed((3, 19), (35, 67))),
+        point("wide_fixed", 128, "s32", fixed=Fixed(0x40000000, 0x40000000)),
+        point("group_fixed", 130, "u8", bits=(7, 4), fixed=Fixed(0xC00F, 0x8005)),
+    )
 
 
 def rare_device() -> Device:

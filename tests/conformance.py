@@ -26,8 +26,10 @@ class Runner:
         sys.path.insert(0, str(folder))
         package = importlib.import_module(device)
         runtime = importlib.import_module("fieldscribe_runtime")
-        self.modbus = importlib.import_module("fieldscribe_runtime.modbus")
-        self.device = next(one for one in vars(package).values() if _is_device(one, runtime.Device))
+        self.modbus, self.can, self.uss = (
+            importlib.import_module(f"fieldscribe_runtime.{family}") for family in ("modbus", "can", "uss")
+        )
+        self.device = next(one for one in vars(package).values() if _is_device(one, runtime.AnyDevice))
         self.error: type[Exception] = runtime.FieldscribeError
 
     def passes(self, vector: Vector) -> bool:
@@ -104,11 +106,44 @@ class Runner:
         at = point.facts.at
         low, high = point.raw_limits
         found = {"kind": "address", "point": point.facts.item, "code": point.facts.code}
-        found |= {"space": at.space, "address": at.address, "words": len(at.addresses)}
+        found |= {"space": at.space, "address": at.address, "words": point.size}
         found |= {"raw_min": low, "raw_max": high, "decimals": point.decimals}
         references = {key: number for key, number in vector.items() if key not in found}
         same = all(vector[key] == value for key, value in found.items() if key in vector)
         return same and references == point.facts.references and (point.decimals == 0 or "decimals" in vector)
+
+    def _place(self, vector: Vector) -> bool:
+        at = self._point(vector).facts.at
+        return (list(at.addresses), at.index, at.telegram) == (
+            vector["addresses"],
+            vector["index"],
+            vector["telegram"],
+        )
+
+    def _fixed(self, vector: Vector) -> bool:
+        return bool(self._point(vector).facts.fixed == (vector["mask"], vector["bits"]))
+
+    def _text_decode(self, vector: Vector) -> bool:
+        point = self._point(vector)
+        by_address = dict(zip(point.facts.at.addresses, vector["words"], strict=True))
+        raw = point.from_words([by_address[address] for address in sorted(by_address)])
+        return bool(point.decode(raw).encode("latin-1").hex() == vector["text"])
+
+    def _text_encode(self, vector: Vector) -> bool:
+        point = self._point(vector)
+        status, raw = self._outcome(point.encode, bytes.fromhex(vector["text"]).decode("latin-1"))
+        if status != "ok":
+            return bool(status == vector["status"] and vector["words"] == [])
+        at = point.facts.write_at or point.facts.at
+        by_address = dict(zip(sorted(at.addresses), point.to_words(raw), strict=True))
+        return status == vector["status"] and [by_address[address] for address in at.addresses] == vector["words"]
+
+    def _digits(self, vector: Vector) -> bool:
+        return bool(list(self._point(vector).decode(vector["raw"])) == vector["digits"])
+
+    def _digits_encode(self, vector: Vector) -> bool:
+        status, raw = self._outcome(self._point(vector).encode, tuple(vector["digits"]))
+        return bool(status == vector["status"] and (status != "ok" or raw == vector["raw"]))
 
     def _block(self, vector: Vector) -> bool:
         block = self.device.BLOCKS[vector["group"]][vector["index"]]
@@ -138,6 +173,62 @@ class Runner:
 
     _printed_build = _build
     _printed_reply = _reply
+
+    def _can_build(self, vector: Vector) -> bool:
+        profile = self.device.PROFILE
+        arguments = profile.message(vector["message"]), profile, vector["unit"], vector["address"], vector["raw"]
+        status, frame = self._outcome(self.can.build, *arguments)
+        sent = (frame.id, frame.data.hex()) if status == "ok" else ()
+        return bool(status == vector["status"] and (not sent or sent == (vector["id"], vector["bytes"])))
+
+    def _can_frame(self, number: int, data: str) -> Any:
+        return self.can.Frame(number, bytes.fromhex(data))
+
+    def _can_parse(self, vector: Vector) -> bool:
+        frame = self._can_frame(vector["id"], vector["bytes"])
+        message = self.device.PROFILE.message(vector["message"])
+        status, found = self._outcome(self.can.parse, message, vector["unit"], frame)
+        return bool(status == vector["status"] and (status != "ok" or found == (vector["address"], vector["raw"])))
+
+    def _can_telegram(self, vector: Vector) -> bool:
+        receiver = self.can.Receiver(self.device.PROFILE, vector["telegram"], vector["unit"])
+        taken = [int(receiver.take(self._can_frame(*frame))) for frame in vector["frames"]]
+        point = self._point(vector)
+        addresses = point.facts.at.addresses
+        status, words = self._outcome(receiver.words, addresses)
+        if status != vector["status"] or taken != vector["taken"] or point.facts.at.telegram != vector["telegram"]:
+            return False
+        by_address = dict(zip(addresses, words, strict=True)) if status == "ok" else {}
+        return status != "ok" or point.from_words([by_address[one] for one in sorted(by_address)]) == vector["raw"]
+
+    def _uss_link(self, vector: Vector) -> Any:
+        return self.uss.Link(vector["pkw"], vector["pzd"], vector.get("single_first", False))
+
+    def _uss_request(self, vector: Vector, **rest: Any) -> Any:
+        return self.uss.Request(vector["unit"], vector["task"], vector["parameter"], vector["index"], **rest)
+
+    def _uss_build(self, vector: Vector) -> bool:
+        rest = {"width": vector["width"], "value": vector["value"], "words": tuple(vector["words"])}
+        arguments = self._uss_request(vector, **rest), self.device.PROFILE, self._uss_link(vector)
+        status, data = self._outcome(self.uss.build, *arguments)
+        return status == vector["status"] and (status != "ok" or data.hex() == vector["bytes"])
+
+    def _uss_broadcast(self, vector: Vector) -> bool:
+        arguments = tuple(vector["mask"]), tuple(vector["words"]), self.device.PROFILE, self._uss_link(vector)
+        status, data = self._outcome(self.uss.broadcast, *arguments)
+        return status == vector["status"] and (status != "ok" or data.hex() == vector["bytes"])
+
+    def _uss_reply(self, vector: Vector) -> bool:
+        arguments = bytes.fromhex(vector["bytes"]), self.device.PROFILE, self._uss_link(vector)
+        status, found = self._outcome(self.uss.parse, self._uss_request(vector), *arguments)
+        if status == "refused":
+            return bool(vector["status"] == status and found.code == vector["error"])
+        good = (found.response, found.width, found.value, list(found.words)) if status == "ok" else ()
+        expected = tuple(vector[key] for key in ("response", "width", "value", "words")) if good else ()
+        return bool(status == vector["status"] and good == expected)
+
+    _uss_printed_build = _uss_build
+    _uss_printed_reply = _uss_reply
 
 
 def _is_device(candidate: object, base: type) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import subprocess
 import sys
 from typing import TYPE_CHECKING, Any
 
@@ -11,7 +12,7 @@ from fieldscribe.resources import templates_dir
 from fieldscribe.targets import python as target
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
     from pathlib import Path
 
     from fieldscribe.model import Device
@@ -43,6 +44,35 @@ def imported(folder: Path, package: str) -> Iterator[Any]:
 
 def _is_generated(module: str, package: str) -> bool:
     return module.partition(".")[0] in (package, "fieldscribe_runtime")
+
+
+def error(function: Callable[..., Any], *arguments: Any, **options: Any) -> Any:
+    """The error that a call raises."""
+    try:
+        result = function(*arguments, **options)
+    except Exception as raised:
+        return raised
+    raise AssertionError(f"no error, but {result!r}")
+
+
+def typed_findings(program: str, folder: Path, package: str, work: Path) -> str:
+    """What mypy finds, strictly, in a package and a program that uses it, but for the lines that end in `# E: code`.
+
+    Empty if it finds exactly those.
+    """
+    (work / "program.py").write_text(program, encoding="utf-8")
+    options = ("--strict", "--no-error-summary", "--config-file", "", "--cache-dir", "/dev/null")
+    command = [sys.executable, "-m", "mypy", *options, "program.py", str(folder / package)]
+    environment = {"MYPYPATH": str(folder), "PATH": ""}
+    done = subprocess.run(command, cwd=work, env=environment, capture_output=True, text=True, check=False)
+    lines = enumerate(program.split("\n"), 1)
+    expected = {f"{number} {line.partition('# E: ')[2]}" for number, line in lines if "# E: " in line}
+    found = [line for line in done.stdout.splitlines() if ": error: " in line]
+    seen = {
+        f"{line.split(':')[1]} {line.rpartition('[')[2].rstrip(']')}" for line in found if line.startswith("program.py")
+    }
+    fine = seen == expected and len(found) == len(expected) and not done.stderr
+    return "" if fine else f"{done.stdout}{done.stderr}expected: {sorted(expected)}"
 
 
 class Slave:

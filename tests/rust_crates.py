@@ -34,10 +34,16 @@ def write_crate(device: Device, out: Path) -> Path:
     return out / "rust" / device.id
 
 
+def enums_of(points: tuple[Point, ...]) -> tuple[Enum, ...]:
+    """All enums that points use, each once."""
+    used = [enum for one in points for enum in (one.enum, one.digits and one.digits.enum) if enum]
+    return tuple({enum.name: enum for enum in used}.values())
+
+
 def rare_device() -> Device:
     """Types, scales, limits and codes that few devices have, with texts that try to leave their comments."""
     points = tuple(replace(one, title={"en": HOSTILE}, note={"en": HOSTILE}, code=HOSTILE) for one in rare_points())
-    enums = tuple({one.enum.name: one.enum for one in points if one.enum is not None}.values())
+    enums = enums_of(points)
     return replace(
         sample_device(points),
         id="rare",
@@ -108,5 +114,5 @@ def odd_points() -> tuple[Point, ...]:
 def odd_device() -> Device:
     """A device of odd points."""
     points = odd_points()
-    enums = tuple({one.enum.name: one.enum for one in points if one.enum is not None}.values())
+    enums = enums_of(points)
     return replace(sample_device(points), id="odd", enums=enums, blocks={}, frames=(), commands=(), errata=())

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import pytest
-from c_device import SANITIZERS, STANDARDS, WARNINGS, conformance_source, driver, rare_device, write_c
+from c_device import SANITIZERS, STANDARDS, WARNINGS, conformance_source, driver, kitchen, rare_device, write_c
 from fieldscribe.targets import c
 from models import FREQUENCY_SOURCE, kitchen_sink, point, sample_device, trip_device
 from toolchains import compiled, run, succeed, tool
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 GENERATED = Path(__file__).resolve().parents[1] / "generated"
 SHIPPED = sorted(path.stem for path in (GENERATED / "vectors").glob("*.json"))
 FLOATS: dict[str, tuple[str, ...]] = {"float": (), "no_float": ("-DFIELDSCRIBE_NO_FLOAT",)}
-MADE = ("sample_drive", "rare", "kitchen_sink")
+MADE = ("sample_drive", "rare", "kitchen_sink", "kitchen_can", "kitchen_uss")
 CORE = ("c99", "c++17")
 COMPILERS = ("gcc", "clang")
 
@@ -70,9 +70,19 @@ def sink(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="session")
-def folders(sample: Path, rare: Path, sink: Path) -> dict[str, Path]:
+def can(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return write_c(kitchen("kitchen_can"), tmp_path_factory.mktemp("can"))
+
+
+@pytest.fixture(scope="session")
+def uss(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return write_c(kitchen("kitchen_uss"), tmp_path_factory.mktemp("uss"))
+
+
+@pytest.fixture(scope="session")
+def folders(sample: Path, rare: Path, sink: Path, can: Path, uss: Path) -> dict[str, Path]:
     """Where the generated files of a device are: the committed ones, or those of this run."""
-    made = {"sample_drive": sample, "rare": rare, "kitchen_sink": sink}
+    made = {"sample_drive": sample, "rare": rare, "kitchen_sink": sink, "kitchen_can": can, "kitchen_uss": uss}
     return {**dict.fromkeys(SHIPPED, GENERATED), **made}
 
 
@@ -116,7 +126,15 @@ def test_other_standards(device: str, build: Build, folders: dict[str, Path], tm
     conforms(folders[device], device, build, tmp_path)
 
 
-@pytest.mark.parametrize("device", [sample_device(), rare_device(), kitchen_sink()], ids=lambda device: str(device.id))
+ALL = [sample_device(), rare_device(), kitchen_sink(), kitchen("kitchen_can"), kitchen("kitchen_uss")]
+
+
+def frames_header(folder: Path, device: str) -> Path:
+    """The header of a device's frames, whatever its family."""
+    return next((folder / "c").glob(f"{device}_*.h"))
+
+
+@pytest.mark.parametrize("device", ALL, ids=lambda device: str(device.id))
 def test_every_identifier_is_one_thing(device: Device) -> None:
     assert list(c.clashes(device)) == []
 
@@ -158,15 +176,16 @@ def test_headers_have_no_clang_warning_at_all(
     left_out = "padded declaration-after-statement unused-function c++98-compat c++98-compat-pedantic old-style-cast"
     flags = [*STANDARDS[language], "-Weverything", *(f"-Wno-{one}" for one in left_out.split()), *build, "-Werror"]
     source = tmp_path / "headers.c"
-    source.write_text("".join(f'#include "{device}_modbus.h"\n' for device in MADE), encoding="utf-8")
+    source.write_text("".join(f'#include "{frames_header(folders[device], device).name}"\n' for device in MADE), encoding="utf-8")
     places = [f"-I{folders[device]}/c" for device in MADE]
     succeed([tool("clang"), *flags, "-fsyntax-only", "-Wno-zero-as-null-pointer-constant", *places, source])
 
 
-def test_conformance_catches_each_kind(sample: Path, tmp_path: Path) -> None:
-    text, spoiled = spoil((sample / "vectors" / "sample_drive.json").read_text("utf-8"))
+@pytest.mark.parametrize("device", ["sample_drive", "kitchen_can", "kitchen_uss"])
+def test_conformance_catches_each_kind(device: str, folders: dict[str, Path], tmp_path: Path) -> None:
+    text, spoiled = spoil((folders[device] / "vectors" / f"{device}.json").read_text("utf-8"))
     (tmp_path / "vectors.json").write_text(text, encoding="utf-8")
-    program = compiled("gcc", ["-std=c99"], conformance_source(sample, "sample_drive"), tmp_path / "conformance")
+    program = compiled("gcc", ["-std=c99"], conformance_source(folders[device], device), tmp_path / "conformance")
     done = run([program, tmp_path / "vectors.json"])
     assert done.returncode == 1
     failed = {row[0]: int(row[3]) for row in map(str.split, done.stdout.splitlines())}
@@ -177,7 +196,10 @@ def spoil(text: str) -> tuple[str, dict[str, int]]:
     """The vectors with the result of every one changed, and how many there are of each kind."""
     results = {"decode": "float", "decode_count": "count", "encode": "raw", "encode_count": "raw", "name": "name"}
     results |= {"special": "low", "flag": "number", "bits": "result", "words": "words", "address": "address"}
-    results |= {"block": "count", "flag_name": "name"}
+    results |= {"block": "count", "flag_name": "name", "place": "addresses", "fixed": "bits", "text_decode": "text"}
+    results |= {"text_encode": "words", "digits": "digits", "digits_encode": "raw", "can_build": "bytes"}
+    results |= {"can_parse": "raw", "can_telegram": "raw", "uss_build": "bytes", "uss_broadcast": "bytes"}
+    results |= {"uss_reply": "words"}
     lines: list[str] = []
     counts: dict[str, int] = {}
     for line in text.splitlines():
@@ -199,6 +221,8 @@ def changed(vector: dict[str, Any], key: str) -> dict[str, Any]:
         return {**vector, key: old + 1}
     if isinstance(old, list):
         return {**vector, key: [*old, 0]}
+    if key in ("bytes", "text"):
+        return {**vector, key: f"{old}00"}
     if key == "float":
         return {**vector, key: f"{int(str(old), 16) ^ 1 << 62:016x}"}
     return {**vector, key: "other" if old is None else None}
@@ -216,7 +240,7 @@ def test_vectors_of_another_description_are_refused(sample: Path, tmp_path: Path
 def test_no_float_is_left(folders: dict[str, Path]) -> None:
     for device in MADE:
         command = [tool("gcc"), "-E", "-P", "-std=c99", "-ffreestanding", "-DFIELDSCRIBE_NO_FLOAT"]
-        text = succeed([*command, "-x", "c", folders[device] / "c" / f"{device}_modbus.h"])
+        text = succeed([*command, "-x", "c", frames_header(folders[device], device)])
         own = text[text.index("typedef enum") :]
         assert not re.search(r"\b(double|float)\b|[0-9]\.[0-9]", own)
 

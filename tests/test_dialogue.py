@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
-from fieldscribe.dialogue import Heard, listener
+from fieldscribe.dialogue import Heard
 from fieldscribe.dialogue.refusals import RefusedError
 from fieldscribe.families.modbus import crc16
+from fieldscribe.families.modbus.listener import ModbusListener
 from fieldscribe.families.modbus.words import raw_of, words_of, write_request
 from hypothesis import given
 from hypothesis import strategies as st
@@ -24,7 +25,7 @@ def rtu(text: str) -> bytes:
 
 def hear(*frames: bytes, request: bytes | None = None, **settings: int) -> Heard:
     """The last of the frames, heard after the others."""
-    listening = listener(DEVICE, settings)
+    listening = ModbusListener(DEVICE, settings)
     if request is not None:
         listening.expect_reply_to(request)
     return [listening.hear(data) for data in frames][-1]
@@ -183,7 +184,7 @@ def test_tcp_is_known_by_its_header() -> None:
     assert (heard.framing, heard.unit, heard.kind) == ("tcp", 5, "request")
     assert heard.checks == "ok (transaction 7)"
     assert heard.notes == ("the manual knows only RTU frames",)
-    wrong = listener(DEVICE, {}, "tcp").hear(bytes.fromhex("000700000009050310280001"))
+    wrong = ModbusListener(DEVICE, {}, "tcp").hear(bytes.fromhex("000700000009050310280001"))
     assert wrong.faults == ("the length in the header is wrong",)
     assert said(wrong) == said(heard)
 
@@ -197,7 +198,7 @@ def test_pieces_are_no_frames(text: str) -> None:
 
 @given(st.lists(st.binary(max_size=300), min_size=1, max_size=4), st.sampled_from([None, "rtu", "tcp"]), st.booleans())
 def test_any_bytes_are_safe(frames: list[bytes], framing: str | None, asked: bool) -> None:
-    listening = listener(DEVICE, {}, framing)
+    listening = ModbusListener(DEVICE, {}, framing)
     if asked:
         listening.expect_reply_to(frames[0])
     for data in frames:

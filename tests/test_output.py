@@ -6,7 +6,8 @@ import json
 from typing import TYPE_CHECKING
 
 import pytest
-from fieldscribe.output import UnsafePathError, apply, compare, read_manifest
+from fieldscribe.output import Changes, UnsafePathError, apply, compare, read_manifest, settle_manifest
+from fieldscribe.output.two_processes import both, halved
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -18,8 +19,16 @@ def written(out: Path) -> dict[str, bytes]:
     return {path.relative_to(out).as_posix(): path.read_bytes() for path in out.rglob("*") if path.is_file()}
 
 
+def changed(out: Path, device: str, files: dict[str, dict[str, bytes]]) -> Changes:
+    """What all targets of a device would change, the manifest last."""
+    found = [compare(out, device, target, made) for target, made in files.items()]
+    found.append(settle_manifest(out, device, {target: sorted(made) for target, made in files.items()}))
+    write = {path: data for one in found for path, data in one.write.items()}
+    return Changes(write, [path for one in found for path in one.remove], [])
+
+
 def generate(out: Path, device: str, files: dict[str, dict[str, bytes]]) -> None:
-    apply(out, compare(out, device, files))
+    apply(out, changed(out, device, files))
 
 
 def test_writes_files_and_a_manifest(tmp_path: Path) -> None:
@@ -32,7 +41,7 @@ def test_writes_files_and_a_manifest(tmp_path: Path) -> None:
 def test_an_unchanged_file_is_not_touched(tmp_path: Path) -> None:
     generate(tmp_path, "drive", FILES)
     before = (tmp_path / "c/drive.h").stat().st_mtime_ns
-    changes = compare(tmp_path, "drive", FILES)
+    changes = changed(tmp_path, "drive", FILES)
     assert changes.stale == []
     apply(tmp_path, changes)
     assert (tmp_path / "c/drive.h").stat().st_mtime_ns == before
@@ -43,14 +52,14 @@ def test_an_edited_or_deleted_output_is_stale(tmp_path: Path, spoil: str) -> Non
     generate(tmp_path, "drive", FILES)
     place = tmp_path / "c/drive.h"
     place.unlink() if spoil == "delete" else place.write_bytes(b"two\n")
-    assert compare(tmp_path, "drive", FILES).stale == ["c/drive.h"]
+    assert changed(tmp_path, "drive", FILES).stale == ["c/drive.h"]
 
 
 def test_removes_only_what_the_manifest_says_of_that_device_and_target(tmp_path: Path) -> None:
     generate(tmp_path, "drive", FILES)
     (tmp_path / "c/mine.h").write_text("by hand")
     smaller = {"c": {"c/drive2.h": b"renamed\n"}}
-    assert compare(tmp_path, "drive", smaller).remove == ["c/drive.h", "c/runtime.h"]
+    assert compare(tmp_path, "drive", "c", smaller["c"]).remove == ["c/drive.h", "c/runtime.h"]
     generate(tmp_path, "drive", smaller)
     assert {"c/mine.h", "c/drive2.h", "docs/drive.md"} <= written(tmp_path).keys()
     assert "c/drive.h" not in written(tmp_path)
@@ -67,7 +76,7 @@ def test_keeps_what_another_device_shares(tmp_path: Path) -> None:
 @pytest.mark.parametrize("path", ["../escape.h", "/tmp/escape.h", "c/../../escape.h"])
 def test_nothing_is_written_outside(tmp_path: Path, path: str) -> None:
     with pytest.raises(UnsafePathError):
-        compare(tmp_path / "out", "drive", {"c": {path: b"x"}})
+        compare(tmp_path / "out", "drive", "c", {path: b"x"})
 
 
 def test_a_link_out_of_the_folder_is_not_followed(tmp_path: Path) -> None:
@@ -77,7 +86,7 @@ def test_a_link_out_of_the_folder_is_not_followed(tmp_path: Path) -> None:
     out.mkdir()
     (out / "c").symlink_to(outside)
     with pytest.raises(UnsafePathError):
-        compare(out, "drive", FILES)
+        changed(out, "drive", FILES)
     assert list(outside.iterdir()) == []
 
 
@@ -97,3 +106,19 @@ def test_a_broken_manifest_is_no_manifest(tmp_path: Path, text: str) -> None:
     (tmp_path / "manifest/drive.json").write_text(text)
     generate(tmp_path, "drive", FILES)
     assert (tmp_path / "c/drive.h").is_file()
+
+
+def test_work_is_parted_by_weight_and_keeps_its_order() -> None:
+    assert halved([3, 9, 1, 4, 2], float) == ([9, 1], [3, 4, 2])
+    assert halved([], float) == ([], [])
+
+
+def test_both_halves_are_done_and_their_failures_told() -> None:
+    assert both(lambda: "here", lambda: "there") == ("here", "there")
+
+    def fail() -> str:
+        raise UnsafePathError("no")
+
+    for here, there in ((fail, str), (str, fail)):
+        with pytest.raises(UnsafePathError, match="no"):
+            both(here, there)

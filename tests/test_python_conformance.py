@@ -16,6 +16,7 @@ from fieldscribe.render import render
 from fieldscribe.resources import descriptions_dir
 from fieldscribe.targets import vectors
 from models import kitchen_sink, sample_device
+from python_families import can_device, uss_device
 from python_package import write_package
 from rust_crates import odd_device
 
@@ -54,7 +55,11 @@ def test_all_vectors_pass(folder: Path) -> None:
     every_vector_passes(sample_device(), folder)
 
 
-@pytest.mark.parametrize("device", [rare_device(), odd_device(), kitchen_sink()], ids=lambda device: str(device.id))
+@pytest.mark.parametrize(
+    "device",
+    [rare_device(), odd_device(), kitchen_sink(), can_device(), uss_device()],
+    ids=lambda device: str(device.id),
+)
 def test_other_models_pass(device: Device, tmp_path: Path) -> None:
     every_vector_passes(device, write_package(device, tmp_path))
 
@@ -116,3 +121,120 @@ def test_every_wrong_vector_fails(folder: Path) -> None:
     code, output = conformance(folder, json.dumps({"vectors": WRONG}))
     assert code == 1
     assert output.splitlines()[-1] == f"total 0 passed, {len(WRONG)} failed"
+
+
+WRONG_CAN = (
+    {"kind": "place", "point": "fault_text", "addresses": [736, 737, 738, 739], "index": None, "telegram": None},
+    {"kind": "place", "point": "frequency", "addresses": [0], "index": None, "telegram": "other"},
+    {"kind": "fixed", "point": "slow_ramp", "mask": 0xF1, "bits": 0},
+    {"kind": "text_decode", "point": "fault_text", "words": [0x4120, 0x2020, 0x2020, 0x2020], "text": "4120"},
+    {
+        "kind": "text_encode",
+        "point": "fault_text",
+        "text": "41",
+        "status": "ok",
+        "words": [0x2020, 0x2020, 0x2020, 0x4120],
+    },
+    {
+        "kind": "text_encode",
+        "point": "fault_text",
+        "text": "e4",
+        "status": "ok",
+        "words": [0xE420, 0x2020, 0x2020, 0x2020],
+    },
+    {"kind": "digits", "point": "delays", "raw": 12345, "digits": [1, 2, 3, 4]},
+    {"kind": "digits_encode", "point": "delays", "digits": [1, 1, 1, 3], "status": "ok", "raw": 1113},
+    {"kind": "digits_encode", "point": "delays", "digits": [1, 1, 1, 2], "status": "ok", "raw": 2111},
+    {
+        "kind": "can_build",
+        "message": "read_request",
+        "unit": 31,
+        "address": 1,
+        "raw": 0,
+        "status": "ok",
+        "id": 0x33F,
+        "bytes": "",
+    },
+    {
+        "kind": "can_build",
+        "message": "read_request",
+        "unit": 5,
+        "address": 508,
+        "raw": 0,
+        "status": "ok",
+        "id": 0x33E,
+        "bytes": "ff0501fc0000fef9",
+    },
+    {
+        "kind": "can_parse",
+        "message": "read_answer",
+        "unit": 5,
+        "id": 0x325,
+        "bytes": "ff0501fc0007fef9",
+        "status": "ok",
+        "address": 508,
+        "raw": 7,
+    },
+    {
+        "kind": "can_parse",
+        "message": "read_answer",
+        "unit": 5,
+        "id": 0x325,
+        "bytes": "ff0501fc0007fefe",
+        "status": "ok",
+        "address": 508,
+        "raw": 8,
+    },
+    {
+        "kind": "can_telegram",
+        "telegram": "measurements",
+        "unit": 0,
+        "frames": [[0x320, "dd00000100020003"]],
+        "taken": [0],
+        "point": "frequency",
+        "status": "ok",
+        "raw": 1,
+    },
+    {
+        "kind": "can_telegram",
+        "telegram": "measurements",
+        "unit": 0,
+        "frames": [[0x320, "dd01000000000001"], [0x320, "dd02000000000000"]],
+        "taken": [1, 1],
+        "point": "hours",
+        "status": "ok",
+        "raw": 65536,
+    },
+)
+_LINK = {"pkw": 4, "pzd": 0, "single_first": False, "unit": 3, "task": 1, "parameter": 700, "index": 0}
+_SENT = {**_LINK, "width": 0, "value": 0, "words": []}
+_FOUND = {**_LINK, "response": 1, "width": 1, "error": 0, "words": []}
+WRONG_USS = (
+    {"kind": "place", "point": "baud_rate", "addresses": [2010], "index": 0, "telegram": None},
+    {"kind": "uss_build", **_SENT, "status": "ok", "bytes": "020a0312bc0000000000000a5"},
+    {"kind": "uss_build", **_SENT, "status": "bad_task", "bytes": ""},
+    {
+        "kind": "uss_broadcast",
+        "pkw": 4,
+        "pzd": 0,
+        "mask": [6, 0, 0, 0],
+        "words": [],
+        "status": "ok",
+        "bytes": "020a2000060000000000002f",
+    },
+    {"kind": "uss_reply", **_FOUND, "bytes": "020a0312bc000000000005a0", "status": "ok", "value": 6},
+    {"kind": "uss_reply", **_FOUND, "bytes": "020a0372bc000000110000d4", "status": "refused", "value": 0, "error": 16},
+    {"kind": "uss_printed_build", "frame": "one", **_SENT, "status": "ok", "bytes": ""},
+    {"kind": "uss_printed_reply", "frame": "one", **_FOUND, "bytes": "02", "status": "wrong_start", "value": 0},
+)
+
+
+@pytest.mark.parametrize(
+    ("device", "wrong"), [(can_device(), WRONG_CAN), (uss_device(), WRONG_USS)], ids=["can", "uss"]
+)
+def test_every_wrong_vector_of_a_family_fails(
+    device: Device, wrong: tuple[dict[str, object], ...], tmp_path: Path
+) -> None:
+    code, output = conformance(write_package(device, tmp_path), json.dumps({"vectors": wrong}), device.id)
+    assert code == 1
+    assert output.splitlines()[-1] == f"total 0 passed, {len(wrong)} failed"

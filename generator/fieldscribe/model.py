@@ -28,7 +28,9 @@ TYPES: Mapping[str, TypeInfo] = {
     **{f"s{bits}": TypeInfo(bits, True, False) for bits in (8, 16, 32, 64)},
     "f32": TypeInfo(32, False, True),
     "f64": TypeInfo(64, False, True),
+    "text": TypeInfo(16, False, False),
 }
+"""All wire types; of a text the width is that of one word, and `Point.text` says how many characters it has."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -158,6 +160,30 @@ class Special:
 
 
 @dataclass(frozen=True, slots=True)
+class Text:
+    """Characters in words, two a word, the first in the high byte of the first word; padded with spaces."""
+
+    characters: int
+    encoding: str
+
+
+@dataclass(frozen=True, slots=True)
+class Digits:
+    """A word whose decimal digits each mean something; `enum` names the numbers that a digit may be."""
+
+    count: int
+    enum: Enum
+
+
+@dataclass(frozen=True, slots=True)
+class Fixed:
+    """Bits of a word that are written as a constant, always: those in `mask` get their value from `bits`."""
+
+    mask: int
+    bits: int
+
+
+@dataclass(frozen=True, slots=True)
 class Flag:
     """A bit, or several, inside a word, named in the word's description. `low` is the lowest bit; bits count from 0.
 
@@ -170,6 +196,10 @@ class Flag:
     title: Titles
     active: int
     values: tuple[Entry, ...]
+
+
+UNSETTLED_TYPE = "the manual does not settle its type"
+"""The reason why a point is not generated whose `type` means nothing."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -217,6 +247,12 @@ class Point:
     errata: tuple[str, ...]
     generated: bool
     reason: str | None
+    telegram: str | None = None
+    index: int | None = None
+    text: Text | None = None
+    digits: Digits | None = None
+    fixed: Fixed | None = None
+    changes_with: tuple[str, ...] = ()
 
     @property
     def info(self) -> TypeInfo:
@@ -226,6 +262,8 @@ class Point:
     @property
     def words(self) -> int:
         """How many 16-bit words (or single bits) the point takes; a bit group lies in one word."""
+        if self.text is not None:
+            return self.text.characters // 2
         return 1 if self.bits else max(1, self.info.bits // 16)
 
     @property
@@ -265,16 +303,17 @@ class Point:
 
     @property
     def form(self) -> str:
-        """What a user sees: `bit`, `enum`, `flags`, `integer` (raw is the value), `scaled`, `float` (a bit pattern)."""
-        if self.info.floating:
-            return "float"
-        if self.enum is not None:
-            return "enum"
-        if self.flags:
-            return "flags"
-        if self.type == "bit":
-            return "bit"
-        return "integer" if self.scale is None else "scaled"
+        """What a user sees: `float` (a pattern) `text digits enum flags bit scaled integer` (raw is the value)."""
+        forms = (
+            (self.info.floating, "float"),
+            (self.text is not None, "text"),
+            (self.digits is not None, "digits"),
+            (self.enum is not None, "enum"),
+            (bool(self.flags), "flags"),
+            (self.type == "bit", "bit"),
+            (self.scale is not None, "scaled"),
+        )
+        return next((form for holds, form in forms if holds), "integer")
 
     @property
     def item(self) -> str:
@@ -351,6 +390,53 @@ class Frame:
     title: Titles
     source: Source
     errata: tuple[str, ...]
+    pkw: int | None = None
+    """USS: the words of the parameter part, as set for the link; 127 is variable."""
+    can_id: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Role:
+    """What one byte of a message carries.
+
+    `constant` (number: the byte itself), `unit`, `address` and `raw` (number: how far the byte lies above bit 0),
+    `multiplexer`, `word` (number: 2 * word of the frame, and 1 more for its low byte), `xor` (number: a mask of the
+    bytes of the message that are combined).
+    """
+
+    kind: str
+    number: int
+
+
+@dataclass(frozen=True, slots=True)
+class Message:
+    """A layout of bytes with an identifier: `can_id`, plus the unit number if `adds_unit`."""
+
+    name: str
+    title: Titles
+    direction: str
+    answers: str | None
+    can_id: int
+    adds_unit: bool
+    roles: tuple[Role, ...]
+    source: Source
+
+    @property
+    def words(self) -> int:
+        """How many words of a telegram one frame carries."""
+        return sum(role.kind == "word" for role in self.roles) // 2
+
+
+@dataclass(frozen=True, slots=True)
+class Telegram:
+    """A cyclic layout of `words` words, carried by frames of a message, or by the family's own frames."""
+
+    name: str
+    title: Titles
+    direction: str
+    words: int
+    message: str | None
+    source: Source
 
 
 @dataclass(frozen=True, slots=True)
@@ -374,7 +460,8 @@ class Code:
     """A number of the protocol with a name: a function or an exception.
 
     `most` is the largest count of items in one request. `broadcast` says whether a function may be sent to all units at
-    once; None is what the protocol says.
+    once; None is what the protocol says. `answers` are the codes of the other kind that belong to it: of a USS task its
+    positive responses, of a response or an error the tasks that may get it; `refusals` the negative responses.
     """
 
     number: int
@@ -382,6 +469,8 @@ class Code:
     title: Titles
     most: int | None
     broadcast: bool | None = None
+    answers: tuple[int, ...] = ()
+    refusals: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -409,6 +498,14 @@ class Bus:
     timing: Mapping[str, str]
     serial: Mapping[str, Mapping[str, str]]
     note: Titles
+    responses: tuple[Code, ...] = ()
+    """USS: the response ids."""
+    pkw: tuple[int, ...] = ()
+    """USS: the lengths in words that the parameter part may have; 127 is variable."""
+    pzd: tuple[int, int] = (0, 0)
+    """USS: how many words of process data there may be."""
+    bitrate: int | None = None
+    identifier_bits: int | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -444,3 +541,5 @@ class Device:
     frames: tuple[Frame, ...]
     errata: tuple[Erratum, ...]
     digest: str
+    messages: tuple[Message, ...] = ()
+    telegrams: tuple[Telegram, ...] = ()

@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
     from pathlib import Path
 
+    from fieldscribe.checks.subject import Subject
     from fieldscribe.language.files import Files
     from fieldscribe.model import Device
 
@@ -42,12 +43,21 @@ def find_devices(paths: Iterable[Path], report: Report) -> list[Path]:
 def load_device(device_file: Path, report: Report) -> Device | None:
     """The model of a description: read, validate, interpret, resolve, check. None and findings when it is wrong."""
     from fieldscribe.language.files import read_files
+    from fieldscribe.resolve.device import build_device
 
     own = Report()
     files = read_files(device_file, own)
-    device = None if files is None else _compile(files, own)
+    subject = None if files is None else _checked(files, own)
     report.extend(own)
-    return device
+    return None if subject is None else build_device(subject)
+
+
+def load_subject(device_file: Path, report: Report) -> Subject | None:
+    """As `load_device`, but with every fact's place in the text, as checks and the audit need it."""
+    from fieldscribe.language.files import read_files
+
+    files = read_files(device_file, report)
+    return None if files is None else _checked(files, report)
 
 
 def description_files(device_file: Path) -> list[Path]:
@@ -75,27 +85,30 @@ def outputs(device: Device, targets: Iterable[str]) -> Iterator[tuple[str, str, 
             yield name, path, (templates_dir() / template).read_text("utf-8")
 
 
-def _compile(files: Files, report: Report) -> Device | None:
+def _checked(files: Files, report: Report) -> Subject | None:
     from fieldscribe.checks import run_checks
     from fieldscribe.checks.subject import Subject
     from fieldscribe.resolve.bus import bus_of
     from fieldscribe.resolve.commands import commands_of
-    from fieldscribe.resolve.device import build_device
     from fieldscribe.resolve.errata import errata_of
     from fieldscribe.resolve.expand import expand
     from fieldscribe.resolve.frames import frames_of
+    from fieldscribe.resolve.messages import messages_of
     from fieldscribe.resolve.names import index_of
     from fieldscribe.resolve.points import resolve_points
     from fieldscribe.resolve.scope import open_scope
+    from fieldscribe.resolve.telegrams import telegrams_of
 
     scope = open_scope(files, report)
     drafts = expand(scope)
     index = index_of(scope, drafts)
-    resolved, ranges, places = resolve_points(scope, drafts, index)
     bus = bus_of(scope)
+    messages = messages_of(scope, bus)
+    telegrams = telegrams_of(scope, messages)
+    resolved, ranges, places = resolve_points(scope, drafts, index, telegrams)
     points = {one.point.item: one.point for one in resolved}
     frames = frames_of(scope, bus, index, points)
     commands, errata = commands_of(scope, bus), errata_of(scope, index, bus)
-    subject = Subject(scope, index, ranges, places, resolved, bus, commands, frames, errata)
+    subject = Subject(scope, index, ranges, places, resolved, bus, messages, commands, frames, errata)
     run_checks(subject)
-    return None if report.has_errors else build_device(subject)
+    return None if report.has_errors else subject

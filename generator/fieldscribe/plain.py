@@ -26,6 +26,7 @@ def for_code(device: Device) -> Device:
             note={},
             functions=tuple(replace(code, title=_plain(code.name)) for code in device.bus.functions),
             exceptions=tuple(replace(code, title=_plain(code.name)) for code in device.bus.exceptions),
+            responses=tuple(replace(code, title=_plain(code.name)) for code in device.bus.responses),
         ),
         groups=tuple(replace(group, title=_plain(group.name), note={}, source=_NOWHERE) for group in device.groups),
         points=tuple(_point(point, enums) for point in device.points),
@@ -33,16 +34,20 @@ def for_code(device: Device) -> Device:
         commands=tuple(replace(one, title=_plain(one.name), note={}, source=_NOWHERE) for one in device.commands),
         frames=tuple(replace(one, title=_plain(one.name), source=_NOWHERE) for one in device.frames),
         errata=tuple(replace(one, why="", where="", source=_NOWHERE) for one in device.errata),
+        messages=tuple(replace(one, title=_plain(one.name), source=_NOWHERE) for one in device.messages),
+        telegrams=tuple(replace(one, title=_plain(one.name), source=_NOWHERE) for one in device.telegrams),
     )
 
 
 def _point(point: Point, enums: dict[int, Enum]) -> Point:
+    digits = point.digits
     return replace(
         point,
         title=_plain(point.item),
         note={},
         source=_NOWHERE,
         enum=point.enum and (enums.get(id(point.enum)) or _enum(point.enum)),
+        digits=digits and replace(digits, enum=enums.get(id(digits.enum)) or _enum(digits.enum)),
         flags=tuple(_flag(flag) for flag in point.flags),
         specials=tuple(_special(special) for special in point.specials),
     )

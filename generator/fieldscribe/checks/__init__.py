@@ -14,6 +14,7 @@ def run_checks(subject: Subject) -> None:
     """All checks, in this order; errata come last because the others use them."""
     from fieldscribe.checks import (
         addresses_do_not_overlap,
+        codes_agree,
         defaults_are_allowed,
         enums_fit_their_range,
         errata_are_used,
@@ -22,6 +23,7 @@ def run_checks(subject: Subject) -> None:
         functions_agree,
         meanings_do_not_compete,
         names_do_not_clash,
+        parameters_are_reachable,
         printed_facts_agree,
         references_exist,
     )
@@ -35,6 +37,8 @@ def run_checks(subject: Subject) -> None:
         references_exist.check,
         printed_facts_agree.check,
         functions_agree.check,
+        codes_agree.check,
+        parameters_are_reachable.check,
         frames_agree.check,
         names_do_not_clash.check,
         errata_are_used.check,

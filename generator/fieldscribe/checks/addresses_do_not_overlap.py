@@ -5,14 +5,18 @@ from __future__ import annotations
 from bisect import bisect_right
 from typing import TYPE_CHECKING
 
+from fieldscribe.checks.subject import inside
 from fieldscribe.resolve.points import Resolved
 
 if TYPE_CHECKING:
     from fieldscribe.checks.subject import Subject
-    from fieldscribe.model import Point
+    from fieldscribe.model import Command, Point
 
 _WHOLE = (15, 0)
-Taken = dict[tuple[str, int], list[Resolved]]
+_Key = tuple[str, str | None, int, int]
+"""Space, telegram, index (0 where addresses have none beside them) and address."""
+
+Taken = dict[_Key, list[Resolved]]
 
 
 def check(subject: Subject) -> None:
@@ -22,13 +26,27 @@ def check(subject: Subject) -> None:
         if "space" in resolved.draft.failed:
             continue
         for address in resolved.point.addresses:
-            others = taken.setdefault((resolved.point.space, address), [])
+            others = taken.setdefault(_key(subject, resolved.point, address), [])
             for other in others:
                 _compare(subject, resolved, other, address)
             if len(others) < 64:  # more than the bits of a word and its variants: compared enough
                 others.append(resolved)
             _gap(subject, resolved, address)
     _commands(subject, taken)
+
+
+def _key(subject: Subject, point: Point, address: int) -> _Key:
+    indexed = point.space in subject.scope.family.indexed
+    return point.space, point.telegram, (point.index or 0) if indexed else 0, address
+
+
+def _place(subject: Subject, point: Point, address: int) -> str:
+    """The address in words."""
+    if point.telegram is not None:
+        return f"word {address} of the telegram {point.telegram}"
+    if point.space in subject.scope.family.indexed and point.index is not None:
+        return f"{point.space} {address}, index {point.index}"
+    return f"{point.space} {address} ({address:04X}h)"
 
 
 def _compare(subject: Subject, mine: Resolved, other: Resolved, address: int) -> None:
@@ -39,7 +57,7 @@ def _compare(subject: Subject, mine: Resolved, other: Resolved, address: int) ->
     if low > other_high or other_low > high:
         return
     related = [(other.draft.span("at"), f"`{other.point.name}` stands here")]
-    place = f"{mine.point.space} {address} ({address:04X}h)"
+    place = _place(subject, mine.point, address)
     if mine.point.bits and other.point.bits:
         message = f"`{mine.point.name}` and `{other.point.name}` both take bit {max(low, other_low)} of {place}"
         hint = "points may share a word, but not its bits"
@@ -47,7 +65,7 @@ def _compare(subject: Subject, mine: Resolved, other: Resolved, address: int) ->
     else:
         message = f"`{mine.point.name}` and `{other.point.name}` both stand at {place}"
         hint = "correct one `at`, or give both `bits` of the word"
-        if mine.point.words > 1 or other.point.words > 1:
+        if len(mine.point.addresses) > 1 or len(other.point.addresses) > 1:
             hint = "a point of 32 bits takes two addresses, one of 64 bits four: correct one `at` or `type`"
         subject.report.error("address-taken", message, mine.draft.span("at"), hint, related)
 
@@ -73,14 +91,23 @@ def _gap_at(subject: Subject, space: str, address: int) -> tuple[int, int] | Non
     return next((gap for gap in reversed(before) if gap[1] >= address), None)
 
 
+def _writes_a_value(command: Command, point: Point) -> bool:
+    """Whether the command is a name for writing one allowed value to the point."""
+    whole = point.writable and point.bits is None and len(point.addresses) == 1 and not point.info.floating
+    return whole and command.value is not None and inside(command.value, point.allowed)
+
+
 def _commands(subject: Subject, taken: Taken) -> None:
     raws = {str(raw["name"]): raw for raw in reversed(list(subject.scope.listed("commands")))}
     for command in subject.commands:
         span = raws[command.name].span("at")
-        for other in taken.get((command.space, command.address), ()):
+        for other in taken.get((command.space, None, 0, command.address), ()):
+            if _writes_a_value(command, other.point):
+                continue
             related = [(other.draft.span("at"), f"`{other.point.name}` stands here")]
             message = f"the command `{command.name}` and the point `{other.point.name}` share an address"
-            subject.report.error("address-taken", message, span, "a command writes where no point is", related)
+            hint = "a command writes where no point is, or a value that the range of a whole writable word allows"
+            subject.report.error("address-taken", message, span, hint, related)
         if _gap_at(subject, command.space, command.address) is not None:
             message = f"the command `{command.name}` lies in a gap that no request may touch"
             subject.report.error("address-in-gap", message, span, "leave its address out of the gap")

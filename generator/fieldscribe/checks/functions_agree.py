@@ -17,7 +17,7 @@ _COILS = frozenset({0x01, 0x02, 0x05, 0x0F})
 def check(subject: Subject) -> None:
     """Functions whose printed bytes do not follow from their largest count, and spaces that no function reaches."""
     bus = subject.scope.bus
-    if bus is None:
+    if bus is None or subject.scope.header["family"] != "modbus":
         return
     if subject.bus_is_whole:
         _reached(subject, bus)

@@ -13,12 +13,13 @@ if TYPE_CHECKING:
 
     from fieldscribe.checks.subject import Subject
     from fieldscribe.language.nodes import Map
-    from fieldscribe.model import Entry, Enum
+    from fieldscribe.model import Entry, Enum, Point
     from fieldscribe.resolve.points import Resolved
 
 RUST_CONSTANTS = frozenset(
     {"name", "code", "space", "address", "words", "unit", "raw_min", "raw_max", "shift", "mask"}
     | {"decimals", "read_function", "write_function", "write_address"}
+    | {"telegram", "index", "addresses", "numbers", "fixed_bits", "fixed_mask"}
 )
 """Associated constants of the Rust point traits, which a special code of the same name would hide."""
 
@@ -53,10 +54,10 @@ def claims(subject: Subject) -> Iterator[Claim]:
         yield from _point(subject, resolved)
         if not resolved.point.generated:
             continue
-        enum = resolved.point.enum
-        if enum is not None and (enum.name, id(resolved.draft.layer("enum"))) not in seen:
-            seen.add((enum.name, id(resolved.draft.layer("enum"))))
-            yield from _enum(subject, resolved.draft, enum)
+        for key, enum in _enums(resolved.point):
+            if (enum.name, id(resolved.draft.layer(key))) not in seen:
+                seen.add((enum.name, id(resolved.draft.layer(key))))
+                yield from _enum(subject, resolved.draft, enum, key)
         if resolved.point.flags:
             yield from _flags(resolved)
         for special in resolved.point.specials:
@@ -64,6 +65,14 @@ def claims(subject: Subject) -> Iterator[Claim]:
                 name, space = special.name.upper(), f"Rust, in `{resolved.point.item}`"
                 yield Claim(space, name, f"the constant `{name}` of every point", None)
                 yield Claim(space, name, f"the code `{special.name}`", resolved.draft, "special")
+
+
+def _enums(point: Point) -> Iterator[tuple[str, Enum]]:
+    """The enums of a point, with the key that says them."""
+    if point.enum is not None:
+        yield "enum", point.enum
+    if point.digits is not None:
+        yield "digits", point.digits.enum
 
 
 def _groups(subject: Subject) -> Iterator[Claim]:
@@ -87,8 +96,8 @@ def _point(subject: Subject, resolved: Resolved) -> Iterator[Claim]:
             yield Claim("Rust", f"{type_name}Factors", f"what {what} needs", draft)
 
 
-def _enum(subject: Subject, draft: Draft, enum: Enum) -> Iterator[Claim]:
-    said = draft.get("enum")
+def _enum(subject: Subject, draft: Draft, enum: Enum, key: str) -> Iterator[Claim]:
+    said = draft.get("enum") if key == "enum" else draft.get(key)["enum"]
     shared = isinstance(said, str)
     holder = subject.scope.named_enums[said] if shared else said
     what = f"the enum `{enum.name}`" if shared else f"the enum of `{draft.name}`"
@@ -96,7 +105,7 @@ def _enum(subject: Subject, draft: Draft, enum: Enum) -> Iterator[Claim]:
         file = next(file for file in subject.scope.files if said in file.get("enums", {}))
         yield Claim("the enums of generated code", pascal(enum.name), what, file["enums"], said)
     else:
-        yield Claim("the enums of generated code", pascal(enum.name), what, draft.layer("enum"), "enum")
+        yield Claim("the enums of generated code", pascal(enum.name), what, draft.layer(key), key)
     space = f"Rust, in {what}"
     for entry in enum.entries:
         yield Claim(space, pascal(entry.name), f"`{entry.name}`", holder, _key(holder, entry))

@@ -8,11 +8,19 @@ if TYPE_CHECKING:
     from fieldscribe.checks.subject import Subject
     from fieldscribe.resolve.drafts import Draft
 
-_OF_INTEGERS = ("enum", "flags", "scale", "decimals", "steps")
+_OF_INTEGERS = ("enum", "flags", "scale", "decimals", "steps", "digits", "fixed")
+_OF_NUMBERS = ("enum", "flags", "scale", "decimals", "steps", "digits", "fixed", "range", "range_in_units", "default")
 _RIVALS = (
     ("enum", "flags", "name the numbers of several bits under `values` of one flag"),
     ("enum", "scale", "codes beside the numbers go under `special`"),
     ("flags", "scale", "bits with a number of their own are a point with `bits`"),
+    ("digits", "enum", "the names of single digits stand under `digits`"),
+    ("digits", "flags", "digits are decimal; bits of the word are `flags`"),
+    ("digits", "scale", "each digit has a meaning of its own"),
+    ("digits", "range", "the enum of the digits says which there are; the printed range goes under `printed`"),
+    ("fixed", "scale", "fixed bits belong to words that are no quantity, or beside a bit group"),
+    ("fixed", "enum", "fixed bits belong to words of flags or numbers, or beside a bit group"),
+    ("fixed", "digits", "fixed bits belong to words of flags or numbers, or beside a bit group"),
     ("range", "range_in_units", "give one of them; what the manual prints besides goes under `printed`"),
 )
 
@@ -22,18 +30,29 @@ def check(subject: Subject) -> None:
     for resolved in subject.resolved:
         draft = resolved.draft
         if resolved.point.info.floating:
-            _floating(subject, draft)
+            _alien(
+                subject, draft, _OF_INTEGERS, "floating-point number", "the device sends the value itself in the unit"
+            )
             continue
+        if draft.text:
+            _alien(subject, draft, _OF_NUMBERS, "text", "its characters are all that it means")
+            continue
+        if draft.get("fixed") is not None and not resolved.point.writable:
+            message = f"`fixed` says what is written, and `{draft.name}` is only read"
+            subject.report.error("two-meanings", message, draft.span("fixed"), "leave it out, or correct `access`")
         for first, second, hint in _RIVALS:
+            if first == "fixed" and resolved.point.bits is not None:
+                continue
             if draft.get(first) is not None and draft.get(second) is not None:
                 related = [(draft.span(first), f"`{first}` stands here")]
                 message = f"`{draft.name}` cannot have both `{first}` and `{second}`"
                 subject.report.error("two-meanings", message, draft.span(second), hint, related)
 
 
-def _floating(subject: Subject, draft: Draft) -> None:
-    for key in _OF_INTEGERS:
-        if draft.get(key) is not None:
-            message = f"`{key}` is for whole numbers, and `{draft.name}` is a floating-point number"
-            hint = "the device sends the value itself in the unit: leave it out"
-            subject.report.error("float-fact", message, draft.span(key), hint)
+def _alien(subject: Subject, draft: Draft, keys: tuple[str, ...], what: str, why: str) -> None:
+    """Findings for facts of numbers at what is none."""
+    rule = "text-fact" if draft.text else "float-fact"
+    for key in keys:
+        if draft.get(key) is not None and draft.layer(key) is not draft.group:
+            message = f"`{key}` is for whole numbers, and `{draft.name}` is a {what}"
+            subject.report.error(rule, message, draft.span(key), f"{why}: leave it out")

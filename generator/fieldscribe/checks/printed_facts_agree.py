@@ -10,9 +10,10 @@ from fieldscribe.checks.subject import Printed, Subject, same
 from fieldscribe.language.formula import FormulaError
 from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.numbers import NumberError, parse_number
-from fieldscribe.resolve.addresses import WIRE
-from fieldscribe.resolve.bounds import as_text, constant_range
-from fieldscribe.wording.exact import number_text
+from fieldscribe.resolve.bounds import as_text, constant_range, round_half_away
+from fieldscribe.resolve.numbering import WIRE
+from fieldscribe.resolve.values import integer, number
+from fieldscribe.wording.exact import fixed_rule, number_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -27,6 +28,7 @@ _NEEDS = {
     "range_in_units": {"range", "type", "scale"},
     "resolution": {"scale", "unit"},
     "choices": {"enum", "range"},
+    "pairs": {"type", "scale", "unit"},
 }
 """The facts that a printed one is held against, but for numbers, which are held against the address."""
 
@@ -37,6 +39,8 @@ def check(subject: Subject) -> None:
         layer = resolved.draft.layer("printed")
         if layer is not None:
             _printed(subject, resolved, layer["printed"])
+        if resolved.point.flags:
+            _flags(subject, resolved)
 
 
 def _printed(subject: Subject, resolved: Resolved, printed: Map) -> None:
@@ -47,12 +51,14 @@ def _printed(subject: Subject, resolved: Resolved, printed: Map) -> None:
         span = printed.span(key)
         if _NEEDS.get(key, {"at", "space", "type"}) & draft.failed:
             continue
-        if key in ("range_in_units", "resolution") and unknown_scale:
+        if key in ("range_in_units", "resolution", "pairs") and unknown_scale:
             continue  # nothing to hold it against
         if key in ("range", "range_in_units"):
             _range(subject, resolved, key, value, span)
         elif key == "resolution":
             _resolution(subject, resolved, value, span)
+        elif key == "pairs":
+            _pairs(subject, resolved, value)
         elif key == "choices":
             _choices(subject, resolved, value, span)
         else:
@@ -62,12 +68,15 @@ def _printed(subject: Subject, resolved: Resolved, printed: Map) -> None:
 
 def _numbers(subject: Subject, resolved: Resolved) -> Mapping[str, int]:
     """The point's number in every numbering of its group, and for a pair that of the word with the low part."""
-    addresses = resolved.point.addresses
+    point, addresses = resolved.point, resolved.point.addresses
+    if not addresses:
+        return {}
+    first = addresses[0] if point.text is not None else min(addresses)
     known: dict[str, int] = {}
-    for prefix, address in (("", addresses[:1]), (_LOW, addresses[1:][-1:])):
-        if address:
-            known[prefix + WIRE] = address[0]
-            numbered = subject.places.references(resolved.draft, address[0])
+    for prefix, address in (("", first), (_LOW, addresses[-1] if len(addresses) > 1 else None)):
+        if address is not None:
+            known[prefix + WIRE] = address
+            numbered = subject.places.references(resolved.draft, address)
             known.update({prefix + name: number for name, number in numbered.items()})
     return known
 
@@ -116,6 +125,7 @@ def _range(subject: Subject, resolved: Resolved, key: str, value: Any, span: Spa
     if agrees(value) is not False:
         return
     taken = wording.range_text(point) if in_units else wording.raw_range_text(point)
+    taken = taken or as_text(resolved.draft.get(key) or resolved.draft.get("range") or "another")
     message = f"the {key.replace('_', ' ')} {as_text(value)} is printed for `{point.name}`, taken is {taken}"
     right = Printed(point.name, key, value, taken, span, message, lambda said: bool(agrees(said)))
     subject.disagrees(right)
@@ -161,6 +171,35 @@ def _resolution(subject: Subject, resolved: Resolved, value: Any, span: Span) ->
         subject.disagrees(Printed(point.name, "resolution", value, right, span, message))
 
 
+def _pairs(subject: Subject, resolved: Resolved, pairs: Map) -> None:
+    """Raw numbers and values that are printed side by side: the scale turns each into the other."""
+    point = resolved.point
+    rule = fixed_rule(point)
+    if rule is None or point.info.floating:
+        message = f"the pairs of `{point.name}` cannot be checked: its scale is not fixed"
+        subject.report.error("bad-formula", message, pairs.span(), "leave them out, or say them in a `note`")
+        return
+    multiply, add, divide = rule
+    for key, value in pairs.items():
+        raw = integer(key, pairs.key_span(key), subject.report)
+        given = number(value, pairs.span(key), subject.report)
+        if raw is None or given is None:
+            continue
+        if raw > point.greatest and raw < 1 << point.width:
+            raw -= 1 << point.width  # a pattern of a signed number
+        exact = Fraction(raw * multiply + add, divide)
+        if round_half_away((given * divide - add) / multiply) != raw and abs(exact - given) > _half_digit(value):
+            said, right = f"{key} {value}", f"{key} {number_text(exact)}"
+            message = f"the pair {said} is printed for `{point.name}`, the scale says {number_text(exact)}"
+            subject.disagrees(Printed(point.name, "pairs", said, right, pairs.span(key), message))
+
+
+def _half_digit(value: Any) -> Fraction:
+    """Half a unit of the last digit that is printed: how far rounding may have moved the number."""
+    decimals = len(str(value).partition(".")[2])
+    return Fraction(1, 2 * 10**decimals)
+
+
 def _step(point: Point) -> Fraction | None:
     if point.info.floating:
         return None
@@ -169,6 +208,30 @@ def _step(point: Point) -> Fraction | None:
     if len(point.scale) > 1 or point.scale[0].rule.factors:
         return None
     return abs(1 / point.scale[0].rule.ratio)
+
+
+def _flags(subject: Subject, resolved: Resolved) -> None:
+    """The masks and bit numbers that are printed for flags, in bits of the word."""
+    point, raw = resolved.point, resolved.draft.get("flags")
+    first = point.bits[1] if point.bits else 0
+    by_name = {flag.name: flag for flag in point.flags}
+    for value in raw.values():
+        printed = value.get("printed") if isinstance(value, Map) else None
+        flag = by_name.get(value["name"]) if printed is not None else None
+        if flag is None or printed is None:
+            continue
+        low = flag.low + first
+        mask = ((1 << flag.width) - 1) << low
+        with_fixed = mask | (point.fixed.bits if point.fixed is not None else 0)
+        for key, right, others in (("mask", mask, {with_fixed}), ("bit", low, {low + flag.width - 1})):
+            if key not in printed:
+                continue
+            span = printed.span(key)
+            given = integer(printed[key], span, subject.report)
+            if given is not None and given != right and given not in others:
+                shown = f"{right:04X}h" if key == "mask" else str(right)
+                message = f"the {key} {printed[key]} is printed for `{flag.name}`, its bits say {shown}"
+                subject.disagrees(Printed(point.name, key, printed[key], right, span, message, flag=flag.name))
 
 
 def _choices(subject: Subject, resolved: Resolved, value: int, span: Span) -> None:

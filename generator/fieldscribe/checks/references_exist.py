@@ -12,7 +12,8 @@ def check(subject: Subject) -> None:
     """Names of commands and points that nothing has."""
     scope = subject.scope
     declared = {str(raw["name"]) for raw in scope.listed("commands")}
-    known = ("no", "yes", *sorted(declared))
+    choice = ("choice",) if scope.header["family"] == "uss" else ()  # the task says whether the memory keeps it
+    known = ("no", "yes", *choice, *sorted(declared))
     for resolved in subject.resolved:
         keeps = resolved.point.keeps
         if keeps is not None and keeps not in known:

@@ -12,7 +12,7 @@ from fieldscribe.language.numbers import NumberError, parse_number
 
 if TYPE_CHECKING:
     from fieldscribe.diagnostics import Report, Span
-    from fieldscribe.model import Allowed, Bus, Command, Frame
+    from fieldscribe.model import Allowed, Bus, Command, Frame, Message
     from fieldscribe.resolve.addresses import Places
     from fieldscribe.resolve.allowed import Ranges
     from fieldscribe.resolve.errata import OpenErratum
@@ -27,7 +27,8 @@ class Printed:
     """A printed fact that disagrees: about whom, under which key of `printed`, where, and what to say of it.
 
     `taken` None means that the right value follows from nothing here and the erratum's word counts; `right` tells
-    whether what an erratum takes is what was taken, where comparing the two as texts would not do.
+    whether what an erratum takes is what was taken, where comparing the two as texts would not do. `flag` is the flag
+    of the point that it is about.
     """
 
     about: str
@@ -37,6 +38,7 @@ class Printed:
     span: Span
     message: str
     right: Callable[[Any], bool] | None = None
+    flag: str | None = None
 
     def fits(self, said: Any) -> bool:
         """Whether what an erratum says was taken is what was taken."""
@@ -53,6 +55,7 @@ class Subject:
     places: Places
     resolved: list[Resolved]
     bus: Bus
+    messages: tuple[Message, ...]
     commands: tuple[Command, ...]
     open_frames: list[OpenFrame]
     errata: list[OpenErratum]
@@ -78,6 +81,8 @@ class Subject:
         """A printed fact that disagrees with what was taken: an error, unless an erratum about it says both."""
         for erratum in self.cited.get(one.about, ()):
             stated = erratum.printed(one.key)
+            if erratum.raw.get("flag") != one.flag:
+                continue
             if stated is None or not same(stated, one.printed):
                 continue
             erratum.used.add(one.key)
@@ -89,7 +94,10 @@ class Subject:
                 hint = f"write `taken: {{{one.key}: {_shown(one.taken)}}}`"
                 self.report.error("erratum-differs", wrong, erratum.raw.span("taken"), hint)
             return
-        hint = f"correct the fact, or explain it: an erratum with `printed: {{{one.key}: {_shown(one.printed)}}}`"
+        named = f"`flag: {one.flag}` and " if one.flag is not None else ""
+        hint = (
+            f"correct the fact, or explain it: an erratum with {named}`printed: {{{one.key}: {_shown(one.printed)}}}`"
+        )
         self.report.error("printed-disagrees", one.message, one.span, hint)
 
 

@@ -13,6 +13,7 @@ from fieldscribe.cli.terminal import print_lines
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
     from collections.abc import Iterable
+    from fractions import Fraction
 
     from fieldscribe.diagnostics import Report
     from fieldscribe.model import Device
@@ -123,7 +124,7 @@ def open_device(arguments: Namespace) -> Device:
     from fieldscribe.pipeline import load_device
 
     report = Report()
-    device = load_device(_device_file(arguments), report)
+    device = load_device(device_file(arguments), report)
     if device is None:
         report_findings(report, getattr(arguments, "format", "text"))
         raise StopError("", code=FINDINGS)
@@ -156,7 +157,7 @@ def print_json(data: object) -> None:
     sys.stdout.write("\n")
 
 
-def _device_file(arguments: Namespace) -> Path:
+def device_file(arguments: Namespace) -> Path:
     """The device.yaml of the device that is meant. Raises StopError."""
     from fieldscribe.diagnostics import Report
     from fieldscribe.pipeline import DEVICE_FILE, find_devices
@@ -222,8 +223,8 @@ def _reader() -> ReadLines:
     return read
 
 
-def settings_of(device: Device, pairs: list[str]) -> dict[str, int]:
-    """What `--with` says of other points, as raw numbers. Raises StopError."""
+def settings_of(device: Device, pairs: list[str]) -> dict[str, int | Fraction]:
+    """What `--with` says of other points. Raises StopError."""
     from fieldscribe.dialogue.refusals import RefusedError
     from fieldscribe.dialogue.selection import UnclearError
     from fieldscribe.dialogue.typed_values import read_settings

@@ -14,6 +14,12 @@ EXAMPLE = """examples:
   fieldscribe decode hitachi_l200 "05 06 10 28 01 F4 0C 91"
   fieldscribe decode hitachi_l200 0801000600051C91 --format json
   fieldscribe decode hitachi_l200 "08 01 01 17 12 1A" --request "08 01 00 06 00 05 1C 91"
+  fieldscribe decode woodward_mpu2s 321#DD00051E13880064 321#DD010302000007D0
+  fieldscribe decode woodward_mpu2s "DD 00 05 1E 13 88 00 64" --can-id 321
+  candump -L can0 | fieldscribe decode woodward_mpu2s -
+  fieldscribe decode siemens_mm4 "02 0E 01 143A 0000 0000 0000 047F 3333 72"
+  fieldscribe decode siemens_mm4 --framing pkw "143A 0000 0000 0000" "243A 0000 4248 0000"
+  fieldscribe decode siemens_mm4 --framing pzd --direction response "FA31 0000"
 
 Each FRAME is one argument; a reply is read by the request before it."""
 
@@ -21,39 +27,45 @@ Each FRAME is one argument; a reply is read by the request before it."""
 def add_arguments(parser: ArgumentParser) -> None:
     """The command's arguments."""
     from fieldscribe.cli.common import add_device, add_format
+    from fieldscribe.cli.link import add_framing, add_uss, add_with
 
     add_device(parser)
     parser.add_argument(
-        "frames", nargs="+", metavar="FRAME", help='bytes in hexadecimal: "05 06 10 28", 05061028, 0x05,0x06, 05:06'
+        "frames",
+        nargs="+",
+        metavar="FRAME",
+        help='bytes in hexadecimal: "05 06 10 28", 05061028, 0x05,0x06, 05:06; CAN: 321#DD00, lines of candump; '
+        "- reads frames from standard input, one a line",
     )
     parser.add_argument("--request", metavar="FRAME", help="the request that the frames answer")
-    parser.add_argument(
-        "--framing", choices=("rtu", "tcp"), help="how frames are wrapped (default: seen from the bytes)"
-    )
+    add_framing(parser, "default: seen from the bytes; uss")
     parser.add_argument("--unit", type=int, metavar="N", help="only frames to or from this unit")
+    parser.add_argument("--can-id", metavar="ID", help="can: the identifier of frames without one, in hexadecimal")
+    add_uss(parser)
     parser.add_argument(
-        "--with",
-        dest="given",
-        action="append",
-        default=[],
-        metavar="POINT=VALUE",
-        help="what another point holds, where a scale or range depends on it; may be repeated",
+        "--direction",
+        choices=("request", "response"),
+        help="uss: what frames are (default: an answer follows a request to the same unit)",
     )
+    add_with(parser)
     add_format(parser)
 
 
 def run(arguments: Namespace) -> int:
     """Decode; the exit code: 1 when a frame is wrong."""
     from fieldscribe.cli import FINDINGS, FINE
-    from fieldscribe.cli.common import open_device, print_json, settings_of
-    from fieldscribe.dialogue import listener
+    from fieldscribe.cli.common import StopError, open_device, print_json, settings_of
+    from fieldscribe.cli.link import options_of
+    from fieldscribe.dialogue import dialogue_of
+    from fieldscribe.dialogue.selection import UnclearError
 
-    frames = [_bytes(text) for text in _frames(arguments.frames)]
-    request = None if arguments.request is None else _bytes(arguments.request)
     device = open_device(arguments)
-    listening = listener(device, settings_of(device, arguments.given), arguments.framing)
-    heard = [] if request is None else [listening.expect_reply_to(request)]
-    heard += [listening.hear(data) for data in frames]
+    options = options_of(device, arguments)
+    settings = settings_of(device, arguments.given)
+    try:
+        heard = dialogue_of(device).decode(device, settings, _frames(arguments.frames), options)
+    except UnclearError as error:
+        raise StopError(error.message, error.hint) from error
     heard = [one for one in heard if arguments.unit is None or one.unit == arguments.unit]
     if arguments.format == "json":
         print_json({"device": device.id, "frames": [one.as_data() for one in heard]})
@@ -63,22 +75,16 @@ def run(arguments: Namespace) -> int:
 
 
 def _frames(words: list[str]) -> list[str]:
-    """The frames that the arguments are; when each is a single byte, somebody forgot the quotes."""
-    if len(words) > 2 and all(len(word.strip()) == 2 for word in words):
-        return [" ".join(words)]
-    return words
+    """The frames that were given; `-` stands for the lines of standard input."""
+    import sys
 
-
-def _bytes(text: str) -> bytes:
-    from fieldscribe.cli.common import StopError
-    from fieldscribe.dialogue.hexadecimal import HexError, parse_hex
-
-    try:
-        return parse_hex(text)
-    except HexError as error:
-        raise StopError(
-            f"not a frame: {error}", 'write the bytes in hexadecimal, as in "05 06 10 28 01 F4 0C 91"'
-        ) from error
+    frames: list[str] = []
+    for word in words:
+        if word == "-":
+            frames += [line for line in sys.stdin.read().splitlines() if line.strip()]
+        else:
+            frames.append(word)
+    return frames
 
 
 def _print(heard: list[Heard]) -> None:
@@ -91,9 +97,9 @@ def _print(heard: list[Heard]) -> None:
             print_lines([[]])
         rows = [("Frame", one.summary)]
         rows += [("Says", item.text) for item in one.items]
-        rows += [("Checksum" if one.framing == "rtu" else "Header", one.checks)] if one.checks else []
+        rows += [("Header" if one.framing == "tcp" else "Checksum", one.checks)] if one.checks else []
         rows += [("Wrong", fault) for fault in one.faults]
         rows += [("Note", note) for note in one.notes]
-        print_rows(spaced(one.data), [(label, visible(text)) for label, text in rows])
+        print_rows(visible(one.shown) or spaced(one.data), [(label, visible(text)) for label, text in rows])
     if not heard:
         print_lines([[("", "no frame of that unit")]])

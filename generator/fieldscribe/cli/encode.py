@@ -8,6 +8,7 @@ if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
     from collections.abc import Mapping
 
+    from fieldscribe.dialogue import Sent
     from fieldscribe.dialogue.encoding import Encoded
 
 HELP = "turn a value into its raw number, or into the whole request frame"
@@ -15,32 +16,36 @@ EXAMPLE = """examples:
   fieldscribe encode hitachi_l200 A020 "50 Hz"
   fieldscribe encode hitachi_l200 A020 50 --unit 5 --frame
   fieldscribe encode hitachi_l200 A061 50 --with A062=10 --with A004=60
+  fieldscribe encode woodward_mpu2s fault_text_terminal_62 "OIL PRESSURE" --frame
+  fieldscribe encode woodward_mpu2s power_measurement_phases three_phase --with-word 0400h --frame
+  fieldscribe encode siemens_mm4 P1082 40 --unit 3 --pkw 4 --keep --frame
+  fieldscribe encode siemens_mm4 HSW 40 --with P2000=50 --with P2009=0 --with STW.raw=047Fh --frame
 
-With --frame only the frame goes to stdout; what it means goes to stderr."""
+With --frame only the frames go to stdout, one a line; what they mean goes to stderr."""
 
 
 def add_arguments(parser: ArgumentParser) -> None:
     """The command's arguments."""
     from fieldscribe.cli.common import add_device, add_format
+    from fieldscribe.cli.link import add_framing, add_uss, add_with
 
     add_device(parser)
     parser.add_argument("point", metavar="POINT", help="its code, name or address")
-    parser.add_argument("value", metavar="VALUE", help='50, "50 Hz", a name from its list, on, off, flags joined by |')
     parser.add_argument(
-        "--with",
-        dest="given",
-        action="append",
-        default=[],
-        metavar="POINT=VALUE",
-        help="what another point holds, where a scale or range depends on it; may be repeated",
+        "value",
+        metavar="VALUE",
+        help='50, "50 Hz", a name from its list, on, off, flags joined by |, digits with commas between, a text',
     )
-    parser.add_argument("--frame", action="store_true", help="the whole request frame")
+    add_with(parser)
+    parser.add_argument("--frame", action="store_true", help="the whole request frame, or all that it takes")
     parser.add_argument(
         "--unit", type=int, metavar="N", help="the unit that the frame goes to (default: 1 or the lowest)"
     )
-    parser.add_argument(
-        "--framing", choices=("rtu", "tcp"), help="how the frame is wrapped (default: the device's first)"
-    )
+    add_framing(parser, "default: the device's first")
+    parser.add_argument("--with-word", metavar="WORD", help="can: the word that a bit group is put into, as in 1234h")
+    add_uss(parser)
+    parser.add_argument("--index", type=int, metavar="N", help="uss: the element of an array")
+    parser.add_argument("--keep", action="store_true", help="uss: write to the EEPROM, not to the RAM alone")
     add_format(parser)
 
 
@@ -48,40 +53,45 @@ def run(arguments: Namespace) -> int:
     """Encode; the exit code: 1 when the value is refused."""
     from fieldscribe.cli import FINDINGS, FINE, USAGE
     from fieldscribe.cli.common import StopError, open_device, print_json, settings_of
-    from fieldscribe.dialogue.encoding import encode_point, frame_for
+    from fieldscribe.cli.link import options_of
+    from fieldscribe.dialogue import dialogue_of
+    from fieldscribe.dialogue.encoding import encode_point
+    from fieldscribe.dialogue.options import asks_for_frames
     from fieldscribe.dialogue.refusals import RefusedError
     from fieldscribe.dialogue.selection import UnclearError, choose_point
 
     device = open_device(arguments)
+    options = options_of(device, arguments)
     settings = settings_of(device, arguments.given)
     try:
-        point = choose_point(device, arguments.point)
+        point = choose_point(device, arguments.point, index=options.index)
         encoded = encode_point(device, point, arguments.value, settings)
-        framed = arguments.frame or arguments.unit is not None or arguments.framing is not None
-        data = frame_for(device, point, encoded.raw, arguments.unit, arguments.framing) if framed else None
+        framed = arguments.frame or asks_for_frames(options)
+        sent = dialogue_of(device).frames_for(device, point, encoded.raw, settings, options) if framed else None
     except UnclearError as error:
         raise StopError(error.message, error.hint) from error
     except RefusedError as error:
         if arguments.format == "json":
             print_json({"refused": {"status": error.status, "message": error.message, "hint": error.hint}})
         raise StopError(error.message, error.hint, USAGE if error.status == "missing" else FINDINGS) from error
-    _tell(arguments.format, encoded, data)
+    _tell(arguments.format, encoded, sent)
     return FINE
 
 
-def _tell(form: str, encoded: Encoded, data: bytes | None) -> None:
+def _tell(form: str, encoded: Encoded, sent: Sent | None) -> None:
     import sys
 
     from fieldscribe.cli.common import print_json
     from fieldscribe.cli.terminal import print_lines
-    from fieldscribe.dialogue.hexadecimal import spaced
     from fieldscribe.report import visible
 
+    notes = (*encoded.notes, *(() if sent is None else sent.notes))
     if form == "json":
+        frames = [] if sent is None else list(sent.frames)
         result: Mapping[str, object] = encoded.as_data()
-        print_json({**result, "frame": None if data is None else spaced(data)})
+        print_json({**result, "notes": list(notes), "frame": frames[0] if len(frames) == 1 else None, "frames": frames})
         return
-    if data is not None:
-        print(spaced(data), flush=True)
-    print_lines([[("", visible(encoded.text))]], sys.stdout if data is None else sys.stderr)
-    print_lines(([("hint", f"note: {visible(note)}")] for note in encoded.notes), sys.stderr)
+    for frame in () if sent is None else sent.frames:
+        print(frame, flush=True)
+    print_lines([[("", visible(encoded.text))]], sys.stdout if sent is None else sys.stderr)
+    print_lines(([("hint", f"note: {visible(note)}")] for note in notes), sys.stderr)

@@ -15,12 +15,19 @@ if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
 
     from fieldscribe.diagnostics import Report
+    from fieldscribe.model import Device
     from fieldscribe.output import Changes
 
 HELP = "compile descriptions into C, Python, Rust, documentation and vectors"
 EXAMPLE = """examples:
   fieldscribe generate hitachi_l200 --target c --out firmware/drivers
   fieldscribe generate --check          (says what is stale and writes nothing; for CI)"""
+
+
+_WEIGHTS = {"c": 4.0, "python": 3.0, "rust": 4.0, "docs": 2.0, "vectors": 5.0}
+"""About how long the targets take, for parting the work between two processes."""
+_FEW_POINTS = 150
+"""Below this a second process is not worth its start."""
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -57,6 +64,16 @@ class _Result:
     removed: set[str] = field(default_factory=set)
     unchanged: set[str] = field(default_factory=set)
     stale: set[str] = field(default_factory=set)
+    made: dict[tuple[str, str], list[str]] = field(default_factory=dict)
+    """The files of each device and target."""
+
+    def add(self, other: _Result) -> None:
+        """Take over what another process found."""
+        self.written |= other.written
+        self.removed |= other.removed
+        self.unchanged |= other.unchanged
+        self.stale |= other.stale
+        self.made.update(other.made)
 
     @property
     def outputs(self) -> list[str]:
@@ -109,11 +126,31 @@ def run(arguments: Namespace) -> int:
 def _compile(
     arguments: Namespace, targets: tuple[str, ...], device_files: list[Path], report: Report, result: _Result
 ) -> None:
+    from fieldscribe.output import settle_manifest
+    from fieldscribe.output.two_processes import both, halved
+
+    devices = _load(device_files, report)
+    work = [(device, target) for device in devices for target in targets]
+    few = sum(len(device.points) for device in devices) < _FEW_POINTS
+    mine, others = (work, []) if few else halved(work, lambda one: len(one[0].points) * _WEIGHTS[one[1]])
+    if others:
+        halves = both(lambda: _make(arguments, mine), lambda: _make(arguments, others))
+    else:
+        halves = (_make(arguments, mine), _Result())
+    for half in halves:
+        result.add(half)
+    for device in devices:
+        made = {target: result.made[device.id, target] for target in targets}
+        _settle(arguments, result, settle_manifest(arguments.out, device.id, made))
+
+
+def _load(device_files: list[Path], report: Report) -> list[Device]:
+    """The devices without errors; a second description of one is an error."""
     from fieldscribe.diagnostics import Span
     from fieldscribe.language.source import shown
-    from fieldscribe.output import compare
-    from fieldscribe.pipeline import DEVICE_FILE, load_device, outputs
+    from fieldscribe.pipeline import DEVICE_FILE, load_device
 
+    devices: list[Device] = []
     seen: dict[str, Path] = {}
     for device_file in device_files:
         device = load_device(device_file, report)
@@ -126,10 +163,22 @@ def _compile(
             )
             continue
         seen[device.id] = device_file
-        # one target at a time: the texts of all targets of a large device would take much memory
-        for name, made in groupby(outputs(device, targets), key=itemgetter(0)):
+        devices.append(device)
+    return devices
+
+
+def _make(arguments: Namespace, work: list[tuple[Device, str]]) -> _Result:
+    """Render and settle some targets of some devices, one after the other: all texts at once would take much memory."""
+    from fieldscribe.output import compare
+    from fieldscribe.pipeline import outputs
+
+    result = _Result()
+    for device, items in groupby(work, key=itemgetter(0)):
+        for target, made in groupby(outputs(device, [name for _, name in items]), key=itemgetter(0)):
             files = {path: text.encode() for _, path, text in made}
-            _settle(arguments, result, compare(arguments.out, device.id, {name: files}))
+            result.made[device.id, target] = sorted(files)
+            _settle(arguments, result, compare(arguments.out, device.id, target, files))
+    return result
 
 
 def _settle(arguments: Namespace, result: _Result, changes: Changes) -> None:

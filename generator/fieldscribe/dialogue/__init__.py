@@ -1,15 +1,20 @@
-"""What frames on a line say, with state from one to the next. Each family knows its frames; the answers are alike."""
+"""What frames on a line say, with state from one to the next. Each family knows its frames; the answers are alike.
+
+A family offers a module `families/<family>/dialogue.py`, see `Dialogue`.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol
+from dataclasses import dataclass, field
+from importlib import import_module
+from typing import TYPE_CHECKING, Any, Protocol
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Mapping, Sequence
 
     from fieldscribe.dialogue.codec import Settings
-    from fieldscribe.model import Device
+    from fieldscribe.dialogue.options import Options
+    from fieldscribe.model import Device, Point
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,7 +51,11 @@ class Item:
 
 @dataclass(frozen=True, slots=True)
 class Heard:
-    """One frame in words. `kind`: request, reply, request_or_reply, exception, unreadable; notes are not faults."""
+    """One frame in words; notes are not faults.
+
+    `kind`: request, reply, request_or_reply, exception, cyclic, broadcast, other (not of this device), unreadable.
+    `details` are further facts of the family for JSON; `shown` is the frame as its users write it, if not as bytes.
+    """
 
     data: bytes
     framing: str
@@ -59,6 +68,8 @@ class Heard:
     faults: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
     exception: int | None = None
+    details: Mapping[str, object] = field(default_factory=dict)
+    shown: str = ""
 
     def as_data(self) -> dict[str, object]:
         """The same for JSON."""
@@ -69,6 +80,7 @@ class Heard:
             "unit": self.unit,
             "function": self.function,
             "exception": self.exception,
+            **self.details,
             "summary": self.summary,
             "items": [item.as_data() for item in self.items],
             "checks": self.checks,
@@ -77,19 +89,36 @@ class Heard:
         }
 
 
-class Listener(Protocol):
-    """Hears frames in the order in which they were on the line."""
+@dataclass(frozen=True, slots=True)
+class Sent:
+    """The frames that write a point, as their users write them, and what is odd about them."""
 
-    def hear(self, data: bytes) -> Heard:
-        """What the next frame says; any bytes are safe."""
-
-    def expect_reply_to(self, data: bytes) -> Heard:
-        """Take a frame as the request that the following frames answer."""
+    frames: tuple[str, ...]
+    notes: tuple[str, ...] = ()
 
 
-def listener(device: Device, settings: Settings, framing: str | None = None) -> Listener:
-    """A listener for the device's family. `settings` are raw numbers of points that are known before."""
-    from fieldscribe.families.modbus.dialogue import ModbusListener
+class Dialogue(Protocol):
+    """What the `dialogue` module of a family offers."""
 
-    known: dict[str, Callable[[Device, Settings, str | None], Listener]] = {"modbus": ModbusListener}
-    return known[device.family](device, settings, framing)
+    def decode(self, device: Device, settings: Settings, texts: Sequence[str], options: Options) -> list[Heard]:
+        """What pasted frames say, in their order; any bytes are safe. Raises UnclearError for what is no frame."""
+
+    def frames_for(self, device: Device, point: Point, raw: int, settings: Settings, options: Options) -> Sent:
+        """The frames that write a raw number. Raises RefusedError."""
+
+    def read_text(self, device: Device, point: Point) -> str:
+        """How the point is read, with an example; empty if it cannot be read."""
+
+    def write_text(self, device: Device, point: Point) -> str:
+        """How the point is written, with an example; empty if it cannot be written."""
+
+
+_DIALOGUES = {family: f"fieldscribe.families.{family}.dialogue" for family in ("modbus", "can", "uss")}
+"""The modules by family; imported when a device needs one."""
+
+
+def dialogue_of(device: Device) -> Dialogue:
+    """The dialogue of the device's family."""
+    module: Any = import_module(_DIALOGUES[device.family])
+    dialogue: Dialogue = module
+    return dialogue

@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from fieldscribe.model import Bound, Factor, Interval, Limit, Linear, Point
 
-Settings = Mapping[str, int]
-"""Raw numbers of points by name."""
+Settings = Mapping[str, int | Fraction]
+"""What rules take of other points, by name: raw numbers; of f32 and f64 points the value, see `setting_of`."""
 
 MOST_EXPONENT = 400
 """The largest power of ten that a run-time exponent may ask for."""
@@ -44,6 +44,14 @@ class Window:
     low: int
     high: int
     missing: tuple[str, ...] = ()
+
+
+def setting_of(point: Point, raw: int) -> int | Fraction:
+    """What rules take of a point that holds a raw number; 0 for a bit pattern that is no number."""
+    if not point.info.floating:
+        return raw
+    number = float_of(point, raw)
+    return Fraction(number) if isfinite(number) else Fraction(0)
 
 
 def half_away(number: Fraction) -> int:
@@ -83,13 +91,21 @@ def encode(point: Point, value: Fraction, settings: Settings) -> int:
     return half_away(value * ratio + offset)
 
 
+def with_fixed(point: Point, raw: int) -> int:
+    """A raw number of a whole word with the bits that are always written as a constant."""
+    if point.fixed is None or point.bits is not None:
+        return raw
+    pattern = (raw & ~point.fixed.mask | point.fixed.bits) & ((1 << point.width) - 1)
+    return pattern - (1 << point.width) if pattern > point.greatest else pattern
+
+
 def encode_checked(point: Point, value: Fraction, settings: Settings) -> int:
     """The raw number to write for a value. Raises CodecError."""
     if point.info.floating:
         pattern = _pattern_of(point, value)
         _check_units(point, pattern)
         return pattern
-    raw = encode(point, value, settings)
+    raw = with_fixed(point, encode(point, value, settings))
     check(point, raw, settings)
     return raw
 
@@ -99,6 +115,10 @@ def check(point: Point, raw: int, settings: Settings) -> None:
     if point.info.floating:
         _check_units(point, raw)
         return
+    if with_fixed(point, raw) != raw:
+        raise CodecError("out_of_range")
+    if point.digits is not None and not {entry.raw for entry in point.digits.enum.entries}.issuperset(digits(point, raw)):
+        raise CodecError("unknown_value")
     closed = point.enum is not None and point.enum.closed
     if point.least <= raw <= point.greatest:
         hits = [one for one in windows(point, settings) if one.low <= raw <= one.high]
@@ -107,6 +127,15 @@ def check(point: Point, raw: int, settings: Settings) -> None:
         if hits:
             raise CodecError("missing", (name for one in hits for name in one.missing))
     raise CodecError("unknown_value" if closed else "out_of_range")
+
+
+def digits(point: Point, raw: int) -> tuple[int, ...]:
+    """The decimal digits of a word, the highest first, which takes what is left."""
+    found = []
+    for place in reversed(range(0 if point.digits is None else point.digits.count)):
+        digit, raw = divmod(raw, 10**place)
+        found.append(digit)
+    return tuple(found)
 
 
 def windows(point: Point, settings: Settings) -> tuple[Window, ...]:
@@ -130,7 +159,7 @@ def float_of(point: Point, pattern: int) -> float:
     return number
 
 
-def _needed(name: str, settings: Settings) -> int:
+def _needed(name: str, settings: Settings) -> int | Fraction:
     if name not in settings:
         raise CodecError("missing", (name,))
     return settings[name]
@@ -155,7 +184,7 @@ def _factor(factor: Factor, settings: Settings) -> Fraction:
         return Fraction(number)
     if abs(number) > MOST_EXPONENT:
         raise CodecError("overflow", (factor.point,))
-    return Fraction(10) ** number
+    return Fraction(10) ** int(number)
 
 
 def _window(interval: Interval, settings: Settings) -> Window:

@@ -1,4 +1,4 @@
-"""A typed value into a raw number, and into the request that writes it. Raises RefusedError, UnclearError."""
+"""A typed value into a raw number. Raises RefusedError, UnclearError."""
 
 from __future__ import annotations
 
@@ -27,14 +27,15 @@ class Encoded:
     pattern: int
     text: str
     notes: tuple[str, ...]
+    words: int = 1
 
     def as_data(self) -> dict[str, object]:
         """The same for JSON."""
         return {
             "point": self.point,
             "code": self.code,
-            "raw": self.raw,
-            "hex": f"{self.pattern:X}",
+            "raw": self.raw if self.words <= 4 else None,
+            "hex": f"{self.pattern:0{4 * self.words if self.words > 4 else 1}X}",
             "text": self.text,
             "notes": list(self.notes),
         }
@@ -48,14 +49,8 @@ def encode_point(device: Device, point: Point, value: str, settings: Settings) -
     notes = () if typed.value is None else tuple(rounding_remarks(point, typed.value, raw, settings))
     meaning = meaning_of(device, point, raw, settings)
     text = line(f"{label(point)} = {meaning.text}: {raw_text(point, raw)}")
-    return Encoded(point.item, point.code, raw, raw & ((1 << point.width) - 1), text, notes)
-
-
-def frame_for(device: Device, point: Point, raw: int, unit: int | None, framing: str | None) -> bytes:
-    """The bytes of the request that writes a raw number."""
-    from fieldscribe.families.modbus.words import write_request
-
-    return write_request(device, point, raw, unit, framing)[1]
+    width = 16 * point.words if point.text is not None else point.width
+    return Encoded(point.item, point.code, raw, raw & ((1 << width) - 1), text, notes, point.words)
 
 
 def _refuse_unwritable(point: Point) -> None:

@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 import re
+from typing import TYPE_CHECKING
 
 from fieldscribe.text import line
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
 
 _BETWEEN = re.compile(r"[\s,;:|\-]+")
 _MARK = re.compile(r"0[xX]|\\x|[hH]'")
@@ -21,6 +25,13 @@ def parse_hex(text: str) -> bytes:
     if not pieces:
         raise HexError("there are no bytes")
     return b"".join(_piece(piece, place) for place, piece in enumerate(pieces, 1))
+
+
+def rejoined(words: Sequence[str], *sizes: int) -> list[str]:
+    """The frames that arguments are; when each is a single byte or word, somebody forgot the quotes."""
+    if len(words) > 2 and len({len(word.strip()) for word in words} - set(sizes)) == 0:
+        return [" ".join(words)]
+    return list(words)
 
 
 def spaced(data: bytes) -> str:

@@ -12,6 +12,8 @@ from fieldscribe.dialogue import codec
 from fieldscribe.dialogue.codec import CodecError, Settings
 from fieldscribe.dialogue.refusals import amount_with_unit, failure, refusal
 from fieldscribe.dialogue.selection import label
+from fieldscribe.dialogue.texts import shown, text_of
+from fieldscribe.dialogue.words import words_of
 from fieldscribe.text import line
 from fieldscribe.wording.exact import hex_text, number_text
 
@@ -34,6 +36,8 @@ class Meaning:
 
 def meaning_of(device: Device, point: Point, raw: int, settings: Settings) -> Meaning:
     """The meaning of a raw number; never fails: what cannot be said is said."""
+    if point.text is not None:
+        return Meaning(shown(text_of(raw, point.words)), text_of(raw, point.words))
     special = next((one for one in point.specials if one.low <= raw <= one.high), None)
     if special is not None:
         remark = ", no value" if special.no_value else ""
@@ -45,6 +49,8 @@ def meaning_of(device: Device, point: Point, raw: int, settings: Settings) -> Me
         return Meaning(line(wording.entry_text(entry).partition(" = ")[2]))
     if point.flags:
         return Meaning(_flags_text(point, raw))
+    if point.digits is not None:
+        return Meaning(_digits_text(point, raw))
     if point.type == "bit":
         return Meaning("on" if raw else "off")
     return _quantity(device, point, raw, settings)
@@ -82,6 +88,8 @@ def raw_text(point: Point, raw: int) -> str:
     """A raw number in both notations: `raw 500 = 01F4h`."""
     if point.type == "bit":
         return f"raw {raw}"
+    if point.text is not None:
+        return f"words {' '.join(f'{word:04X}h' for word in words_of(point, raw))}"
     digits = max(1, point.width + 3 >> 2)
     return f"raw {raw} = {hex_text(raw & ((1 << point.width) - 1), digits)}"
 
@@ -94,8 +102,8 @@ def _value(point: Point, raw: int, settings: Settings) -> Fraction | None:
 
 
 def _quantity(device: Device, point: Point, raw: int, settings: Settings) -> Meaning:
-    if not point.generated and point.scale is None and point.unit.symbol:
-        return Meaning(f"raw {raw}, {line(point.reason or 'its meaning is not settled')}")
+    if not point.generated and point.scale is None:
+        return Meaning(line(point.reason or "its meaning is not settled"))
     try:
         value = codec.decode(point, raw, settings)
     except CodecError as error:
@@ -125,9 +133,21 @@ def _shortest(point: Point, raw: int) -> str:
     return f"{Decimal(text):f}" if plain else text
 
 
+def _digits_text(point: Point, raw: int) -> str:
+    """The digits with their names, the highest first: `1 ms_200 (200 ms), 0 ms_100 (100 ms)`."""
+    entries = {} if point.digits is None else {entry.raw: entry for entry in point.digits.enum.entries}
+    parts = []
+    for digit in codec.digits(point, raw):
+        entry = entries.get(digit)
+        named = "without a name" if entry is None else entry.name
+        quantity = f" ({entry.quantity})" if entry is not None and entry.quantity else ""
+        parts.append(f"{digit} {named}{quantity}")
+    return line("digits " + ", ".join(parts))
+
+
 def _flags_text(point: Point, raw: int) -> str:
     true = [_flag_text(flag, raw) for flag in point.flags if flag.width > 1 or _is_true(flag, raw)]
-    false = [flag.name for flag in point.flags if flag.width == 1 and not _is_true(flag, raw)]
+    false = [_flag_text(flag, raw) for flag in point.flags if flag.width == 1 and not _is_true(flag, raw)]
     parts = [", ".join(true) if true else "none set"]
     if false:
         parts.append(f"not set: {', '.join(false)}")
@@ -143,8 +163,10 @@ def _is_true(flag: Flag, raw: int) -> bool:
 
 
 def _flag_text(flag: Flag, raw: int) -> str:
-    if flag.width == 1:
-        return flag.name
     number = raw >> flag.low & ((1 << flag.width) - 1)
-    name = next((entry.name for entry in flag.values if entry.raw == number), "")
-    return f"{flag.name} = {name or number}"
+    entry = next((one for one in flag.values if one.raw == number), None)
+    if flag.width > 1:
+        return f"{flag.name} = {entry.name if entry else number}"
+    if entry is not None and entry.title["en"].casefold().replace(" ", "_") != flag.name:
+        return f"{flag.name} ({entry.title['en']})"
+    return f"{flag.name} (its bit is {number})" if flag.active == 0 else flag.name

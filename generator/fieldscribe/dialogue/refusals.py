@@ -90,6 +90,11 @@ def _outside(device: Device, point: Point, value: Fraction | None, raw: int, set
         status = "unknown_value" if point.enum.closed else "out_of_range"
         beyond = "" if point.enum.closed else f"; raw {wording.raw_range_text(point)} may be written"
         return RefusedError(status, f"{label(point)} does not take {raw}", line(f"it has {known}{beyond}"))
+    if point.digits is not None and _has_strange_digit(point, raw):
+        known = ", ".join(f"{one.raw} {one.name}" for one in point.digits.enum.entries[:_MOST_NAMES])
+        return RefusedError("unknown_value", f"{label(point)} does not take {raw}", line(f"each digit is one of {known}"))
+    if codec.with_fixed(point, raw) != raw:
+        return RefusedError("out_of_range", f"{label(point)} does not take raw {raw}", wording.fixed_text(point))
     asked = amount_with_unit(point, value) if value is not None else f"raw {raw}"
     span = wording.range_text(point, points_by_name(device)) or wording.raw_range_text(point)
     if point.form in ("enum", "flags", "bit") or not span:
@@ -97,6 +102,12 @@ def _outside(device: Device, point: Point, value: Fraction | None, raw: int, set
     span = (_range_now(point, settings) if point.limit_arguments else "") or span
     nearest = _nearest(point, value, raw, settings)
     return RefusedError("out_of_range", f"{label(point)}: {asked} is outside {line(span)}", nearest)
+
+
+def _has_strange_digit(point: Point, raw: int) -> bool:
+    """Whether a digit of the word is none of the numbers that it may be."""
+    entries = () if point.digits is None else point.digits.enum.entries
+    return not {entry.raw for entry in entries}.issuperset(codec.digits(point, raw))
 
 
 def _range_now(point: Point, settings: Settings) -> str:

@@ -33,11 +33,18 @@ def choose_variants(device: Device, chosen: Iterable[str]) -> Device:
     return replace(device, points=points)
 
 
-def choose_point(device: Device, asked: str) -> Point:
-    """The one point that a code, name or address means."""
-    matches = find(device, asked)
+def choose_point(device: Device, asked: str, *, index: int | None = None, alike: bool = False) -> Point:
+    """The one point that a code, name or address means; with `alike` also one of variants that mean the same.
+
+    `index` chooses one element of an array.
+    """
+    matches = find(device, asked if index is None else f"{asked}[{index}]")
+    if index is not None and not matches:
+        elements = [str(match.point.index) for match in find(device, asked) if match.point.index is not None]
+        hint = f"it has {', '.join(dict.fromkeys(elements))}" if elements else ""
+        raise UnclearError(f"`{quoted(asked)}` has no element {index}", hint)
     points = list({match.point.item: match.point for match in matches}.values())
-    if len(points) == 1:
+    if len(points) == 1 or (alike and points and all(_same_meaning(one, points[0]) for one in points)):
         return points[0]
     if not points:
         raise UnclearError(f"{device.id} has no point `{quoted(asked)}`", did_you_mean(near(device, asked)))
@@ -46,6 +53,9 @@ def choose_point(device: Device, asked: str) -> Point:
         raise UnclearError(
             f"`{quoted(asked)}` differs between variants", "give " + " or ".join(f"--variant {one}" for one in variants)
         )
+    if len({point.code for point in points}) == 1 and all(point.index is not None for point in points):
+        elements = " or ".join(f"`{line(points[0].code or asked)}[{point.index}]`" for point in points[:8])
+        raise UnclearError(f"`{quoted(asked)}` has {len(points)} elements", f"write {elements}")
     readings = ", ".join(f"{match.reading}: {label(match.point)}" for match in matches[:8])
     raise UnclearError(
         f"`{quoted(asked)}` means several points: {readings}", "name one, or force one reading: wire:, modicon:, code:"
@@ -71,6 +81,12 @@ def quoted(text: str) -> str:
 def points_by_name(device: Device) -> Mapping[str, Point]:
     """The points as rules and limits refer to them."""
     return {point.name: point for point in device.points}
+
+
+def _same_meaning(one: Point, other: Point) -> bool:
+    """Whether points of one name differ in their place or limits only."""
+    facts = [(point.name, point.type, point.bits, point.unit, point.scale, point.enum) for point in (one, other)]
+    return facts[0] == facts[1]
 
 
 def _variant(device: Device, text: str) -> tuple[str, str]:

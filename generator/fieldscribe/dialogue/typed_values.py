@@ -5,17 +5,18 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 from difflib import get_close_matches
+from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from fieldscribe.dialogue import codec
 from fieldscribe.dialogue.codec import CodecError, Settings
 from fieldscribe.dialogue.refusals import refusal
+from fieldscribe.dialogue.texts import pattern_of_text
 from fieldscribe.dialogue.selection import UnclearError, choose_point, did_you_mean, label, quoted
 from fieldscribe.language.numbers import NumberError, parse_number
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
-    from fractions import Fraction
+    from collections.abc import Iterator
 
     from fieldscribe.model import Device, Flag, Point
 
@@ -33,9 +34,11 @@ class Typed:
 
 
 def read_value(point: Point, text: str) -> Typed:
-    """What the text means for the point. Raises UnclearError."""
+    """What the text means for the point. Raises UnclearError; RefusedError for characters that cannot be sent."""
+    if point.text is not None:
+        return Typed(None, pattern_of_text(point, text))
     text = text.strip()
-    raw = _flags(point, text) if point.flags else _named(point, text)
+    raw = _flags(point, text) if point.flags else _digits(point, text) if point.digits else _named(point, text)
     if raw is not None:
         return Typed(None, raw)
     try:
@@ -45,7 +48,7 @@ def read_value(point: Point, text: str) -> Typed:
         if names and not text[:1].isdigit():
             raise _unknown_name(point, text, names) from error
         raise UnclearError(error.message, error.hint) from error
-    if point.form not in ("enum", "flags", "bit"):
+    if point.form not in ("enum", "flags", "bit", "digits"):
         return Typed(number, 0)
     if number.denominator != 1:
         raise UnclearError(f"`{quoted(text)}` is not a whole number", f"{label(point)} takes names or raw numbers")
@@ -54,30 +57,36 @@ def read_value(point: Point, text: str) -> Typed:
 
 def encode_typed(device: Device, point: Point, typed: Typed, settings: Settings) -> int:
     """The raw number to write. Raises RefusedError, which says why not in words."""
+    if point.text is not None:
+        return typed.raw
+    raw = codec.with_fixed(point, typed.raw)
     try:
         if typed.value is not None:
             return codec.encode_checked(point, typed.value, settings)
-        codec.check(point, typed.raw, settings)
+        codec.check(point, raw, settings)
     except CodecError as error:
-        raise refusal(device, point, typed.value, typed.raw, (error, settings)) from error
-    return typed.raw
+        raise refusal(device, point, typed.value, raw, (error, settings)) from error
+    return raw
 
 
-def read_settings(device: Device, pairs: list[str]) -> dict[str, int]:
-    """Raw numbers by point name from texts such as `A004=50 Hz` or `A004.raw=50`. Raises UnclearError, RefusedError."""
-    settings: dict[str, int] = {}
+def read_settings(device: Device, pairs: list[str]) -> dict[str, int | Fraction]:
+    """What rules take of points, from texts such as `A004=50 Hz` or `A004.raw=50`. Raises UnclearError, RefusedError."""
+    settings: dict[str, int | Fraction] = {}
     for pair in pairs:
         name, equals, text = pair.partition("=")
         if not equals or not text.strip():
             raise UnclearError(f"`{quoted(pair)}` gives no value", "write --with POINT=VALUE")
         name = name.strip()
-        point = choose_point(device, name.removesuffix(".raw"))
-        settings[point.name] = _raw_of(device, point, text, settings, as_raw=name.endswith(".raw"))
+        point = choose_point(device, name.removesuffix(".raw"), alike=True)
+        raw = _raw_of(device, point, text, settings, as_raw=name.endswith(".raw"))
+        settings[point.name] = codec.setting_of(point, raw)
     return settings
 
 
-def _raw_of(device: Device, point: Point, text: str, settings: Mapping[str, int], *, as_raw: bool) -> int:
+def _raw_of(device: Device, point: Point, text: str, settings: Settings, *, as_raw: bool) -> int:
     """The raw number that another point holds; only the bits limit it: a device may hold what nobody may write."""
+    if point.text is not None:
+        raise UnclearError(f"{label(point)} is a text, and no rule takes one", "")
     typed = Typed(None, _whole(text)) if as_raw else read_value(point, text)
     try:
         raw = typed.raw if typed.value is None else codec.encode(point, typed.value, settings)
@@ -148,6 +157,24 @@ def _named(point: Point, text: str) -> int | None:
         if " ".join(name.casefold().split()) == wanted:
             return raw
     return _SWITCH.get(wanted) if point.width == 1 else None
+
+
+def _digits(point: Point, text: str) -> int | None:
+    """Names or numbers of all digits, the highest first, with commas between; None for the number of the whole word."""
+    parts = [part.strip() for part in text.split(",")]
+    if point.digits is None or (len(parts) == 1 and point.digits.count > 1):
+        return None
+    if len(parts) != point.digits.count:
+        raise UnclearError(f"{label(point)} has {point.digits.count} digits, here are {len(parts)}", "")
+    raw = 0
+    for part in parts:
+        named = (one.raw for one in point.digits.enum.entries if part.casefold() in (one.name, one.quantity))
+        digit = next(named, None)
+        digit = _whole(part) if digit is None else digit
+        if not 0 <= digit <= 9:
+            raise UnclearError(f"`{quoted(part)}` is no digit", "each is one of 0 to 9, or a name from the list")
+        raw = 10 * raw + digit
+    return raw
 
 
 def _unknown_name(point: Point, text: str, names: list[str]) -> UnclearError:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from fieldscribe import wording
 from fieldscribe.explain.lookup import Match, find, near
 from fieldscribe.explain.requests import read_text, write_text
+from fieldscribe.model import UNSETTLED_TYPE
 from fieldscribe.text import line
 from fieldscribe.wording.exact import hex_text, number_text
 
@@ -83,8 +84,8 @@ def _identity_rows(device: Device, point: Point) -> Iterator[Row]:
     group = next((one for one in device.groups if one.name == point.group), None)
     yield "Group", f"{point.group}: {wording.title_text(group.title)}" if group else point.group
     yield "Variant", point.variant or ""
-    where = "not printed in the manual" if point.address is None else wording.address_text(point.address)
-    yield "Wire address", f"{where}, space {point.space}"
+    where = "not printed in the manual" if point.address is None else _where(point)
+    yield "Wire address", f"{where}, space {point.space}" if point.telegram is None else where
     for key, printed in point.references.items():
         as_hex = f" ({hex_text(printed)})" if isinstance(printed, int) and printed <= 0x10000 else ""
         yield key.capitalize(), f"{printed}{as_hex}"
@@ -96,10 +97,24 @@ def _identity_rows(device: Device, point: Point) -> Iterator[Row]:
     yield "Access", wording.access_text(point.access)
 
 
+def _where(point: Point) -> str:
+    """The address, with the index or the telegram beside it."""
+    address = point.address or 0
+    if point.telegram is not None:
+        return f"word {address} of the telegram {point.telegram}, counted from 0"
+    first = point.addresses[0] if point.text is not None else address
+    index = "" if point.index is None else f", index {point.index}"
+    return f"{wording.address_text(first)}{index}"
+
+
 def _type_text(point: Point) -> str:
-    if point.type == "bit":
-        return "bit"
+    if point.reason == UNSETTLED_TYPE:
+        return "not settled by the manual"
+    if point.type == "bit" or point.text is not None:
+        return wording.type_text(point)
     kind = f"{_KINDS[point.type[0]]}, {point.width} bits"
+    if point.digits is not None:
+        return f"{wording.type_text(point)} ({kind})"
     if point.bits is None:
         return f"{point.type} ({kind})"
     return f"{wording.type_text(point)} of a shared word ({kind})"
@@ -109,13 +124,14 @@ def _meaning_rows(device: Device, point: Point) -> Iterator[Row]:
     by_name = {one.name: one for one in device.points}
     unit = point.unit
     yield "Unit", f"{unit.symbol} ({unit.name})" if unit.symbol else ""
-    yield "Scale", wording.scale_text(point)
+    yield "Scale", wording.scale_text(point, by_name)
     yield "Resolution", wording.resolution_text(point)
     yield "Range", "" if point.flags else wording.range_text(point, by_name)
     yield "Raw range", wording.raw_range_text(point)
     if point.default is not None:
         yield "Default", wording.with_unit(number_text(point.default), point)
     yield "Steps", wording.steps_text(point)
+    yield "Fixed bits", wording.fixed_text(point)
     scale, limits = point.scale_arguments, [one for one in point.limit_arguments if one not in point.scale_arguments]
     yield "Scale needs", _needs(scale)
     yield "Limits need", _needs(limits)
@@ -130,6 +146,9 @@ def _names_rows(point: Point) -> Iterator[Row]:
         yield "Names", "only these may be written" if point.enum.closed else "the range says what may be written"
         for entry in point.enum.entries:
             yield f"Raw {entry.raw}", wording.entry_text(entry).partition(" = ")[2]
+    if point.digits is not None:
+        for entry in point.digits.enum.entries:
+            yield f"Digit {entry.raw}", wording.entry_text(entry).partition(" = ")[2]
     for special in point.specials:
         numbers, _, meaning = wording.special_text(special).partition(" = ")
         yield f"Raw {numbers}", meaning
@@ -147,6 +166,7 @@ def _behaviour_rows(device: Device, point: Point) -> Iterator[Row]:
     yield "Changes", point.changes or ""
     yield "Record", point.record or ""
     yield "Set", "" if point.set is None else str(point.set)
+    yield "Changes with", ", ".join(point.changes_with)
     yield "Old names", ", ".join(point.was)
 
 

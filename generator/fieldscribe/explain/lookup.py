@@ -15,8 +15,12 @@ if TYPE_CHECKING:
     from fieldscribe.model import Device, Point
 
 _HEX = re.compile(r"0x([0-9a-f]+)|([0-9][0-9a-f]*)h|h'([0-9a-f]+)'?", re.IGNORECASE)
+_ELEMENT = re.compile(r"([^\[\]]+)\[([0-9]{1,5})\]")
 _DECIMAL = re.compile(r"[0-9]+")
 _LONGEST = 64
+_NOT_ALONE = frozenset({"mux", "word"})
+"""Numberings whose numbers name many points: they are read only when asked for."""
+
 _NEAR = 5
 
 
@@ -33,15 +37,20 @@ def find(device: Device, what: str) -> list[Match]:
     """Every point that `what` can mean, each reading labelled.
 
     `what` is a code, a name, or a number (`0x1028`, `1028h`, `H'1028`, `4136`) read as wire address and in each
-    numbering of the device. A prefix forces one reading: `code:`, `name:`, `wire:`, or a numbering such as `modicon:`.
+    numbering of the device; `[1]` behind it chooses one element of an array. A prefix forces one reading: `code:`,
+    `name:`, `wire:`, or a numbering such as `modicon:`.
     """
     forced, asked = _split(device, what.strip())
+    element = _ELEMENT.fullmatch(asked[:_LONGEST])
+    if element is not None:
+        matches = find(device, f"{forced}:{element[1]}" if forced else element[1])
+        return [one for one in matches if one.point.index == int(element[2])]
     found = [*_by_code(device, asked, forced), *_by_name(device, asked, forced)]
     number = number_of(asked)
     if number is not None and forced in (None, "wire"):
         found += _by_wire(device, number)
     for key in _numberings(device):
-        if forced in (None, key.lower()):
+        if forced == key.lower() or (forced is None and key not in _NOT_ALONE):
             found += _by_reference(device, key, asked, number)
     return found
 
@@ -106,20 +115,44 @@ def _by_wire(device: Device, number: int) -> Iterator[Match]:
         for place in point.places:
             if number in place.addresses:
                 purpose = "" if place is point.places[0] else f", to {place.purpose}"
-                yield Match(f"{reading}, {place.space}{purpose}", point, word_text(place.addresses, number))
+                told = f"{reading}, {place.space}{purpose}"
+                if point.telegram is not None:
+                    told = f"word {number} of the telegram {line(point.telegram)}"
+                elif point.index is not None:
+                    told += f", index {point.index}"
+                yield Match(told, point, word_text(place.addresses, number))
                 break
 
 
 def _by_reference(device: Device, key: str, asked: str, number: int | None) -> Iterator[Match]:
     """Points whose printed number, or that of one of their words (counted on from the lowest), is the one asked for."""
+    per_frame = _words_per_frame(device)
     for point in device.points:
         printed = point.references.get(key)
-        if isinstance(printed, int) and number is not None:
+        size = per_frame.get(point.telegram or "", 0)
+        if key in _NOT_ALONE and size:
+            yield from _in_frames(point, key, number, size)
+        elif isinstance(printed, int) and number is not None:
             if printed <= number < printed + max(1, len(point.addresses)):
                 lowest = point.address or 0
                 yield Match(f"{line(key)} {number}", point, word_text(point.addresses, lowest + number - printed))
         elif isinstance(printed, str) and printed.lower() == asked.lower():
             yield Match(f"{line(key)} {line(printed)}", point, "")
+
+
+def _words_per_frame(device: Device) -> dict[str, int]:
+    """How many words of each telegram one frame brings."""
+    words = {message.name: message.words for message in device.messages}
+    return {telegram.name: words.get(telegram.message or "", 0) for telegram in device.telegrams}
+
+
+def _in_frames(point: Point, key: str, number: int | None, size: int) -> Iterator[Match]:
+    """A point of a multiplexed telegram by the number of its frame, or of its word (from 1) in the frame."""
+    for address in point.addresses:
+        slot, word = divmod(address, size)
+        if number == (slot if key == "mux" else word + 1):
+            yield Match(f"{key} {number}", point, word_text(point.addresses, address))
+            return
 
 
 def word_text(addresses: tuple[int, ...], address: int) -> str:

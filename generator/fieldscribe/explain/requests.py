@@ -1,96 +1,20 @@
-"""How a point is read and written over Modbus, each with one request as an example."""
+"""How a point is read and written, as its family does it, each with an example."""
 
 from __future__ import annotations
 
-import struct
 from typing import TYPE_CHECKING
 
-from fieldscribe import wording
-from fieldscribe.families.modbus import SPACES, Request, build, profile_of
-from fieldscribe.wording.exact import fixed_rule, hex_text
+from fieldscribe.dialogue import dialogue_of
 
 if TYPE_CHECKING:
     from fieldscribe.model import Device, Point
 
 
 def read_text(device: Device, point: Point) -> str:
-    """How to read the point: function, count, and a request in hexadecimal; empty if it cannot be read."""
-    if not point.readable or not point.places:
-        return ""
-    place = point.places[0]
-    function = place.function or (SPACES[place.space].read if place.space in SPACES else None)
-    if function is None:
-        return ""
-    count = len(place.addresses)
-    items = "bit" if point.type == "bit" else "word"
-    how = f"function {hex_text(function, 2)}, {count} {items}{'' if count == 1 else 's'}"
-    return how + _example(device, function, min(place.addresses), count, ())
+    """How to read the point, with a request; empty if it cannot be read."""
+    return dialogue_of(device).read_text(device, point)
 
 
 def write_text(device: Device, point: Point) -> str:
     """How to write the point, with a request for one allowed number; empty if it cannot be written."""
-    place = next((one for one in point.places if one.purpose == "write"), point.places[0] if point.places else None)
-    space = SPACES.get(place.space) if place else None
-    if not point.writable or place is None or space is None:
-        return ""
-    count = len(place.addresses)
-    allowed = profile_of(device.bus).most
-    single = space.write_one if count == 1 and space.write_one in allowed else None
-    function = place.function or single or space.write_many
-    if function is None:
-        return ""
-    how = f"function {hex_text(function, 2)}"
-    if point.bits is not None:
-        return f"{how}; read the word first, replace the bits and write it back, for other points share the word"
-    raw = _sample_raw(point)
-    if raw is None:
-        return how
-    words = _words(point, raw, place.addresses)
-    return f"{how}; {_said(point, raw)}{_example(device, function, min(place.addresses), count, words)}"
-
-
-def _example(device: Device, function: int, address: int, count: int, values: tuple[int, ...]) -> str:
-    """A request to the first of unit 1 and the lowest unit that the device answers to."""
-    low, high = device.bus.units
-    unit = 1 if low <= 1 <= high else low
-    framing = device.bus.framings[0] if device.bus.framings else "rtu"
-    status, data = build(profile_of(device.bus), framing, Request(unit, function, address, count, values))
-    if status != "ok":
-        return (
-            " (the device does not allow this function)" if status == "bad_function" else f" (not possible: {status})"
-        )
-    return f"; request to unit {unit} ({framing}): {data.hex(' ').upper()}"
-
-
-def _sample_raw(point: Point) -> int | None:
-    """A raw number that may be written: the default, else the smallest: it moves a machine least when tried."""
-    if point.info.floating:
-        number = (
-            point.default if point.default is not None else point.allowed.units[0][0] if point.allowed.units else 0
-        )
-        kind = ("<f", "<I") if point.type == "f32" else ("<d", "<Q")
-        result: int = struct.unpack(kind[1], struct.pack(kind[0], float(number)))[0]
-        return result
-    rule = fixed_rule(point)
-    if rule is not None and point.default is not None:
-        raw = (point.default * rule[2] - rule[1]) / rule[0]
-        if raw.denominator == 1:
-            return int(raw)
-    ends = [end for one in point.allowed.intervals for end in (one.low, one.high) if isinstance(end, int)]
-    return min(ends, key=abs) if ends else None
-
-
-def _said(point: Point, raw: int) -> str:
-    if point.info.floating:
-        return f"for example the pattern {hex_text(raw, point.width // 4)}"
-    meaning = wording.meaning_text(point, raw)
-    return f"for example {meaning} is raw {raw}" if meaning else f"for example raw {raw}"
-
-
-def _words(point: Point, raw: int, addresses: tuple[int, ...]) -> tuple[int, ...]:
-    """The unsigned words in ascending order of their addresses."""
-    if point.type == "bit":
-        return (raw,)
-    pattern, count = raw & ((1 << 16 * len(addresses)) - 1), len(addresses)
-    words = [pattern >> 16 * (count - 1 - place) & 0xFFFF for place in range(count)]
-    return tuple(word for _, word in sorted(zip(addresses, words, strict=True)))
+    return dialogue_of(device).write_text(device, point)

@@ -8,10 +8,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.export.points import export_point, source_of
+from fieldscribe.export.uss import uss_places
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from fieldscribe.export.rules import PointsByName
-    from fieldscribe.model import Bus, Code, Command, Device, Document, Erratum, Frame
+    from fieldscribe.model import Bus, Code, Command, Device, Document, Erratum, Frame, Message, Point, Telegram
 
 FORMAT = 1
 """The number of this contract."""
@@ -20,6 +23,7 @@ FORMAT = 1
 def export_model(device: Device) -> dict[str, object]:
     """The device as plain dictionaries, lists, texts and integers, ready for `json.dumps`. Raises ExportError."""
     by_name: PointsByName = {point.name: point for point in device.points}
+    directions = {telegram.name: telegram.direction for telegram in device.telegrams}
     return {
         "format": FORMAT,
         "device": device.id,
@@ -28,14 +32,20 @@ def export_model(device: Device) -> dict[str, object]:
         "documents": [_document(one) for one in device.documents],
         "variants": {axis: list(values) for axis, values in device.variants.items()},
         "limits": _limits(device.bus),
-        "points": [export_point(point, by_name) for point in device.points],
+        "points": [_point(device, point, by_name, directions) for point in device.points],
         "commands": [_command(one) for one in device.commands],
-        "messages": [],
-        "telegrams": [],
+        "messages": [_message(one) for one in device.messages],
+        "telegrams": [_telegram(one) for one in device.telegrams],
         "frames": [_frame(one) for one in device.frames],
         "codes": _codes(device.bus),
         "errata": [_erratum(one) for one in device.errata],
     }
+
+
+def _point(device: Device, point: Point, by_name: PointsByName, directions: Mapping[str, str]) -> dict[str, object]:
+    direction = None if point.telegram is None else directions.get(point.telegram)
+    places = uss_places(device.bus, point) if device.family == "uss" else None
+    return export_point(point, by_name, direction, places)
 
 
 def _document(document: Document) -> dict[str, object]:
@@ -57,6 +67,10 @@ def _limits(bus: Bus) -> dict[str, object]:
         "gaps": {space: [list(gap) for gap in gaps] for space, gaps in bus.gaps.items()},
         "pad_coil_bytes": bus.pad_coil_bytes,
         "timing": dict(bus.timing),
+        "pkw": list(bus.pkw),
+        "pzd": list(bus.pzd),
+        "bitrate": bus.bitrate,
+        "identifier_bits": bus.identifier_bits,
     }
 
 
@@ -74,6 +88,30 @@ def _command(command: Command) -> dict[str, object]:
     }
 
 
+def _message(message: Message) -> dict[str, object]:
+    return {
+        "name": message.name,
+        "title": dict(message.title),
+        "direction": message.direction,
+        "answers": message.answers,
+        "can_id": message.can_id,
+        "adds_unit": message.adds_unit,
+        "layout": [{"holds": role.kind, "number": role.number} for role in message.roles],
+        "source": source_of(message.source),
+    }
+
+
+def _telegram(telegram: Telegram) -> dict[str, object]:
+    return {
+        "name": telegram.name,
+        "title": dict(telegram.title),
+        "direction": telegram.direction,
+        "words": telegram.words,
+        "message": telegram.message,
+        "source": source_of(telegram.source),
+    }
+
+
 def _frame(frame: Frame) -> dict[str, object]:
     return {
         "name": frame.name,
@@ -88,12 +126,18 @@ def _codes(bus: Bus) -> dict[str, object]:
     return {
         "exceptions": {str(one.number): _code(one) for one in bus.exceptions},
         "functions": {str(one.number): _code(one) for one in bus.functions},
+        "responses": {str(one.number): _code(one) for one in bus.responses},
         "serial": {setting: dict(codes) for setting, codes in bus.serial.items()},
     }
 
 
 def _code(code: Code) -> dict[str, object]:
-    return {"name": code.name, "title": dict(code.title)}
+    return {
+        "name": code.name,
+        "title": dict(code.title),
+        "answers": list(code.answers),
+        "refusals": list(code.refusals),
+    }
 
 
 def _erratum(erratum: Erratum) -> dict[str, object]:

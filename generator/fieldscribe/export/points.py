@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.export.rules import PointsByName, bound_of, scale_of
+from fieldscribe.model import UNSETTLED_TYPE
 from fieldscribe.wording.exact import fixed_rule, number_text
 
 if TYPE_CHECKING:
@@ -14,21 +15,26 @@ _MOST_VALUES = 4096
 """A longer list of single numbers is said as ranges alone."""
 
 
-def export_point(point: Point, by_name: PointsByName) -> dict[str, object]:
-    """All facts of a point, in the order of the contract; what the model does not hold yet is null or empty."""
+def export_point(
+    point: Point, by_name: PointsByName, direction: str | None = None, places: tuple[Place, ...] | None = None
+) -> dict[str, object]:
+    """All facts of a point, in the order of the contract; what the model does not hold yet is null or empty.
+
+    `direction` is that of its telegram; `places` stand in place of its own where the family has more of them.
+    """
     return {
         "name": point.name,
         "code": point.code,
         "group": point.group,
         "space": point.space,
-        "telegram": None,
-        "direction": None,
+        "telegram": point.telegram,
+        "direction": direction,
         "address": point.address,
-        "index": None,
+        "index": point.index,
         "addresses": list(point.addresses),
         "references": dict(point.references),
-        "places": [_place(one) for one in point.places],
-        "type": point.type,
+        "places": [_place(one) for one in places or point.places],
+        "type": None if point.reason == UNSETTLED_TYPE else point.type,
         "words": point.words,
         "access": point.access,
         "bits": None if point.bits is None else list(point.bits),
@@ -38,22 +44,22 @@ def export_point(point: Point, by_name: PointsByName) -> dict[str, object]:
         "until": point.until,
         "record": point.record,
         "set": point.set,
-        "repeat": None,
+        "repeat": _repeat(point),
         "format": None,
         "unit": point.unit.symbol,
         "default": _default(point),
         "step": [{"from": start, "step": step} for start, step in point.steps] or None,
         "special": dict(map(_special, point.specials)),
-        "fixed": {},
+        "fixed": {} if point.fixed is None else {"mask": point.fixed.mask, "bits": point.fixed.bits},
         "changes": point.changes,
         "together": None,
         "scale": scale_of(point, by_name),
         "raw": _raw(point),
-        "enum": None if point.enum is None else {str(one.raw): _entry(one) for one in point.enum.entries},
+        "enum": None if point.enum is None else _names(point.enum),
         "open": _is_open(point.enum),
         "flags": [_flag(one) for one in point.flags],
-        "digits": None,
-        "encoding": None,
+        "digits": None if point.digits is None else {"count": point.digits.count, "enum": _names(point.digits.enum)},
+        "encoding": None if point.text is None else point.text.encoding,
         "persistence": point.keeps,
         "conditions": list(point.conditions),
         "title": dict(point.title),
@@ -111,6 +117,18 @@ def _values(allowed: Allowed) -> list[int] | None:
 
 def _is_open(enum: Enum | None) -> bool:
     return enum is not None and not enum.closed
+
+
+def _repeat(point: Point) -> str | None:
+    """The name of the row that stands for this point and others: its name without set and index."""
+    name = point.name
+    for word, number in (("index", point.index), ("set", point.set)):
+        name = name.removesuffix(f"_{word}_{number}")
+    return None if name == point.name else name
+
+
+def _names(enum: Enum) -> dict[str, object]:
+    return {str(one.raw): _entry(one) for one in enum.entries}
 
 
 def _entry(entry: Entry) -> dict[str, object]:

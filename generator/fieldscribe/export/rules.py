@@ -55,6 +55,8 @@ def use_of(factor: Factor, point: Point) -> tuple[Fraction, list[dict[str, objec
     """
     if factor.ten_to:
         return _power_of_ten(factor, point)
+    if point.info.floating:
+        return Fraction(1), [_use(factor, "value", "power", factor.power)]
     if factor.slope == 1 and factor.intercept == 0:
         return Fraction(1), [_use(factor, "raw", "power", factor.power)]
     multiple = value_multiple(factor, point)

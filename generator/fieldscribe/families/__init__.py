@@ -15,8 +15,18 @@ class Family:
 
     spaces: Mapping[str, str]
     last_address: int
+    indexed: frozenset[str] = frozenset()
+    """The spaces where an address has an index beside it."""
+    single: frozenset[str] = frozenset()
+    """The spaces whose words travel one by one, so that no number may take two."""
+
+    def widest(self, space: str) -> int:
+        """The most bits of a number in the space."""
+        return 16 if space in self.single else 64
 
 
 FAMILIES: Mapping[str, Family] = {
     "modbus": Family({"coil": "bit", "discrete": "bit", "holding": "word", "input": "word"}, 0xFFFF),
+    "can": Family({"parameter": "word", "telegram": "word"}, 0xFFFF, single=frozenset({"parameter"})),
+    "uss": Family({"parameter": "word", "telegram": "word"}, 31999, frozenset({"parameter"})),
 }

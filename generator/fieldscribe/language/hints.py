@@ -22,6 +22,13 @@ _FORMS = {
     "^[-+0-9H].*$": ("a number", "keys here are numbers such as 3, -1, 1Fh or 0FFh (with a digit first)"),
     "^([2-9]|[1-9][0-9]{1,2})$": ("the number of a set", "keys here are the numbers of the further sets, from 2 on"),
     "^[0-9]{1,2}(\\.\\.[0-9]{1,2})?$": ("a bit or bits", "bits are written 3, several bits 5..4"),
+    "^[0-9]{1,5}(/[0-9]{1,5})?$": (
+        "an element",
+        "keys here are indices (sets where there are none), or set/index: 0, 3, 2/1",
+    ),
+    "^[0-7](\\.\\.[0-7])?$": ("a byte or bytes", "the bytes of a message are written 0, several bytes 2..3, up to 7"),
+    "^[0-9]{1,9}(\\.\\.[0-9]{1,9})?$": ("a line or lines", "lines are written 780, several lines 780..790"),
+    "^[-+0-9A-Fa-fH].*$": ("a number", "keys here are raw numbers such as 100, -1 or FF9Eh"),
     "^[a-z]{2}$": ("a language", "languages have two letters: en, de, fr"),
     "^x-": ("a private key", "keys of your own start with x-"),
     "^[0-9]+\\.[0-9]+\\.[0-9]+$": ("a version", "write three numbers: 1.0.0"),

@@ -15,17 +15,25 @@ _TITLES = {
     "group": "A group",
     "point": "A point",
     "set": "A point in a further set, under `sets`",
+    "element": "A point in one element of an array, under `each`",
     "variant_facts": "A point in a variant, under `variants`",
     "member": "A member of a record, under `members`",
     "format": "A format, under `formats`",
+    "at": "An address by rule, under `at`",
+    "fixed": "Fixed bits, under `fixed`",
+    "digits": "Decimal digits, under `digits`",
     "record": "A record, under `records`",
     "scale_case": "A case of a scale",
     "entry": "An entry of an enum, or a special code",
     "flag": "A flag",
     "printed": "What is printed twice, under `printed`",
     "source": "A source",
+    "lines": "Where single facts stand, under `lines`",
+    "looked_through": "Lines that hold nothing, under `looked_through`",
     "bus": "The bus",
-    "code_entry": "A function or an exception",
+    "code_entry": "A function, a response or an exception",
+    "telegram": "A telegram",
+    "message": "A message",
     "command": "A command",
     "frame": "A frame",
     "erratum": "An erratum",
@@ -33,10 +41,13 @@ _TITLES = {
 _FORMS = {
     "^[a-z][a-z0-9]*(_[a-z0-9]+)*$": "<name>",
     "^[-+0-9H].*$": "<number>",
+    "^[-+0-9A-Fa-fH].*$": "<number>",
     "^[a-z]{2}$": "<language>",
     "^x-": "x-<anything>",
     "^[0-9]{1,2}(\\.\\.[0-9]{1,2})?$": "<bits>",
     "^([2-9]|[1-9][0-9]{1,2})$": "<set>",
+    "^[0-9]{1,5}(/[0-9]{1,5})?$": "<index>",
+    "^[0-7](\\.\\.[0-7])?$": "<bytes>",
     "^[a-z][a-z0-9_]*=[A-Za-z0-9_]+$": "<axis=value>",
     "^[A-Za-z0-9]+(_[A-Za-z0-9]+)*$": "<value>",
 }
@@ -80,7 +91,7 @@ def _rows(node: Mapping[str, Any], definitions: Mapping[str, Any], prefix: str =
 
 def _type(node: Mapping[str, Any]) -> str:
     if "enum" in node:
-        return ", ".join(f"`{one}`" for one in node["enum"])
+        return ", ".join("`~`" if one is None else f"`{one}`" for one in node["enum"])
     types = node.get("type", [])
     named = [_TYPES.get(one, one) for one in ([types] if isinstance(types, str) else types)]
     return ", ".join(one for one in named if one != "whole number" or "number" not in named)

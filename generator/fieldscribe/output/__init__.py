@@ -38,20 +38,27 @@ class Changes:
         return sorted([*self.write, *self.remove])
 
 
-def compare(out: Path, device: str, files: Mapping[str, Mapping[str, bytes]]) -> Changes:
-    """What writing these files (by target and path) for a device would change. Raises UnsafePathError."""
+def compare(out: Path, device: str, target: str, files: Mapping[str, bytes]) -> Changes:
+    """What writing these files of one target of a device would change. Raises UnsafePathError."""
+    changes = _compared(out, files)
+    changes.remove = sorted(_left_over(out, device, target, files))
+    return changes
+
+
+def settle_manifest(out: Path, device: str, made: Mapping[str, list[str]]) -> Changes:
+    """What writing the device's manifest would change, now that these files of some targets are made."""
+    merged = {**read_manifest(out, device), **made}
+    return _compared(out, {f"{MANIFESTS}/{device}.json": _manifest_text(device, merged).encode()})
+
+
+def _compared(out: Path, files: Mapping[str, bytes]) -> Changes:
     changes = Changes()
-    known = read_manifest(out, device)
-    wanted = {path: data for made in files.values() for path, data in made.items()}
-    merged = {**known, **{name: sorted(made) for name, made in files.items()}}
-    wanted[f"{MANIFESTS}/{device}.json"] = _manifest_text(device, merged).encode()
-    for path, data in wanted.items():
+    for path, data in files.items():
         place = _inside(out, path)
         if _holds(place, data):
             changes.unchanged.append(path)
         else:
             changes.write[path] = data
-    changes.remove = sorted(_left_over(out, device, known, files, wanted))
     return changes
 
 
@@ -78,11 +85,11 @@ def _manifest_text(device: str, targets: Mapping[str, list[str]]) -> str:
     return json.dumps(document, indent=2) + "\n"
 
 
-def _left_over(
-    out: Path, device: str, known: Mapping[str, list[str]], files: Mapping[str, object], wanted: Mapping[str, bytes]
-) -> Iterable[str]:
-    """Files that an earlier run wrote for these targets, that nobody wants now and no other device shares."""
-    candidates = {path for target in files for path in known.get(target, ()) if path not in wanted}
+def _left_over(out: Path, device: str, target: str, files: Mapping[str, object]) -> Iterable[str]:
+    """Files that an earlier run wrote for this target, that nobody wants now and no other target or device shares."""
+    known = read_manifest(out, device)
+    same = {path for name, paths in known.items() if name != target for path in paths}
+    candidates = {path for path in known.get(target, ()) if path not in files and path not in same}
     if not candidates:
         return []
     others = [path.stem for path in (out / MANIFESTS).glob("*.json") if path.stem != device]

@@ -1,4 +1,4 @@
-"""Where a point is: its address on the wire, its words in order, and the numbers that the manual prints for people."""
+"""Where a point is: its words on the wire in order, and the numbers that the manual prints for people."""
 
 from __future__ import annotations
 
@@ -6,56 +6,145 @@ import re
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from fieldscribe.language.formula import FormulaError, evaluate, parse_expression
-from fieldscribe.language.formula.syntax import names
 from fieldscribe.language.nodes import Map
 from fieldscribe.model import TYPES, Place
-from fieldscribe.resolve.values import formula_finding, formula_value, integer
+from fieldscribe.resolve.numbering import Numberings
+from fieldscribe.resolve.telegrams import SPACE, Telegrams, telegram_of
+from fieldscribe.resolve.values import formula_value, integer
 from fieldscribe.wording.exact import number_text
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from fieldscribe.diagnostics import Span
     from fieldscribe.resolve.drafts import Draft
     from fieldscribe.resolve.scope import Scope
 
 _FORMULA = re.compile(r"[A-Za-z0-9_)]\s*[-+*/]|\(|\bbase\b")
-
-WIRE = "wire"
-"""The name of the address on the wire in formulas of `numbering`."""
+_MOST_WORDS = 125
+_ACCESS = {"request": "w", "response": "r", "cyclic": "r"}
+_VERBS = {"w": "written", "r": "read"}
 
 
 class Places:
     """The addressing of one device."""
 
-    def __init__(self, scope: Scope) -> None:
+    def __init__(self, scope: Scope, telegrams: Telegrams) -> None:
         self.scope = scope
         self.report = scope.report
-        self.last = scope.family.last_address
+        self.telegrams = telegrams
         bus = scope.bus
-        self.words = None if bus is None else bus.get("words")
-        self._numberings: dict[int, Mapping[str, tuple[int, int] | None]] = {}
+        self.order = None if bus is None else bus.get("words")
+        self._numberings = Numberings(scope.report)
 
-    def address(self, draft: Draft) -> int | None:
-        """The number on the wire; None if the manual prints none, or after a finding."""
+    def place(self, draft: Draft, space: str, type_name: str, bits: tuple[int, int] | None) -> Place | None:
+        """The words of a point, the one with the high part (of a text: the first characters) first.
+
+        None if the manual prints no address, or after a finding.
+        """
+        last = self._last(draft, space)
+        found = self._text_words(draft, last) if type_name == "text" else self._words(draft, space, type_name, bits)
+        if found is None or last is None:
+            return None
+        for address in (found[0], found[-1]):
+            if not 0 <= address <= last:
+                self._outside(draft, space, address, last, single=address == found[0])
+                return None
+        order = "high first" if type_name == "text" else draft.get("words") or self._order(type_name)
+        purpose = "write" if self.access(draft, space) == "w" else "read"
+        return Place(purpose, space, found[::-1] if order == "low first" else found, None)
+
+    def access(self, draft: Draft, space: str) -> str:
+        """What a master may do: said, or what the direction of the telegram says, or both."""
+        found = self.telegrams.get(draft.group.get("telegram", "")) if space == SPACE else None
+        usual = "rw" if found is None else _ACCESS[found[0].direction]
+        said = str(draft.get("access", usual))
+        if found is not None and not set(said) <= set(usual) and said != "none":
+            message = f"a word of the telegram `{found[0].name}` is {_VERBS[usual]} only"
+            self.report.error(
+                "wrong-choice", message, draft.span("access"), f"write `access: {usual}`, or leave it out"
+            )
+            return usual
+        return said
+
+    def references(self, draft: Draft, address: int | None) -> Mapping[str, int]:
+        """The printed numbers that follow from the address, by numbering; in a multiplexed telegram `mux`, `word`."""
+        if address is None:
+            return {}
+        numbering: Map | None = draft.group.get("numbering")
+        found = {} if numbering is None else dict(self._numberings.numbers(numbering, address))
+        carried = self.carried(draft)
+        if carried:
+            found = {"mux": address // carried, "word": address % carried + 1, **found}
+        return found
+
+    def carried(self, draft: Draft) -> int:
+        """How many words of the point's telegram one of its frames carries; 0 if it is in no multiplexed telegram."""
+        if draft.get("space") != SPACE:
+            return 0
+        found = self.telegrams.get(draft.group.get("telegram", ""))
+        return 0 if found is None else found[1]
+
+    def _last(self, draft: Draft, space: str) -> int | None:
+        """The last address of the space, of a telegram its last word; None after a finding."""
+        if space != SPACE:
+            return self.scope.family.last_address
+        telegram = telegram_of(self.scope, self.telegrams, draft)
+        return None if telegram is None else telegram[0].words - 1
+
+    def _words(self, draft: Draft, space: str, type_name: str, bits: tuple[int, int] | None) -> tuple[int, ...] | None:
+        first = self._address(draft)
+        if first is None:
+            return None
+        alone = bits is not None or space in self.scope.family.indexed  # there a number names values of any width
+        return tuple(range(first, first + (1 if alone else max(1, TYPES[type_name].bits // 16))))
+
+    def _text_words(self, draft: Draft, last: int | None) -> tuple[int, ...] | None:
+        """The words of a text in reading order, which may run down: `739..732`, or the first word alone."""
+        raw = self._said(draft)
+        characters: int | None = draft.get("characters")
+        if raw is None or characters is None:
+            return None
+        first_text, dots, last_text = str(raw).partition("..") if isinstance(raw, str) else ("", "", "")
+        first = self._number(draft, first_text.strip()) if dots else self._address(draft)
+        final = self._number(draft, last_text.strip()) if dots else None
+        if first is None or (dots and final is None):
+            return None
+        if final is None:
+            return tuple(range(first, first + characters // 2))
+        step = 1 if first <= final else -1
+        if abs(final - first) >= (_MOST_WORDS if last is None else last + 1):
+            self._outside(draft, str(draft.get("space")), max(first, final), last or _MOST_WORDS, single=True)
+            return None
+        found = tuple(range(first, final + step, step))
+        if 2 * len(found) != characters:
+            message = f"{len(found)} words hold {2 * len(found)} characters, not {characters}"
+            hint = "two characters stand in a word: correct `at` or `characters`"
+            self.report.error("text-length", message, draft.span("at"), hint)
+            return None
+        return found
+
+    def _said(self, draft: Draft) -> object:
+        """What the point says under `at`; None if the manual prints no address, or after a finding."""
         layer = draft.layer("at")
         if layer is None:
             if "at" not in draft.failed:
                 hint = "add `at: …`, or `at: ~` if the manual prints none"
                 self.report.error("missing-key", f"`{draft.name}` says no address", draft.span(), hint)
             return None
-        raw = layer["at"]
-        if raw is None or (draft.use is not None and draft.use.get("at", 0) is None):
-            return None
-        address = raw if isinstance(raw, int) else self._computed(draft, str(raw))
-        if address is None or 0 <= address <= self.last:
-            return address
-        message = f"the address {address} lies outside 0..{self.last}"
-        hint = "`at` is the number on the wire; the numbers for people (40001) go under `printed`"
-        self.report.error("address-outside-space", message, draft.span("at"), hint)
-        return None
+        return None if draft.use is not None and draft.use.get("at", 0) is None else layer["at"]
 
-    def _computed(self, draft: Draft, text: str) -> int | None:
+    def _address(self, draft: Draft) -> int | None:
+        """The number on the wire; None if the manual prints none, or after a finding."""
+        raw = self._said(draft)
+        if raw is None:
+            return None
+        if isinstance(raw, Map):
+            return self._by_rule(draft, raw)
+        return raw if isinstance(raw, int) else self._number(draft, str(raw))
+
+    def _number(self, draft: Draft, text: str) -> int | None:
+        """A number, or a formula of `base`."""
         span = draft.span("at")
         if _FORMULA.search(text) is None:
             return integer(text, span, self.report)
@@ -63,7 +152,33 @@ class Places:
         if base is None:
             return None
         known = "`base` is where a record is used: it is known in the points of a record only" if not base else ""
-        exact = formula_value(text, base, span, self.report, known)
+        return self._whole(text, base, span, known)
+
+    def _by_rule(self, draft: Draft, raw: Map) -> int | None:
+        """The address of one element by the group's rule; without a rule it is the number."""
+        element = draft.element
+        if element is None or element.at is not raw:
+            message = "an address by rule belongs to the point itself"
+            hint = "write the number on the wire, or give the point its own row"
+            self.report.error("bad-number", message, draft.span("at"), hint)
+            return None
+        group = draft.group
+        rule: str | None = group.get("addressing")
+        if rule is not None:
+            known = "a rule knows number, index, set, sets and indices"
+            return self._whole(rule, element.values, group.span("addressing"), known)
+        indexed = draft.get("space") in self.scope.family.indexed
+        if (element.set_number is not None or (element.index is not None and not indexed)) and (
+            "addressing" not in group.broken
+        ):
+            message = "nothing says how the address follows from the number, the set and the index"
+            hint = "add `addressing: …` to the group, such as `number * 64 + (index - 1) * sets + (set - 1)`"
+            self.report.error("missing-key", message, draft.span("at"), hint)
+            return None
+        return element.number
+
+    def _whole(self, text: str, known: Mapping[str, Fraction], span: Span, unknown: str) -> int | None:
+        exact = formula_value(text, known, span, self.report, unknown)
         if exact is None:
             return None
         if exact.denominator != 1:
@@ -82,71 +197,27 @@ class Places:
                 hint = "add `at: …`, or `at: ~` if the manual prints none"
                 self.report.error("missing-key", "the record stands at no address", use.span("name"), hint)
             return None
+        if isinstance(use["at"], Map):
+            message = "a record stands at one number on the wire"
+            self.report.error("bad-number", message, use.span("at"), "use the record once for each number")
+            return None
         base = integer(use["at"], use.span("at"), self.report)
         return None if base is None else {"base": Fraction(base)}
 
-    def place(self, draft: Draft, space: str, type_name: str, bits: tuple[int, int] | None, address: int) -> Place:
-        """The words of a point, the one with the high part first."""
-        count = 1 if bits else max(1, TYPES[type_name].bits // 16)
-        words = (address,) if count == 1 else tuple(range(address, address + count))
-        if words[-1] > self.last:
-            message = f"the last word of `{draft.name}` lies outside 0..{self.last}"
-            self.report.error("address-outside-space", message, draft.span("at"), "check the address and the type")
-        order = draft.get("words") or self._order(type_name)
-        purpose = "write" if draft.get("access") == "w" else "read"
-        return Place(purpose, space, words[::-1] if order == "low first" else words, None)
+    def _outside(self, draft: Draft, space: str, address: int, last: int, *, single: bool) -> None:
+        """A finding for a word that its space or telegram does not have."""
+        if space == SPACE:
+            message = f"word {address} lies outside the telegram, whose words are 0..{last}"
+            hint = "`at` counts the words of the whole telegram from 0; correct it, or `words` of the telegram"
+        elif single:
+            message = f"the address {address} lies outside 0..{last}"
+            hint = "`at` is the number on the wire; the numbers for people (40001) go under `printed`"
+        else:
+            message = f"the last word of `{draft.name}` lies outside 0..{last}"
+            hint = "check the address and the type"
+        self.report.error("address-outside-space", message, draft.span("at"), hint)
 
     def _order(self, type_name: str) -> str:
-        if isinstance(self.words, Map):
-            return str(self.words.get(type_name, "high first"))
-        return str(self.words or "high first")
-
-    def references(self, draft: Draft, address: int | None) -> Mapping[str, int]:
-        """The printed numbers that follow from the address, by numbering."""
-        numbering: Map | None = draft.group.get("numbering")
-        if address is None or numbering is None:
-            return {}
-        key = id(numbering)
-        if key not in self._numberings:
-            self._numberings[key] = self._numbering(numbering)
-        return {name: address * rule[0] + rule[1] for name, rule in self._numberings[key].items() if rule is not None}
-
-    def _numbering(self, numbering: Map) -> Mapping[str, tuple[int, int] | None]:
-        """Each numbering as (slope, offset) of the address; None after a finding."""
-        rules: dict[str, tuple[int, int] | None] = {WIRE: (1, 0)}
-        for name, text in numbering.items():
-            if name == WIRE:
-                hint = "`wire` is the address itself: choose another name"
-                self.report.error(
-                    "duplicate-name", "a numbering cannot be called `wire`", numbering.key_span(name), hint
-                )
-                continue
-            rules[name] = self._rule(numbering, name, text, rules)
-        del rules[WIRE]
-        return rules
-
-    def _rule(
-        self, numbering: Map, name: str, text: str, known: Mapping[str, tuple[int, int] | None]
-    ) -> tuple[int, int] | None:
-        span = numbering.span(name)
-        try:
-            expression = parse_expression(text)
-            if any(known.get(used.name, 0) is None for used in names(expression)):
-                return None  # the finding stands where that numbering does
-            at = [
-                evaluate(expression, {one: Fraction(rule[0] * wire + rule[1]) for one, rule in known.items() if rule})
-                for wire in (0, 1, 2, 0xFFFF)
-            ]
-        except FormulaError as error:
-            formula_finding(error, span, self.report)
-            return None
-        slope, offset = at[1] - at[0], at[0]
-        if (
-            slope.denominator != 1
-            or offset.denominator != 1
-            or (at[2], at[3]) != (2 * slope + offset, 0xFFFF * slope + offset)
-        ):
-            message = f"`{name}` is not a whole number at every address"
-            self.report.error("bad-formula", message, span, "write it as `wire + 1` or `40000 + wire`")
-            return None
-        return slope.numerator, offset.numerator
+        if isinstance(self.order, Map):
+            return str(self.order.get(type_name, "high first"))
+        return str(self.order or "high first")

@@ -32,6 +32,8 @@ class Ranges:
         """What may be written to the point: its range, else its enum's numbers, else all that the type holds."""
         if draft.floating:
             return Allowed((), False, self._units(draft))
+        if draft.text:
+            return Allowed((), False, ())
         least, greatest = self.bounds.holds[draft]
         whole = Allowed((Interval(least, greatest),), False, ())
         for key in ("range", "range_in_units"):

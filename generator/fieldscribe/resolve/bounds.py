@@ -108,7 +108,21 @@ class Bounds:
             results = {min(products), max(products)}
         return sorted(one + rule.offset for one in results)
 
+    def float_range(self, factor: Factor) -> tuple[Fraction, Fraction] | None:
+        """The outer limits of a floating-point factor; None where its point gives none."""
+        draft = self.scales.index.by_item(factor.point)
+        if draft.layer("range_in_units") is None:
+            return None
+        try:
+            found = constant_range(as_text(draft.get("range_in_units")))
+        except FormulaError:
+            return None
+        return (min(low for low, _ in found), max(high for _, high in found)) if found else None
+
     def _factor_ends(self, factor: Factor) -> set[Fraction]:
+        if self.scales.index.by_item(factor.point).floating:
+            ends = set(self.float_range(factor) or ())
+            return {end**factor.power for end in ends if end} or {Fraction(1)}
         low, high = self.ends_of(factor)
         if factor.ten_to:
             exponents = {max(-MOST_EXPONENT, min(MOST_EXPONENT, end)) for end in (low, high)}
@@ -138,6 +152,11 @@ class Bounds:
         if cases is None:
             return limit
         scale = cases[0].rule
+        if self.scales.floats(scale):
+            message = "limits in units cannot be computed from a floating-point number"
+            hint = "give the limits as raw numbers under `range`"
+            self.scales.scope.report.error("bad-formula", message, span, hint)
+            raise UnknownError
         if len(cases) > 1 or (limit.factors and limit.offset):
             message = "limits in units need one rule, and no sum of points and numbers"
             hint = "give the limits as raw numbers under `range`"
@@ -177,7 +196,7 @@ class Bounds:
     def _computed_end(self, draft: Draft, end: int) -> int:
         key = "range" if draft.layer("range") is not None else "range_in_units"
         least, greatest = self.holds[draft]
-        if draft.layer(key) is None or draft.floating:
+        if draft.layer(key) is None or draft.floating or draft.text:
             return self.holds[draft][end]
         text, span = as_text(draft.get(key)), draft.span(key)
         pick = max if end else min

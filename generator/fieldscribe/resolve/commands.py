@@ -22,6 +22,10 @@ def commands_of(scope: Scope, bus: Bus) -> tuple[Command, ...]:
     places: dict[str, Span] = {}
     for raw in scope.listed("commands"):
         name = str(raw["name"])
+        if scope.header["family"] != "modbus":
+            hint = "describe the point that it writes, with its value under `enum` or `flags`"
+            scope.report.error("family-key", "commands are for the family modbus", raw.span("name"), hint)
+            continue
         if name in result or name in ("no", "yes"):
             first = [(places[name], "first declared here")] if name in places else []
             message = f"the command `{name}` is declared twice" if first else f"a command cannot be called `{name}`"

@@ -40,6 +40,8 @@ def build_device(subject: Subject) -> Device:
         frames=tuple(subject.frames),
         errata=tuple(one.erratum for one in subject.errata),
         digest="",
+        messages=subject.messages,
+        telegrams=tuple(telegram for telegram, _ in subject.places.telegrams.values()),
     )
     return replace(device, digest=digest(device))
 
@@ -59,8 +61,9 @@ def _enums(points: tuple[Point, ...]) -> tuple[Enum, ...]:
     """The enums that generated points use, once by name."""
     by_name: dict[str, Enum] = {}
     for point in points:
-        if point.enum is not None and point.generated:
-            by_name.setdefault(point.enum.name, point.enum)
+        for enum in (point.enum, None if point.digits is None else point.digits.enum):
+            if enum is not None and point.generated:
+                by_name.setdefault(enum.name, enum)
     return tuple(by_name.values())
 
 
@@ -68,6 +71,8 @@ def _blocks(subject: Subject, points: tuple[Point, ...]) -> dict[str, tuple[Bloc
     by_group: dict[str, list[Point]] = {}
     for point in points:
         by_group.setdefault(point.group, []).append(point)
+    if subject.scope.header["family"] != "modbus":
+        return {}
     return {group: modbus.plan_blocks(subject.bus, members) for group, members in by_group.items()}
 
 
@@ -88,13 +93,44 @@ def digest(device: Device) -> str:
     summed.update(repr((head, codes, sorted(bus.gaps.items()), bus.pad_coil_bytes)).encode())
     for point in device.points:
         summed.update(repr(_code_facts(point)).encode())
+    for fact in _facts_of_families(device):
+        summed.update(repr(fact).encode())
     for command in device.commands:
         summed.update(repr((command.name, command.space, command.address, command.function, command.value)).encode())
     return summed.hexdigest()
 
 
+def _facts_of_families(device: Device) -> Iterator[object]:
+    """What only some families have; nothing for the others, so that these facts leave their checksums alone."""
+    bus = device.bus
+    codes = [(code.number, code.answers, code.refusals) for code in (*bus.functions, *bus.exceptions)]
+    if bus.pkw or bus.responses:
+        yield bus.pkw, bus.pzd, codes, [(code.number, code.name, code.answers) for code in bus.responses]
+    if bus.identifier_bits is not None:
+        yield bus.identifier_bits
+    for message in device.messages:
+        yield message.name, message.direction, message.answers, message.can_id, message.adds_unit, message.roles
+    for telegram in device.telegrams:
+        yield telegram.name, telegram.direction, telegram.words, telegram.message
+
+
 def _code_facts(point: Point) -> tuple[object, ...]:
-    enum = point.enum and (point.enum.name, point.enum.closed, [(one.raw, one.name) for one in point.enum.entries])
+    return _common_facts(point) + _facts_of_words(point)
+
+
+def _facts_of_words(point: Point) -> tuple[object, ...]:
+    """What only some points have; nothing for the others."""
+    digits = point.digits and (point.digits.count, _named(point.digits.enum))
+    facts = (point.telegram, point.index, point.text, digits, point.fixed, point.changes_with or None)
+    return () if all(fact is None for fact in facts) else facts
+
+
+def _named(enum: Enum) -> tuple[object, ...]:
+    return enum.name, enum.closed, [(one.raw, one.name) for one in enum.entries]
+
+
+def _common_facts(point: Point) -> tuple[object, ...]:
+    enum = point.enum and _named(point.enum)
     flags = [
         (one.low, one.width, one.name, one.active, [(entry.raw, entry.name) for entry in one.values])
         for one in point.flags

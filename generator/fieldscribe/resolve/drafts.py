@@ -12,6 +12,7 @@ if TYPE_CHECKING:
 
     from fieldscribe.diagnostics import Span
     from fieldscribe.language.nodes import Map
+    from fieldscribe.resolve.elements import Element
     from fieldscribe.resolve.scope import Scope
 
 _INHERITED = (
@@ -37,6 +38,7 @@ class Draft:
     record: str | None = None
     set_number: int | None = None
     use: Map | None = None
+    element: Element | None = None
     enum_name: str = ""
     hidden: frozenset[str] = frozenset()
     failed: set[str] = field(default_factory=set)
@@ -52,13 +54,20 @@ class Draft:
             where.update(dict.fromkeys(keys, layer))
             self.failed.difference_update(keys)
             self.failed.update(layer.broken)
-        if ("enum" in where or "flags" in where or self.floating) and where.get("scale") is group:
-            del where["scale"]  # a scale for the numbers of a group is none for its names and floats
+        if where.get("scale") is group and (where.keys() & {"enum", "flags", "digits"} or self.floating or self.text):
+            del where["scale"]  # a scale for the numbers of a group is none for its names, floats and texts
+        if where.get("range") is group and (self.text or "digits" in where):
+            del where["range"]
 
     @property
     def floating(self) -> bool:
         """Whether the point says that it is a floating-point number."""
-        return TYPES[self.get("type", "u16")].floating
+        return TYPES[self.get("type") or "u16"].floating
+
+    @property
+    def text(self) -> bool:
+        """Whether the point says that it is a text."""
+        return bool(self.get("type") == "text")
 
     def layer(self, key: str) -> Map | None:
         """The layer that says this fact."""
@@ -75,6 +84,11 @@ class Draft:
         if found is not None and key is not None:
             return found.span(key)
         return self.own.span("name" if "name" in self.own else None)
+
+    @property
+    def suffix(self) -> str:
+        """What the name of this element has behind the name of the whole."""
+        return "" if self.element is None else self.element.suffix
 
     @property
     def code(self) -> str | None:

@@ -124,13 +124,17 @@ def specials_of(scope: Scope, draft: Draft) -> tuple[Special, ...]:
     return tuple(result)
 
 
-def flags_of(scope: Scope, draft: Draft, width: int) -> tuple[Flag, ...]:
-    """The bits that the word's description names; bits outside the word or taken twice are findings."""
+def flags_of(scope: Scope, draft: Draft, bits: tuple[int, int] | None, width: int) -> tuple[Flag, ...]:
+    """The bits that the word's description names, in its numbers; bits outside the point or taken twice are findings.
+
+    A flag of a point that takes only some `bits` of its word counts from the lowest of them.
+    """
     raw: Map | None = draft.get("flags")
     if raw is None:
         return ()
     taken = _Taken(scope, "bit", "bits-overlap")
     result = []
+    last, first = bits or (width - 1, 0)
     for key, value in raw.items():
         high_text, dots, low_text = key.partition("..")
         high, low = int(high_text), int(low_text) if dots else int(high_text)
@@ -138,13 +142,26 @@ def flags_of(scope: Scope, draft: Draft, width: int) -> tuple[Flag, ...]:
         if high < low:
             hint = f"the higher bit stands first: {low}..{high}"
             scope.report.error("range-reversed", f"bits `{key}` run upwards", span, hint)
-        elif high >= width:
+        elif not first <= low <= high <= last:
             if not draft.failed & {"type", "bits"}:
-                message = f"bit {high} lies outside the {width} bits of the point"
-                scope.report.error("bit-outside-word", message, span, f"bits are numbered {width - 1}..0")
+                outside = high if high > last else low
+                message = f"bit {outside} lies outside the {width} bits of the point"
+                hint = f"bits are numbered {last}..{first}{', as in the word' if bits else ''}"
+                scope.report.error("bit-outside-word", message, span, hint)
         elif taken.takes((low, high), name, span, raw.span(key)):
-            result.append(_flag(scope, raw, key, low, high - low + 1))
+            result.append(_flag(scope, raw, key, low - first, high - low + 1))
     return tuple(result)
+
+
+def _flag_values(scope: Scope, value: Map) -> tuple[Entry, ...]:
+    """The names of a flag's numbers: its own, or those of a shared enum."""
+    said: Map | str | None = value.get("values")
+    entries = scope.named_enums.get(said) if isinstance(said, str) else said
+    if entries is None:
+        if said is not None:
+            scope.unknown("enum", str(said), value.span("values"), scope.named_enums)
+        return ()
+    return entries_of(scope, entries)
 
 
 def _flag(scope: Scope, raw: Map, key: str, low: int, width: int) -> Flag:
@@ -152,7 +169,7 @@ def _flag(scope: Scope, raw: Map, key: str, low: int, width: int) -> Flag:
     name = _name(value)
     if isinstance(value, str):
         return Flag(low, width, name, {"en": humanised(name)}, 1, ())
-    named = entries_of(scope, value["values"]) if "values" in value else ()
+    named = _flag_values(scope, value)
     for entry in named:
         if not 0 <= entry.raw < 1 << width:
             message = f"`{entry.name}` is {entry.raw}, which {width} bit{'s' if width > 1 else ''} cannot hold"

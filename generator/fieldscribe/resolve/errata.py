@@ -11,9 +11,13 @@ from fieldscribe.resolve.scope import Scope, source_of
 from fieldscribe.resolve.values import integer
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterator
+    from collections.abc import Iterator
 
     from fieldscribe.resolve.names import Index
+
+
+_NAMED = (("frames", "frame"), ("messages", "message"), ("telegrams", "telegram"))
+"""Sections of named things that an erratum may be about, and the key that names one."""
 
 
 @dataclass(slots=True)
@@ -26,7 +30,7 @@ class OpenErratum:
 
     @property
     def subjects(self) -> tuple[str, ...]:
-        """Whom it is about: points by name, `frame:NAME`, `function:NUMBER`, or nothing."""
+        """Whom it is about: points by name, `frame:NAME`, `function:NUMBER` and the like, or nothing."""
         return self.erratum.points or ((self.erratum.where,) if ":" in self.erratum.where else ())
 
     def printed(self, key: str) -> Any:
@@ -39,8 +43,6 @@ def errata_of(scope: Scope, index: Index, bus: Bus) -> list[OpenErratum]:
     """All errata in the order of the text; one about nothing that exists, or with an id given twice, is a finding."""
     seen: dict[str, Map] = {}
     result = []
-    frames = {one["name"] for one in scope.listed("frames")}
-    functions = {code.number for code in bus.functions}
     for raw in scope.listed("errata"):
         if raw["id"] in seen:
             first = (seen[raw["id"]].span("id"), "first given here")
@@ -54,9 +56,10 @@ def errata_of(scope: Scope, index: Index, bus: Bus) -> list[OpenErratum]:
             continue
         seen[raw["id"]] = raw
         points = tuple(_points(scope, index, raw))
-        where = _where(scope, raw, frames, functions)
+        where = _where(scope, raw, bus)
         if not points and where is None:
             continue
+        _flag_exists(scope, index, raw)
         source = source_of(scope, raw)
         if source.document not in scope.documents:
             scope.unknown("document", source.document, raw.span("document"), scope.documents)
@@ -84,25 +87,38 @@ def _points(scope: Scope, index: Index, raw: Map) -> Iterator[str]:
         yield from dict.fromkeys(draft.name for draft in found)
 
 
-def _where(scope: Scope, raw: Map, frames: Collection[str], functions: Collection[int]) -> str | None:
-    """Where it is, if not at a point: `frame:NAME`, `function:NUMBER`, words, or nothing; None after a finding."""
-    if "frame" in raw:
-        if raw["frame"] not in frames:
-            scope.unknown("frame", raw["frame"], raw.span("frame"), frames)
-        return f"frame:{raw['frame']}"
-    if "function" in raw:
-        number = integer(raw["function"], raw.span("function"), scope.report)
-        if number is not None and number not in functions:
-            word = str(raw["function"])
-            scope.unknown("function", word, raw.span("function"), ())
-        return f"function:{number}"
+def _flag_exists(scope: Scope, index: Index, raw: Map) -> None:
+    """A finding for an erratum about a flag that its points do not have."""
+    if "flag" not in raw:
+        return
+    words = [raw["point"]] if "point" in raw else list(raw.get("points", ()))
+    flags = [value for word in words for draft in index.all(word) for value in (draft.get("flags") or {}).values()]
+    names = [str(value if isinstance(value, str) else value["name"]) for value in flags]
+    if raw["flag"] not in names:
+        scope.unknown("flag", raw["flag"], raw.span("flag"), names)
+
+
+def _where(scope: Scope, raw: Map, bus: Bus) -> str | None:
+    """Where it is, if not at a whole point: `frame:NAME`, `response:7`, words, or nothing; None after a finding."""
+    for section, key in _NAMED:
+        if key in raw:
+            known = [str(one["name"]) for one in scope.listed(section)]
+            if raw[key] not in known:
+                scope.unknown(key, raw[key], raw.span(key), known)
+            return f"{key}:{raw[key]}"
+    for key, codes in (("function", bus.functions), ("response", bus.responses), ("exception", bus.exceptions)):
+        if key in raw:
+            number = integer(raw[key], raw.span(key), scope.report)
+            if number is not None and all(code.number != number for code in codes):
+                scope.unknown(key, str(raw[key]), raw.span(key), ())
+            return f"{key}:{number}"
     if "where" in raw:
         return str(raw["where"]).replace(":", ",")
     if "point" not in raw and "points" not in raw:
-        hint = "say `point`, `points`, `frame`, `function` or `where`"
+        hint = "say `point`, `points`, `frame`, `function`, `message`, `telegram` or `where`"
         scope.report.error("erratum-unused", f"the erratum `{raw['id']}` is about nothing", raw.span("id"), hint)
         return None
-    return ""
+    return f"the flag {raw['flag']}" if "flag" in raw else ""
 
 
 def said(value: Any) -> str:

@@ -6,25 +6,35 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.language.nodes import Map
 from fieldscribe.resolve.drafts import Draft, groups, humanised
+from fieldscribe.resolve.elements import Element, elements_of, set_title
 from fieldscribe.resolve.scope import Scope, titles
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from fieldscribe.model import Titles
-
 _OWN = frozenset({"code", "at", "printed", "was", "name", "sets", "members", "record", "title"})
 """What a further set does not take from the point it repeats (the title is extended instead)."""
 
-_OF_RECORDS = ("code", "line", "section", "page", "access", "keeps", "changes", "conditions", "when", "since", "until")
+_OF_RECORDS = (
+    "code",
+    "line",
+    "lines",
+    "section",
+    "page",
+    "access",
+    "keeps",
+    "changes",
+    "conditions",
+    "when",
+    "since",
+    "until",
+)
 """What the use of a record says for all its members."""
 
 _NOT_OF_RECORDS = frozenset({*_OF_RECORDS, "name", "title", "note", "record", "at", "members"})
 
-_OF_FORMATS = ("type", "range", "scale", "unit", "enum", "flags", "special")
+_OF_FORMATS = ("type", "range", "scale", "unit", "enum", "flags", "special", "digits", "characters")
 """What an unknown format leaves open."""
-
-_SET_WORDS = {"en": "set {}", "de": "{}. Parametersatz"}
 
 
 def expand(scope: Scope) -> list[Draft]:
@@ -38,6 +48,13 @@ def _point(scope: Scope, group: Map, point: Map) -> Iterator[Draft]:
     if "record" in point:
         yield from _record(scope, group, point)
         return
+    if isinstance(point.get("at"), Map):
+        yield from _elements(scope, group, point)
+        return
+    if "each" in point and "at" not in point.broken:
+        message = f"`{point['name']}` has no elements that could differ"
+        hint = "`each` belongs to `at: {number: …, indices: …}`"
+        scope.report.error("unknown-element", message, point.key_span("each"), hint)
     name = point["name"]
     layers = (point, *_format(scope, point))
     title = titles(point.get("title"), humanised(name))
@@ -46,7 +63,7 @@ def _point(scope: Scope, group: Map, point: Map) -> Iterator[Draft]:
         scope, Draft(name, layers, group, point, title, set_number=1 if sets else None, enum_name=name)
     )
     for number, override in sets.items() if sets is not None else ():
-        own_title = titles(override.get("title")) or _set_title(title, number)
+        own_title = titles(override.get("title")) or set_title(title, int(number))
         own_name = f"{name}_set_{int(number)}"
         enum_name = own_name if "enum" in override else name
         repeated = Draft(
@@ -60,6 +77,46 @@ def _point(scope: Scope, group: Map, point: Map) -> Iterator[Draft]:
             hidden=_OWN,
         )
         yield from _variants(scope, repeated)
+
+
+def _elements(scope: Scope, group: Map, point: Map) -> Iterator[Draft]:
+    """The points that a row with a number, sets and indices stands for."""
+    if "sets" in point:
+        hint = "say it once, under `at`; what differs goes under `each`"
+        scope.report.error("two-meanings", "the sets are said twice", point.key_span("sets"), hint)
+    elements = elements_of(scope, point["at"])
+    each: Map = point.get("each") or Map(point.file, point.at)
+    overrides = {_key(key): each[key] for key in each}
+    known = dict.fromkeys(key for element in elements for key in reversed(element.keys))
+    for key in each:
+        if elements and _key(key) not in known:
+            message = f"`{point['name']}` has no element {key}"
+            hint = f"known: {', '.join(list(known)[:12]) or 'none'}"
+            scope.report.error("unknown-element", message, each.key_span(key), hint)
+    title = titles(point.get("title"), humanised(point["name"]))
+    layers = (point, *_format(scope, point))
+    for element in elements:
+        own = tuple(overrides[key] for key in element.keys if key in overrides)
+        name = point["name"] + element.suffix
+        own_title = next((titles(one["title"]) for one in own if "title" in one), None)
+        yield from _variants(
+            scope,
+            Draft(
+                name,
+                (*own, *layers),
+                group,
+                point,
+                own_title or element.titled(title),
+                set_number=element.set_number,
+                element=element,
+                enum_name=name if any("enum" in one for one in own) else point["name"],
+            ),
+        )
+
+
+def _key(text: str) -> str:
+    """An element as `each` names it, without leading zeros."""
+    return "/".join(str(int(part)) for part in text.split("/"))
 
 
 def _variants(scope: Scope, draft: Draft) -> Iterator[Draft]:
@@ -81,10 +138,10 @@ def _variants(scope: Scope, draft: Draft) -> Iterator[Draft]:
                 "two-axes", message, span, "a point can differ by one axis only; make it two points with `when`"
             )
         else:
-            yield _varied(draft, key, value, override)
+            yield _varied(scope, draft, key, value, override)
 
 
-def _varied(draft: Draft, key: str, value: str, override: Map) -> Draft:
+def _varied(scope: Scope, draft: Draft, key: str, value: str, override: Map) -> Draft:
     return Draft(
         draft.name,
         (override, *draft.layers),
@@ -95,9 +152,19 @@ def _varied(draft: Draft, key: str, value: str, override: Map) -> Draft:
         record=draft.record,
         set_number=draft.set_number,
         use=draft.use,
+        element=_own_element(scope, override) or draft.element,
         enum_name=f"{draft.enum_name}_{value.lower()}" if "enum" in override else draft.enum_name,
         hidden=draft.hidden - override.keys(),
     )
+
+
+def _own_element(scope: Scope, override: Map) -> Element | None:
+    """The one element that a variant stands at, where it says its own number and index."""
+    at = override.get("at")
+    if not isinstance(at, Map):
+        return None
+    elements = elements_of(scope, at)
+    return elements[0] if len(elements) == 1 and not elements[0].suffix else None
 
 
 def _record(scope: Scope, group: Map, use: Map) -> Iterator[Draft]:
@@ -118,9 +185,10 @@ def _record(scope: Scope, group: Map, use: Map) -> Iterator[Draft]:
         if "record" in point:
             message = f"a record cannot contain the record `{point['record']}`"
             scope.report.error("record-cycle", message, point.span("record"), "write its points out")
-        elif "sets" in point:
-            message = "the points of a record cannot repeat in sets"
-            scope.report.error("record-key", message, point.key_span("sets"), "use the record once for each set")
+        elif "sets" in point or "each" in point or isinstance(point.get("at"), Map):
+            key = next(key for key in ("sets", "each", "at") if key in point)
+            message = "the points of a record cannot repeat in sets or indices"
+            scope.report.error("record-key", message, point.key_span(key), "use the record once for each of them")
         else:
             yield from _variants(scope, _member(scope, group, use, point))
 
@@ -157,8 +225,3 @@ def _format(scope: Scope, point: Map) -> tuple[Map, ...]:
         nothing.broken = _OF_FORMATS
         return (nothing,)
     return (found,)
-
-
-def _set_title(title: Titles, number: str) -> Titles:
-    words = {language: _SET_WORDS.get(language, "set {}").format(int(number)) for language in title}
-    return {language: f"{text} ({words[language]})" for language, text in title.items()}

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from fieldscribe.model import Bus, Frame, Point
 from fieldscribe.resolve.drafts import humanised
+from fieldscribe.resolve.frame_meanings import meaning_of
 from fieldscribe.resolve.scope import Scope, source_of, titles
-from fieldscribe.resolve.values import number
-from fieldscribe.wording.exact import number_text
+from fieldscribe.resolve.values import integer
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -17,6 +17,12 @@ if TYPE_CHECKING:
     from fieldscribe.diagnostics import Span
     from fieldscribe.language.nodes import Map
     from fieldscribe.resolve.names import Index
+
+
+_FRAMINGS = {"modbus": ("rtu", "tcp"), "can": ("can",), "uss": ("uss", "pkw", "pzd", "broadcast")}
+"""The framings of each family, the usual one first."""
+
+_VARIABLE = 127
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +57,7 @@ def frames_of(scope: Scope, bus: Bus, index: Index, points: Mapping[str, Point])
             scope.report.error("bad-number", message, raw.span("bytes"), "write two digits for each byte")
             continue
         result[name] = OpenFrame(
-            _frame(scope, bus, raw, bytes.fromhex(digits), _meaning(scope, raw, index, points)), raw
+            _frame(scope, bus, raw, bytes.fromhex(digits), meaning_of(scope, raw, index, points)), raw
         )
     return list(result.values())
 
@@ -60,7 +66,7 @@ def _frame(scope: Scope, bus: Bus, raw: Map, data: bytes, meaning: Mapping[str, 
     answers = raw.get("answers")
     return Frame(
         name=raw["name"],
-        framing=raw.get("framing") or (bus.framings[0] if bus.framings else "rtu"),
+        framing=framing_of(scope, bus, raw),
         direction=raw.get("direction") or ("response" if answers else "request"),
         answers=answers,
         printed=data,
@@ -70,64 +76,53 @@ def _frame(scope: Scope, bus: Bus, raw: Map, data: bytes, meaning: Mapping[str, 
         title=titles(raw.get("title"), humanised(raw["name"])),
         source=source_of(scope, raw),
         errata=(),
+        pkw=_pkw(scope, bus, raw),
+        can_id=_can_id(scope, raw),
     )
 
 
-def _meaning(scope: Scope, raw: Map, index: Index, points: Mapping[str, Point]) -> dict[str, int]:
-    said: Map | None = raw.get("says")
-    meaning = {}
-    for word, value in said.items() if said is not None else ():
-        draft = index.find(word)
-        if draft is None and said is not None:
-            index.unknown(word, said.key_span(word))
-        point = points.get(draft.item) if draft is not None else None
-        if point is None or draft is None or said is None or draft.failed & {"scale", "type", "enum"}:
-            continue
-        found = _raw_of(scope, point, value, said, word)
-        if found is not None:
-            meaning[point.item] = found
-    return meaning
+def framing_of(scope: Scope, bus: Bus, raw: Map) -> str:
+    """The framing of a frame: said, or the usual one of the family; a finding if the family has none of that name."""
+    family = str(scope.header["family"])
+    known = _FRAMINGS[family]
+    usual = bus.framings[0] if family == "modbus" and bus.framings else known[0]
+    said = str(raw.get("framing", usual))
+    if said in known:
+        return said
+    message = f"`{said}` is no framing of the family {family}"
+    scope.report.error("wrong-choice", message, raw.span("framing"), f"write one of {', '.join(known)}")
+    return usual
 
 
-def _raw_of(scope: Scope, point: Point, value: Any, said: Map, word: str) -> int | None:
-    """The raw number that a frame is said to carry: of a name, or of a value in the unit; None after a finding."""
-    span = said.span(word)
-    if isinstance(value, bool):
-        return int(value)
-    if isinstance(value, str) and not value[:1].isdigit():
-        found, names = _of_name(point, value)
-        if found is not None or names:
-            if found is None:
-                scope.unknown("entry", value, span, names)
-            return found
-    fault = _not_to_be_compared(point)
-    if fault is not None:
-        scope.report.error("bad-formula", f"`{word}` {fault}", span, "leave it out of `says`: frames hold raw numbers")
+def _pkw(scope: Scope, bus: Bus, raw: Map) -> int | None:
+    """USS: the length of the parameter part that the link is set to."""
+    if scope.header["family"] != "uss":
+        _foreign(scope, raw, "pkw", "uss")
         return None
-    exact = number(value, span, scope.report)
-    if exact is None:
+    if framing_of(scope, bus, raw) in ("pzd", "broadcast"):
         return None
-    if point.scale is not None:
-        exact = exact * point.scale[0].rule.ratio + point.scale[0].rule.offset
-    if exact.denominator != 1:
-        message = f"`{word}` cannot be {value}: that is raw {number_text(exact)}"
-        scope.report.error("bad-number", message, span, "give the value as printed, in the unit of the point")
+    said: int = raw.get("pkw", _VARIABLE)
+    if bus.pkw and said not in bus.pkw and "pkw" in raw:
+        message = f"the parameter part cannot have the length {said}"
+        hint = f"known under `bus`: {', '.join(map(str, bus.pkw))}"
+        scope.report.error("wrong-choice", message, raw.span("pkw"), hint)
+    return said
+
+
+def _can_id(scope: Scope, raw: Map) -> int | None:
+    """CAN: the identifier of the frame."""
+    if scope.header["family"] != "can":
+        _foreign(scope, raw, "can_id", "can")
         return None
-    return exact.numerator
-
-
-def _of_name(point: Point, name: str) -> tuple[int | None, list[str]]:
-    """The raw number with that name, and all names that there are."""
-    if point.enum is None:
-        known = {"off": 0, "on": 1} if point.type == "bit" else {}
-    else:
-        known = {entry.name: entry.raw for entry in point.enum.entries}
-    return known.get(name), list(known)
-
-
-def _not_to_be_compared(point: Point) -> str | None:
-    if point.info.floating:
-        return "is a floating-point number"
-    if point.scale is not None and (len(point.scale) > 1 or point.scale[0].rule.factors):
-        return "needs other points to be scaled"
+    if "can_id" in raw:
+        return integer(raw["can_id"], raw.span("can_id"), scope.report)
+    if "can_id" not in raw.broken:
+        message = f"the frame `{raw['name']}` says no identifier"
+        scope.report.error("missing-key", message, raw.span("name"), "add `can_id: …`")
     return None
+
+
+def _foreign(scope: Scope, raw: Map, key: str, family: str) -> None:
+    if key in raw:
+        message = f"`{key}` is nothing that the family {scope.header['family']} knows"
+        scope.report.error("family-key", message, raw.key_span(key), f"it belongs to {family}: leave it out")

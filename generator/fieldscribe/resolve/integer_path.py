@@ -12,6 +12,9 @@ if TYPE_CHECKING:
 MOST_DECIMALS = 12
 _INT64 = 1 << 62
 _EXACT = 1 << 53
+_MANTISSA = 24
+"""Of an f32 that is a factor the mantissa takes part; its exponent only shifts the result."""
+
 _NARROW = "narrow the range of the point or of the points in its scale"
 
 
@@ -25,6 +28,10 @@ def decimals_of(draft: Draft, cases: tuple[ScaleCase, ...] | None, bounds: Bound
             report.error("integer-path", message, draft.span("decimals"), "leave it out, or give the `scale`")
         return 0
     span = draft.span("decimals" if said is not None else "scale")
+    if said is None and any(bounds.scales.floats(case.rule) for case in cases):
+        message = "nothing says how fine the counts are: a floating-point factor has no finest step"
+        report.error("integer-path", message, span, "add `decimals: …`, the decimals that the device resolves")
+        return 0
     needed = max(_needed(case.rule, bounds) for case in cases)
     if needed > MOST_DECIMALS:
         message = f"one raw step can be finer than 10^-{MOST_DECIMALS} units"
@@ -48,6 +55,8 @@ def decimals_of(draft: Draft, cases: tuple[ScaleCase, ...] | None, bounds: Bound
 def _needed(rule: Linear, bounds: Bounds) -> int:
     """The decimals at which the smallest raw step is one count at least; one more than the most if there are none."""
     counts, steps = abs(rule.ratio.numerator), rule.ratio.denominator
+    if any(bounds.float_range(factor) is None for factor in bounds.scales.floats(rule)):
+        return 0  # the author's decimals are all that is known
     if rule.factors:
         corners = [abs(corner - rule.offset) for corner in bounds.corners(rule)]
         largest = max((corner for corner in corners if corner), default=abs(rule.ratio))
@@ -61,7 +70,11 @@ def _needed(rule: Linear, bounds: Bounds) -> int:
 def _fault(rule: Linear, decimals: int, raw: int, bounds: Bounds) -> tuple[str, str, str] | None:
     """Rule, message and hint unless all intermediates of both paths are wide enough: 62 bits integer, 53 as double."""
     up, down = abs(rule.ratio.numerator), rule.ratio.denominator
+    floats = bounds.scales.floats(rule)
     for factor in rule.factors:
+        if factor in floats:
+            up, down = (up << _MANTISSA, down) if factor.power == 1 else (up, down << _MANTISSA)
+            continue
         most = max(map(abs, bounds.ends_of(factor)))
         if factor.ten_to:
             up, down = up * 10**most, down * 10**most

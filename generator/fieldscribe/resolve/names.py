@@ -34,8 +34,8 @@ class Index:
         return next((draft for draft in found if draft.variant == variant), found[0])
 
     def by_item(self, item: str) -> Draft:
-        """The point of that item name, which a formula was resolved to."""
-        return self.by_items[item]
+        """The point that a formula was resolved to: by its item name, or by its name where its variants are alike."""
+        return self.by_items.get(item) or self.by_name[item][0]
 
     def siblings(self, draft: Draft) -> list[Draft]:
         """The point in all its variants."""
@@ -129,8 +129,11 @@ def type_of(scope: Scope, draft: Draft, space: str, bits: tuple[int, int] | None
     single = scope.family.spaces[space] == "bit"
     width = bits[0] - bits[1] + 1 if bits else None
     default = "bit" if single or width == 1 else "u8" if width is not None and width <= 8 else "u16"
-    said = str(draft.get("type", default))
+    said = str(draft.get("type") or default)
     fault = None if "space" in draft.failed else _type_fault(said, space, single, width, default)
+    if fault is None and said != "text" and not bits and TYPES[said].bits > scope.family.widest(space):
+        message = f"`{said}` does not fit into a message, which carries one word"
+        fault = "type-outside-space", message, "give each address a point of its own"
     if fault is None:
         return said
     draft.failed.add("type")
@@ -142,6 +145,8 @@ def type_of(scope: Scope, draft: Draft, space: str, bits: tuple[int, int] | None
 def _type_fault(said: str, space: str, single: bool, width: int | None, default: str) -> tuple[str, str, str] | None:
     """Rule, message and hint of what is wrong with the type, or None."""
     info: TypeInfo = TYPES[said]
+    if said == "text" and (single or width is not None):
+        return "type-outside-space", "a text takes whole words", "leave `bits` out, and choose a space of words"
     if width is not None:
         if width <= info.bits <= 16 and not info.floating:
             return None

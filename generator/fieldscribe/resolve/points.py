@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from fieldscribe.language.formula import FormulaError, condition_names, parse_condition
-from fieldscribe.model import TYPES, Allowed, Enum, Point, ScaleCase, Special, Unit
+from fieldscribe.language.formula import FormulaError, condition_comparisons, parse_condition
+from fieldscribe.model import TYPES, UNSETTLED_TYPE, Allowed, Enum, Place, Point, ScaleCase, Special, Unit
 from fieldscribe.resolve.addresses import Places
 from fieldscribe.resolve.allowed import Ranges
 from fieldscribe.resolve.bounds import Bounds
@@ -16,11 +16,14 @@ from fieldscribe.resolve.integer_path import decimals_of
 from fieldscribe.resolve.names import Index, bits_of, space_of, type_of
 from fieldscribe.resolve.rules import Scales
 from fieldscribe.resolve.scope import PLAIN, Scope, source_of, titles
+from fieldscribe.resolve.telegrams import SPACE
 from fieldscribe.resolve.values import formula_finding, integer, number
+from fieldscribe.resolve.word_facts import allowed_digits, digits_of, fixed_of, text_of
 
 if TYPE_CHECKING:
     from fieldscribe.language.nodes import Map
     from fieldscribe.resolve.drafts import Draft
+    from fieldscribe.resolve.telegrams import Telegrams
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +55,9 @@ class Shape:
         return -(1 << (self.width - 1)) if signed else 0, (1 << (self.width - signed)) - 1
 
 
-def resolve_points(scope: Scope, drafts: list[Draft], index: Index) -> tuple[list[Resolved], Ranges, Places]:
+def resolve_points(
+    scope: Scope, drafts: list[Draft], index: Index, telegrams: Telegrams
+) -> tuple[list[Resolved], Ranges, Places]:
     """All points of the device, computed; what is wrong with one is a finding and falls back to what is plain."""
     shapes = {draft: _shape(scope, draft) for draft in drafts}
     bounds = Bounds(
@@ -61,7 +66,7 @@ def resolve_points(scope: Scope, drafts: list[Draft], index: Index) -> tuple[lis
         {draft: shape.specials for draft, shape in shapes.items()},
     )
     ranges = Ranges(bounds)
-    places = Places(scope)
+    places = Places(scope, telegrams)
     found = [Resolved(_point(scope, draft, shape, places, ranges), draft) for draft, shape in shapes.items()]
     return found, ranges, places
 
@@ -74,17 +79,20 @@ def _shape(scope: Scope, draft: Draft) -> Shape:
 
 def _point(scope: Scope, draft: Draft, shape: Shape, places: Places, ranges: Ranges) -> Point:
     get = draft.get
-    address = places.address(draft)
+    text, digits = text_of(scope, draft), digits_of(scope, draft)
+    place = places.place(draft, shape.space, shape.type, shape.bits)
     ranged = draft.layer("range") is not None or draft.layer("range_in_units") is not None
     said_open = bool(get("open", False))
     enum = enum_of(scope, draft, closed=not ranged and not said_open)
     allowed = ranges.allowed(draft, enum)
+    if digits is not None and not ranged:
+        allowed = allowed_digits(digits)
     if enum is not None and not said_open and _all_named(allowed, enum):
         enum = enum_of(scope, draft, closed=True)
     cases = _cases(draft, ranges.bounds)
-    access = str(get("access", "rw"))
+    access = places.access(draft, shape.space)
     writable = "w" in access
-    reason = _reason(draft, address, access)
+    reason = _reason(draft, place is not None, access)
     _existence(scope, draft, ranges.bounds.scales.index)
     return Point(
         name=draft.name,
@@ -92,8 +100,8 @@ def _point(scope: Scope, draft: Draft, shape: Shape, places: Places, ranges: Ran
         code=draft.code,
         group=str(draft.group["group"]),
         space=shape.space,
-        places=() if address is None else (places.place(draft, shape.space, shape.type, shape.bits, address),),
-        references=places.references(draft, address),
+        places=() if place is None else (place,),
+        references=places.references(draft, None if place is None else _first(place, shape)),
         type=shape.type,
         bits=shape.bits,
         access=access,
@@ -106,7 +114,7 @@ def _point(scope: Scope, draft: Draft, shape: Shape, places: Places, ranges: Ran
         default=_default(scope, draft, enum),
         steps=_steps(scope, draft),
         enum=enum,
-        flags=flags_of(scope, draft, shape.width),
+        flags=flags_of(scope, draft, shape.bits, shape.width),
         specials=shape.specials,
         record=draft.record,
         set=draft.set_number,
@@ -116,13 +124,24 @@ def _point(scope: Scope, draft: Draft, shape: Shape, places: Places, ranges: Ran
         when=get("when"),
         since=get("since"),
         until=get("until"),
-        was=tuple(get("was", ())),
+        was=tuple(f"{name}{draft.suffix}" for name in get("was", ())),
         reserved=bool(get("reserved", False)),
         source=source_of(scope, *draft.layers, draft.group),
         errata=(),
         generated=reason is None,
         reason=reason,
+        telegram=draft.group.get("telegram") if shape.space == SPACE else None,
+        index=None if draft.element is None else draft.element.index,
+        text=text,
+        digits=digits,
+        fixed=fixed_of(scope, draft, shape.bits, shape.width) if writable else None,
+        changes_with=_changes_with(draft, ranges.bounds.scales.index),
     )
+
+
+def _first(place: Place, shape: Shape) -> int:
+    """The word that printed numbers are about: of a text that of its first characters, else the lowest."""
+    return place.addresses[0] if shape.type == "text" else min(place.addresses)
 
 
 def _cases(draft: Draft, bounds: Bounds) -> tuple[ScaleCase, ...] | None:
@@ -134,11 +153,13 @@ def _cases(draft: Draft, bounds: Bounds) -> tuple[ScaleCase, ...] | None:
     return cases
 
 
-def _reason(draft: Draft, address: int | None, access: str) -> str | None:
-    if address is None:
+def _reason(draft: Draft, has_place: bool, access: str) -> str | None:
+    if not has_place:
         return "the manual prints no address"
     if draft.get("reserved", False):
         return "reserved by the maker"
+    if draft.layer("type") is not None and draft.get("type") is None:
+        return UNSETTLED_TYPE
     if draft.layer("scale") is not None and draft.get("scale") is None:
         return "the manual does not settle its scale"
     return "not reachable over the bus" if access == "none" else None
@@ -194,16 +215,35 @@ def _all_named(allowed: Allowed, enum: Enum) -> bool:
     return True
 
 
+def _changes_with(draft: Draft, index: Index) -> tuple[str, ...]:
+    """The points whose writing changes this one, by name; a word that names none is a finding."""
+    words = draft.get("changes_with")
+    found: dict[str, None] = {}
+    for place, word in enumerate(words if words is not None else ()):
+        used = index.all(word)
+        if not used:
+            index.unknown(word, words.span(place))
+        found.update(dict.fromkeys(one.name for one in used))
+    return tuple(found)
+
+
 def _existence(scope: Scope, draft: Draft, index: Index) -> None:
     text = draft.get("when")
     if text is None:
         return
     span = draft.span("when")
     try:
-        names = condition_names(parse_condition(text))
+        comparisons = condition_comparisons(parse_condition(text))
     except FormulaError as error:
         formula_finding(error, span, scope.report)
         return
-    for name in names:
-        if index.find(name.name) is None and name.name not in scope.axes:
-            index.unknown(name.name, span._replace(column=span.column + name.column))
+    for one in comparisons:
+        name = one.name.name
+        if name in scope.axes:
+            values = scope.axes[name]["values"]
+            for given in one.constants:
+                if not isinstance(given.value, str) or given.value not in values:
+                    place = span._replace(column=span.column + given.column)
+                    scope.unknown("variant", str(given.value), place, [*values])
+        elif index.find(name) is None:
+            index.unknown(name, span._replace(column=span.column + one.name.column))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NoReturn
 
 from fieldscribe.language.formula import Affine, FormulaError, Part, parse_case, parse_scale, scale_rule
 from fieldscribe.model import Linear, ScaleCase
@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
     from fieldscribe.diagnostics import Span
     from fieldscribe.language.nodes import Map
+    from fieldscribe.model import Factor
     from fieldscribe.resolve.drafts import Draft
     from fieldscribe.resolve.names import Index
     from fieldscribe.resolve.scope import Scope
@@ -51,11 +52,10 @@ class Scales:
             self.index.unknown(name, place)
             raise UnknownError
         if used.floating:
-            self._refuse(
-                place, f"`{name}` is a floating-point number and cannot stand in a formula", "use a whole number"
-            )
+            self._floating(used, name, part, place, in_scale=in_scale)
+            return Affine(self._named(draft, used, place), Fraction(1), Fraction(0))
         if part == "raw":
-            return Affine(used.item, Fraction(1), Fraction(0))
+            return Affine(self._named(draft, used, place), Fraction(1), Fraction(0))
         if in_scale and (chain := self._circle(draft, used)):
             message = f"a scale that needs itself: {' needs '.join(f'`{one}`' for one in chain)}"
             hint = f"use `{name}.raw`, or break the circle"
@@ -66,7 +66,31 @@ class Scales:
             self._refuse(
                 place, f"the scale of `{name}` differs by variant", f"use `{name}.raw`, or give `variants` here too"
             )
-        return Affine(used.item, 1 / rule.ratio, -rule.offset / rule.ratio)
+        return Affine(self._named(draft, used, place), 1 / rule.ratio, -rule.offset / rule.ratio)
+
+    def _named(self, draft: Draft, used: Draft, place: Span) -> str:
+        """What the model calls a point that `draft` uses: its item in the same variant, else the name of all."""
+        if used.variant is None or used.variant == draft.variant:
+            return used.item
+        if len({one.get("type") or "" for one in self.index.siblings(used)}) > 1:
+            hint = "give `variants` here too"
+            self._refuse(place, f"the type of `{used.name}` differs by variant", hint)
+        return used.name
+
+    def _floating(self, used: Draft, name: str, part: Part, place: Span, *, in_scale: bool) -> None:
+        """A finding unless it is the value of an f32, which a scale may be multiplied with or divided by."""
+        if not in_scale:
+            message = f"`{name}` is a floating-point number and cannot stand in a limit"
+            self._refuse(place, message, "write the widest range")
+        if part == "raw":
+            message = f"the raw number of `{name}` is a floating-point pattern"
+            self._refuse(place, message, f"use its value: {name}")
+        if used.get("type") != "f32":
+            self._refuse(place, f"`{name}` is wider than 32 bits and cannot be a factor", "factors are f32 or whole")
+
+    def floats(self, rule: Linear) -> list[Factor]:
+        """The factors of a rule that are floating-point numbers."""
+        return [factor for factor in rule.factors if self.index.by_item(factor.point).floating]
 
     def _cases(self, draft: Draft) -> tuple[ScaleCase, ...] | None:
         raw = draft.get("scale")
@@ -95,19 +119,28 @@ class Scales:
             self.index.unknown(name.name, place._replace(column=place.column + name.column))
             draft.failed.add("scale")
             return None
-        key = (chosen.item, constant)
+        try:
+            chosen_name = self._named(draft, chosen, place)
+        except UnknownError:
+            draft.failed.add("scale")
+            return None
+        key = (chosen_name, constant)
         if key in seen:
             first = [(seen[key], "first given here")]
             self.scope.report.error("duplicate-case", "two rules hold in this case", place, "remove one of them", first)
         seen.setdefault(key, place)
-        return None if rule is None else ScaleCase(chosen.item, constant, rule)
+        return None if rule is None else ScaleCase(chosen_name, constant, rule)
 
     def _rule(self, draft: Draft, text: str, span: Span) -> Linear | None:
         formula = Written(text, span)
         try:
-            return scale_rule(
+            rule = scale_rule(
                 parse_scale(text), lambda name, part: self.affine(draft, name, part, formula, in_scale=True)
             )
+            if all((factor.slope, factor.intercept, factor.ten_to) == (1, 0, False) for factor in self.floats(rule)):
+                return rule
+            message = "a floating-point number can be a factor, but no exponent and no part of a sum"
+            self.scope.report.error("bad-formula", message, span, "multiply with it, or divide by it")
         except FormulaError as error:
             formula_finding(error, span, self.scope.report)
         except UnknownError:
@@ -158,6 +191,6 @@ class Scales:
                 if found is not None:
                     yield found
 
-    def _refuse(self, place: Span, message: str, hint: str) -> None:
+    def _refuse(self, place: Span, message: str, hint: str) -> NoReturn:
         self.scope.report.error("bad-formula", message, place, hint)
         raise UnknownError

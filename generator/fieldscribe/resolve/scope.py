@@ -27,14 +27,19 @@ SECTIONS = {
     "command": "commands",
     "document": "documents",
     "entry": "enum",
+    "exception": "bus",
     "enum": "enums",
+    "flag": "points",
     "format": "formats",
     "frame": "frames",
     "function": "bus",
     "member": "points",
+    "message": "messages",
     "point": "points",
     "record": "records",
+    "response": "bus",
     "space": "space",
+    "telegram": "telegrams",
     "unit": "units",
     "variant": "variants",
 }
@@ -155,6 +160,14 @@ def titles(value: Map | str | None, otherwise: str = "") -> Titles:
     return dict(value) if "en" in value else {"en": otherwise, **value}
 
 
+def first_line(value: object) -> int | None:
+    """The line where something begins: of `780..790` the first."""
+    if isinstance(value, str):
+        start = value.partition("..")[0]
+        return int(start) if start.isdecimal() else None
+    return value if isinstance(value, int) else None
+
+
 def source_of(scope: Scope, *layers: Map) -> Source:
     """The source that the layers (own facts first) give together; without a document, the first one."""
     found: dict[str, object] = {}
@@ -166,10 +179,10 @@ def source_of(scope: Scope, *layers: Map) -> Source:
             for key, value in layer["source"].items():
                 found.setdefault(key, value)
     document = str(found.get("document") or next(iter(scope.documents), ""))
-    line, section, page = found.get("line"), found.get("section"), found.get("page")
+    line, section, page = first_line(found.get("line")), found.get("section"), found.get("page")
     return Source(
         document,
         None if section is None else str(section),
         None if page is None else str(page),
-        line if isinstance(line, int) else None,
+        line,
     )

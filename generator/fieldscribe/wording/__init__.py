@@ -29,6 +29,8 @@ def words_text(point: Point) -> str:
         return address_text(addresses[0]) if addresses else ""
     if len(addresses) == 2:
         return f"{address_text(addresses[0])} high, {address_text(addresses[1])} low"
+    if point.text is not None:
+        return f"{address_text(addresses[0])} to {address_text(addresses[-1])} (first characters first)"
     return ", ".join(map(address_text, addresses)) + " (high part first)"
 
 
@@ -46,10 +48,31 @@ def title_text(titles: Titles) -> str:
 
 def type_text(point: Point) -> str:
     """The wire type, with the bits of a bit group: `u8, bits 15..14`."""
+    if point.text is not None:
+        return f"text, {point.text.characters} characters, {point.text.encoding}"
+    if point.digits is not None:
+        return f"{point.type}, {point.digits.count} decimal digits"
     if point.bits is None:
         return point.type
     high, low = point.bits
     return f"{point.type}, bit {low}" if high == low else f"{point.type}, bits {high}..{low}"
+
+
+def fixed_text(point: Point) -> str:
+    """The bits of the word that are always written as a constant: `bit 10 always 1, bits 7..3 always 00000`."""
+    if point.fixed is None:
+        return ""
+    mask, bits = point.fixed.mask, point.fixed.bits
+    parts = []
+    high = mask.bit_length() - 1
+    while high >= 0:
+        low = high
+        while low and mask >> low - 1 & 1:
+            low -= 1
+        value = f"{bits >> low & (1 << high - low + 1) - 1:0{high - low + 1}b}"
+        parts.append(f"bit {low} always {value}" if high == low else f"bits {high}..{low} always {value}")
+        high = (mask & (1 << low) - 1).bit_length() - 1
+    return ", ".join(parts)
 
 
 def access_text(access: str) -> str:
@@ -94,15 +117,15 @@ def steps_text(point: Point) -> str:
     return f"raw {point.steps[0][1]}" + "".join(f", from raw {start} on {step}" for start, step in point.steps[1:])
 
 
-def scale_text(point: Point) -> str:
+def scale_text(point: Point, points: Points | None = None) -> str:
     """How a raw number becomes the value: `raw x 0.1 Hz`; empty where the raw number is the value or a bit pattern."""
     if point.scale is None:
         plain = point.form == "integer" and point.unit.symbol and point.generated
         return f"raw x 1 {point.unit.symbol}" if plain else ""
     if len(point.scale) == 1 and point.scale[0].point is None:
-        return with_unit(inverse_text(point.scale[0].rule), point)
+        return with_unit(inverse_text(point.scale[0].rule, points), point)
     return "; ".join(
-        with_unit(inverse_text(case.rule), point) + f" when {case.point}.raw is {case.raw}" for case in point.scale
+        with_unit(inverse_text(case.rule, points), point) + f" when {case.point}.raw is {case.raw}" for case in point.scale
     )
 
 
@@ -111,13 +134,13 @@ def range_text(point: Point, points: Points | None = None) -> str:
     if point.info.floating:
         ends = [f"{number_text(low)}..{number_text(high)}" for low, high in point.allowed.units]
         return with_unit(" or ".join(ends), point) if ends else "any number"
-    rule = fixed_rule(point)
+    rule = None if point.form in ("text", "digits") else fixed_rule(point)
     return "" if rule is None else ranges_text(point, rule, points, point.unit.symbol)
 
 
 def raw_range_text(point: Point) -> str:
     """Which raw numbers may be written: `0..4000`; empty for f32 and f64, whose limits are values."""
-    return "" if point.info.floating else ranges_text(point, RAW, None, "")
+    return "" if point.info.floating or point.text is not None else ranges_text(point, RAW, None, "")
 
 
 def outer_raw(point: Point) -> tuple[int, int] | None:
@@ -160,6 +183,8 @@ def keeps_text(device: Device, point: Point) -> str:
     """Whether a written value survives switching off, and what that takes."""
     if point.keeps is None:
         return ""
+    if point.keeps == "choice":
+        return "by the task that writes it: RAM alone, or EEPROM too"
     if point.keeps in ("no", "yes"):
         return "no, lost when switched off" if point.keeps == "no" else "yes, each write wears the memory"
     command = next((one for one in device.commands if one.name == point.keeps), None)

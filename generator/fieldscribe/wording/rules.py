@@ -23,7 +23,7 @@ def shown(raw: int, rule: Rule) -> str:
     return exact(raw * rule[0] + rule[1], rule[2])
 
 
-def inverse_text(rule: Linear) -> str:
+def inverse_text(rule: Linear, points: Points | None = None) -> str:
     """How the argument of a rule follows from its result, called `raw`: `raw x 0.1 - 0.25`."""
     multiply, add, divide = inverse(rule)
     ratio = Fraction(multiply, divide)
@@ -33,7 +33,7 @@ def inverse_text(rule: Linear) -> str:
         return plus_text(text, common.numerator, common.denominator)
     moved = plus_text("raw", -rule.offset.numerator, rule.offset.denominator)
     start = times_text(f"({moved})" if rule.offset else moved, ratio.numerator, ratio.denominator)
-    return _with_factors(start, [(_factor_text(one), -one.power) for one in rule.factors])
+    return _with_factors(start, [(_factor_text(one, points), -one.power) for one in rule.factors])
 
 
 def ranges_text(point: Point, rule: Rule, points: Points | None, unit: str) -> str:
@@ -110,7 +110,9 @@ def _with_factors(start: str, factors: list[tuple[str, int]]) -> str:
     return start + "".join(f" {'x' if power == 1 else '/'} {name}" for name, power in factors)
 
 
-def _factor_text(factor: Factor) -> str:
+def _factor_text(factor: Factor, points: Points | None = None) -> str:
+    if points and factor.point in points and points[factor.point].info.floating:
+        return factor.point  # its value, for its raw number is a bit pattern
     text = f"{factor.point}.raw"
     if factor.slope != 1 or factor.intercept:
         text = f"({plus_text(times_text(text, factor.slope, 1), factor.intercept, 1)})"

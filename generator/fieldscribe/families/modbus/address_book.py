@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.dialogue import Item
-from fieldscribe.dialogue.meanings import meaning_of, range_remark, raw_text
-from fieldscribe.dialogue.selection import label
+from fieldscribe.dialogue.codec import setting_of
+from fieldscribe.dialogue.items import named_item, value_item
 from fieldscribe.explain.lookup import word_text
 from fieldscribe.families.modbus.functions import READS, SPACES
 from fieldscribe.families.modbus.words import raw_of
@@ -17,6 +17,7 @@ from fieldscribe.wording.exact import hex_text
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
+    from fractions import Fraction
 
     from fieldscribe.dialogue.codec import Settings
     from fieldscribe.model import Command, Device, Place, Point
@@ -65,12 +66,12 @@ class AddressBook:
         """The points whose lowest address this is."""
         return [one for one in self._at.get((space, address), ()) if min(one[1].addresses) == address]
 
-    def raws(self, area: Area) -> dict[str, int]:
-        """The raw numbers of all points that the area carries whole, by point name."""
+    def raws(self, area: Area) -> dict[str, int | Fraction]:
+        """What rules take of all points that the area carries whole, by point name."""
         words, found = area.words, {}
         for point, place in self._points(area):
             if all(address in words for address in place.addresses):
-                found[point.name] = raw_of(point, place.addresses, words)
+                found[point.name] = setting_of(point, raw_of(point, place.addresses, words))
         return found
 
     def items(self, area: Area, settings: Settings) -> tuple[Item, ...]:
@@ -108,20 +109,13 @@ class AddressBook:
         whole = len(inside) == len(place.addresses)
         words = area.words
         base = (area.space, min(inside), len(inside))
-        name = label(point)
-        title = title_text({"en": point.title["en"]})
         if not whole:
             texts = [word_text(place.addresses, one) + _carried(words, one) for one in inside]
-            return Item(*base, line(f"{name}: only the {', '.join(texts)}"), point.item, point.code)
+            return named_item(point, base, f"only the {', '.join(texts)}")
         if not all(address in words for address in inside):
-            return Item(*base, line(f"{name}: {title}"), point.item, point.code)
+            return named_item(point, base)
         raw = raw_of(point, place.addresses, words)
-        meaning = meaning_of(self._device, point, raw, settings)
-        text = f"{name} = {meaning.text} ({raw_text(point, raw)}): {title}"
-        odd = "" if area.function in READS else range_remark(self._device, point, raw, settings)
-        text += f"; {odd}" if odd else ""
-        text += f"; {meaning.hint}" if meaning.hint else ""
-        return Item(*base, line(text), point.item, point.code, raw, meaning.value, meaning.missing)
+        return value_item(self._device, point, base, raw, settings, written=area.function not in READS)
 
     def _unknown(self, area: Area, addresses: list[int]) -> list[Item]:
         if not addresses:

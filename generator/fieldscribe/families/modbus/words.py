@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.dialogue.refusals import RefusedError
 from fieldscribe.dialogue.selection import label
+from fieldscribe.dialogue.words import raw_of as raw_of_words
 from fieldscribe.families.modbus.functions import BROADCAST, SPACES, profile_of
 from fieldscribe.families.modbus.requests import Request, build
 from fieldscribe.wording.exact import hex_text
@@ -18,13 +19,7 @@ if TYPE_CHECKING:
 
 def raw_of(point: Point, addresses: tuple[int, ...], words: Mapping[int, int]) -> int:
     """The raw number of a point out of words by address; `addresses` has the high part first."""
-    pattern = 0
-    for address in addresses:
-        pattern = pattern << 16 | words[address]
-    if point.bits is not None:
-        pattern >>= point.bits[1]
-    pattern &= (1 << point.width) - 1
-    return pattern - (1 << point.width) if pattern > point.greatest else pattern
+    return raw_of_words(point, [words[address] for address in addresses])
 
 
 def words_of(point: Point, raw: int, addresses: tuple[int, ...]) -> tuple[int, ...]:

@@ -89,19 +89,24 @@ def parse_case(text: str) -> tuple[Name, int]:
 
 
 def condition_names(condition: Condition) -> tuple[Name, ...]:
-    """AllOf names that a condition compares, in the order of the text, each time they occur."""
-    return tuple(_names(condition))
+    """All names that a condition compares, in the order of the text, each time they occur."""
+    return tuple(one.name for one in _comparisons(condition))
 
 
-def _names(condition: Condition) -> Iterator[Name]:
+def condition_comparisons(condition: Condition) -> tuple[Comparison, ...]:
+    """All comparisons of a condition, in the order of the text."""
+    return tuple(_comparisons(condition))
+
+
+def _comparisons(condition: Condition) -> Iterator[Comparison]:
     match condition:
-        case Comparison(name):
-            yield name
+        case Comparison():
+            yield condition
         case Not(operand):
-            yield from _names(operand)
+            yield from _comparisons(operand)
         case AllOf(parts) | AnyOf(parts):
             for part in parts:
-                yield from _names(part)
+                yield from _comparisons(part)
 
 
 def _any(parser: Parser) -> Condition:

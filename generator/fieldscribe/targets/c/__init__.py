@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from fieldscribe.targets.c.clashes import clashes
 from fieldscribe.targets.c.conformance import conformance_view
 from fieldscribe.targets.c.device import device_view
-from fieldscribe.targets.c.modbus import modbus_view
+from fieldscribe.targets.c.families import FAMILIES
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -20,17 +20,17 @@ def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     """The generated files: path relative to the output folder, and text."""
     view, scope = device_view(device)
     yield f"c/{device.id}.h", render("c/device.h.j2", {"device": view})
-    if device.family == "modbus":
-        bus = modbus_view(device, view, scope)
-        yield f"c/{device.id}_modbus.h", render("c/modbus.h.j2", {"device": view, "bus": bus})
-    suite = conformance_view(device, view, scope)
-    yield f"c/conformance/{device.id}_conformance.c", render("c/conformance.c.j2", {"device": view, "suite": suite})
+    name, family = device.family, FAMILIES[device.family]
+    bus = family.view(device, view, scope)
+    frames = {"device": view, "bus": bus}
+    yield f"c/{device.id}_{name}.h", render(f"c/{name}.h.j2", frames)
+    suite = conformance_view(device, view, scope, family.adapters(bus))
+    yield f"c/conformance/{device.id}_conformance.c", render("c/conformance.c.j2", {**frames, "suite": suite})
 
 
 def runtime(device: Device) -> Iterator[tuple[str, str]]:
     """The real source files beside the output: output path, and path under the templates."""
-    if device.family == "modbus":
-        yield "c/fieldscribe_modbus.h", "c/runtime/fieldscribe_modbus.h"
+    yield f"c/fieldscribe_{device.family}.h", f"c/runtime/fieldscribe_{device.family}.h"
     yield "c/fieldscribe_conformance.h", "c/runtime/fieldscribe_conformance.h"
 
 

@@ -5,13 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.targets.c.device import device_view, function_names
-from fieldscribe.targets.c.modbus import modbus_view
+from fieldscribe.targets.c.families import FAMILIES
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from fieldscribe.model import Device
-    from fieldscribe.targets.c.modbus import BusView
     from fieldscribe.targets.c.views import DeviceView
 
 _HELPERS = (
@@ -47,6 +46,11 @@ _HELPERS = (
     "value_from_raw",
     "modbus_functions",
     "modbus_profile",
+    "split_f32",
+    "twice_ratio",
+    "shifted_ratio",
+    "apply_shifted",
+    "two_to",
 )
 _MACROS = (
     "OK",
@@ -59,6 +63,8 @@ _MACROS = (
     "NO_VALUE",
     "H",
     "MODBUS_H",
+    "CAN_H",
+    "USS_H",
     "DESCRIPTION_VERSION",
     "DESCRIPTION_DIGEST",
 )
@@ -77,22 +83,12 @@ def _identifiers(device: Device) -> Iterator[tuple[str, str]]:
     view, scope = device_view(device)
     names = [f"{view.prefix}_{name}" for name in _HELPERS] + [f"{view.upper}_{name}" for name in _MACROS]
     yield from ((name, "the header") for name in (*names, *(name for name, _ in view.spaces)))
+    for one in view.telegrams:
+        yield from ((name, "the telegrams") for name in (one.name, one.words_name))
     yield from _of_points(view)
     yield from ((alias, f"the old name of {name}") for alias, name in view.aliases)
-    if device.family == "modbus":
-        yield from _of_bus(modbus_view(device, view, scope), view.prefix)
-
-
-def _of_bus(bus: BusView, prefix: str) -> Iterator[tuple[str, str]]:
-    for blocks in bus.blocks:
-        yield from ((name, f"the blocks of {blocks.name}") for name in (blocks.array, blocks.count_name))
-    for command in bus.commands:
-        names = (command.function, *(name for name, _ in command.defines))
-        yield from ((name, f"command {command.function}") for name in names)
-    yield from ((name, f"exception {title}") for name, _, title in bus.exceptions)
-    for request in bus.requests:
-        item = request.function[len(prefix) + 1 :]
-        yield from ((f"{request.function}{tail}", item) for tail in ("_read_request", "_write_request"))
+    family = FAMILIES[device.family]
+    yield from family.identifiers(family.view(device, view, scope), view)
 
 
 def _of_points(view: DeviceView) -> Iterator[tuple[str, str]]:

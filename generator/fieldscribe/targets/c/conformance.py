@@ -7,9 +7,11 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.names import upper
 from fieldscribe.targets.c.literals import raw_type
-from fieldscribe.targets.c.points import special_defines, value_type
+from fieldscribe.targets.c.points import named_numbers, special_defines, value_type
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from fieldscribe.model import Device, Point, Special
     from fieldscribe.targets.c.scope import Scope
     from fieldscribe.targets.c.views import DeviceView, PointView
@@ -34,46 +36,37 @@ class SuiteView:
     adapters: tuple[AdapterView, ...]
     spaces: tuple[str, ...]
     statuses: tuple[tuple[str, str], ...]
-    modbus: bool
+    family: str
     groups: tuple[tuple[str, str, str], ...]
+    telegrams: tuple[str, ...]
 
 
 _STATUSES = ("ok", "out_of_range", "not_a_number", "unknown_value", "zero_factor", "no_case", "overflow", "no_value")
 
 
-def conformance_view(device: Device, view: DeviceView, scope: Scope) -> SuiteView:
-    """The view of `<device>_conformance.c`."""
+def conformance_view(device: Device, view: DeviceView, scope: Scope, extra: Mapping[str, str]) -> SuiteView:
+    """The view of `<device>_conformance.c`; `extra` are further macros that answer for points, by their function."""
     views = {entry.item: entry for group in view.groups for entry, _ in group.entries if entry is not None}
     points = [point for point in device.points if point.generated]
-    modbus = device.family == "modbus"
     groups = (
         (group, f"{scope.prefix}_{group}_blocks", f"{scope.upper}_{upper(group)}_BLOCKS_COUNT")
         for group, blocks in device.blocks.items()
         if blocks
     )
     return SuiteView(
-        adapters=tuple(_adapter(point, views[point.item], scope) for point in points),
+        adapters=tuple(_adapter(point, views[point.item], scope, extra) for point in points),
         spaces=tuple(dict.fromkeys(point.space for point in points)),
         statuses=tuple((f"{scope.upper}_{upper(status)}", status) for status in _STATUSES),
-        modbus=modbus,
-        groups=tuple(groups) if modbus else (),
+        family=device.family,
+        groups=tuple(groups),
+        telegrams=tuple(one.name for one in device.telegrams),
     )
 
 
-def _adapter(point: Point, view: PointView, scope: Scope) -> AdapterView:
-    function, kind = view.function, view.raw_type
-    cases = [f"ADDRESS({view.macro}, {_constants(point, view)})"] if point.address is not None else []
-    if view.writable:
-        cases.append(f"CHECK({function}_check, {kind}, {_with(point, view.limit_arguments, scope)})")
-    cases += _conversions(point, view, scope)
-    if point.enum is not None:
-        cases.append(f"NAME({scope.prefix}_{point.enum.name}_name, {value_type(point)})")
-    if view.bits is not None:
-        cases.append(f"BITS({function}, {kind})")
-    elif view.words is not None:
-        cases.append(f"WORDS({function}, {kind}, {point.words}U)")
-    else:
-        cases.append(f"ONE_WORD({kind})")
+def _adapter(point: Point, view: PointView, scope: Scope, extra: Mapping[str, str]) -> AdapterView:
+    cases = _cases(point, view, scope)
+    if view.function in extra:
+        cases.append(extra[view.function])
     return AdapterView(
         view.item,
         point.arguments if view.declare_all else (),
@@ -89,10 +82,53 @@ def _adapter(point: Point, view: PointView, scope: Scope) -> AdapterView:
     )
 
 
+def _cases(point: Point, view: PointView, scope: Scope) -> list[str]:
+    """The macros that answer a kind of vector."""
+    function, kind = view.function, view.raw_type
+    cases = [f"ADDRESS({view.macro}, {_constants(point, view)})"] if point.address is not None else []
+    if view.writable and view.shape != "text":
+        cases.append(f"CHECK({function}_check, {kind}, {_with(point, view.limit_arguments, scope)})")
+    cases += _conversions(point, view, scope)
+    enum = named_numbers(point)
+    if enum is not None:
+        cases.append(f"NAME({scope.prefix}_{enum.name}_name, {value_type(point)})")
+    cases += _places(point, view)
+    if point.text is not None:
+        return cases
+    if view.bits is not None:
+        cases.append(f"BITS({function}, {kind})")
+    elif view.words is not None:
+        cases.append(f"WORDS({function}, {kind}, {point.words}U)")
+    else:
+        cases.append(f"ONE_WORD({kind})")
+    return cases
+
+
+def _places(point: Point, view: PointView) -> list[str]:
+    """Where a point is beside its address, and which bits of its word are constant."""
+    cases = []
+    if point.fixed is not None:
+        cases.append(f"FIXED({view.macro})")
+    if point.text is not None:
+        cases.append(f"PLACE_OF_TEXT({view.macro}, {view.function}, {_beside(point, view)})")
+    elif point.addresses and (point.index is not None or point.telegram is not None):
+        first = min(point.addresses)
+        words = [f"FIELDSCRIBE_PLACED({view.macro}, {address - first}U)" for address in point.addresses]
+        cases.append(f"PLACE({' '.join(words)}, {_beside(point, view)})")
+    return cases
+
+
+def _beside(point: Point, view: PointView) -> str:
+    """The macros that answer with the index and the telegram, as far as the point has them."""
+    calls = [f"FIELDSCRIBE_INDEX({view.macro})"] if point.index is not None else []
+    calls += [f"FIELDSCRIBE_TELEGRAM({view.macro})"] if point.telegram is not None else []
+    return " ".join(calls)
+
+
 def _constants(point: Point, view: PointView) -> str:
     """The macros that answer with what stands beside the address."""
     calls = [f"CODE({view.macro})"] if point.code is not None else []
-    if view.shape != "float":
+    if view.shape not in ("float", "text", "digits"):
         calls.append(f"RAWS({view.macro})")
     if point.form == "scaled":
         calls.append(f"DECIMALS({view.macro})")
@@ -109,6 +145,8 @@ def _special(special: Special, view: PointView) -> tuple[str, str, str]:
 
 def _conversions(point: Point, view: PointView, scope: Scope) -> list[str]:
     function, kind, form = view.function, view.raw_type, view.shape
+    if form in ("text", "digits"):
+        return _of_parts(point, view)
     arguments = point.arguments if view.declare_all else ()
     everything = _with(point, arguments, scope)
     scale = _with(point, view.scale_arguments, scope)
@@ -129,6 +167,23 @@ def _conversions(point: Point, view: PointView, scope: Scope) -> list[str]:
             cases.append(f"ENCODE({function}_encode, {real}, {kind}, {everything})")
         if view.readable:
             cases.append(f"{attempt}DECODE({function}_decode, {real}, {kind}, {scale})")
+    return cases
+
+
+def _of_parts(point: Point, view: PointView) -> list[str]:
+    """The conversions of a point that is a text, or digits."""
+    cases = []
+    if point.text is not None:
+        if view.readable:
+            cases.append(f"TEXT_DECODE({view.function}, {view.macro})")
+        if view.writable:
+            cases.append(f"TEXT_ENCODE({view.function}, {view.macro})")
+        return cases
+    kind = getattr(view.codec, "digit_type", "uint8_t")
+    if view.readable:
+        cases.append(f"DIGITS({view.function}, {kind}, {view.macro})")
+    if view.writable:
+        cases.append(f"DIGITS_ENCODE({view.function}, {kind}, {view.macro})")
     return cases
 
 

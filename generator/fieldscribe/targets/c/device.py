@@ -8,7 +8,7 @@ from fieldscribe import __version__
 from fieldscribe.names import upper
 from fieldscribe.targets.c.points import comment_lines, point_view
 from fieldscribe.targets.c.scope import Scope, scope_of
-from fieldscribe.targets.c.views import DeviceView, GroupView, Needs, PointView
+from fieldscribe.targets.c.views import DeviceView, GroupView, Needs, PointView, TelegramView
 from fieldscribe.text import c_comment
 
 if TYPE_CHECKING:
@@ -46,10 +46,16 @@ def device_view(device: Device) -> tuple[DeviceView, Scope]:
         upper=scope.upper,
         version=device.version,
         digest=device.digest[:16],
+        telegrams=tuple(
+            TelegramView(
+                f"{scope.upper}_TELEGRAM_{upper(one.name)}", number, f"{scope.upper}_TELEGRAM_{upper(one.name)}_WORDS", one.words
+            )
+            for number, one in enumerate(device.telegrams)
+        ),
         spaces=tuple((f"{scope.upper}_SPACE_{upper(space)}", index) for index, space in enumerate(spaces)),
         groups=groups,
         aliases=tuple(aliases),
-        needs=_needs(scope.used),
+        needs=_needs(scope),
     )
     return view, scope
 
@@ -69,6 +75,12 @@ def head_lines(device: Device) -> tuple[str, ...]:
 def function_names(view: PointView) -> list[str]:
     """Every function that the header defines for a point, but for the names of its enum."""
     counted = view.shape in ("scaled", "ruled")
+    if view.shape in ("text", "digits"):
+        tails = ["_encode"] if view.writable else []
+        tails += ["_decode"] if view.readable else []
+        tails += ["_check"] if view.shape == "digits" and view.writable else []
+        tails += ["_addresses"] if view.shape == "text" else []
+        return [view.function + tail for tail in tails]
     tails = ["_encode", "_encode_count"][: 1 + counted] if view.writable else []
     tails += ["_decode", "_decode_count"][: 1 + counted] if view.readable else []
     tails += ["_check"] if view.writable else []
@@ -89,7 +101,8 @@ def _remark(point: Point, scope: Scope) -> tuple[str, ...]:
     return (*lines, c_comment(f"Not generated ({point.item}): {point.reason or 'documented only'}."))
 
 
-def _needs(used: set[str]) -> Needs:
+def _needs(scope: Scope) -> Needs:
+    used = scope.used
     rules = "rules" in used
     return Needs(
         signed="signed" in used,
@@ -107,5 +120,6 @@ def _needs(used: set[str]) -> Needs:
         f32_order="f32_order" in used,
         f64_order="f64_order" in used,
         rules=rules,
+        shifts=rules and scope.shifts,
         floats=bool(used & _FLOATS),
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from fieldscribe.model import Bound, Interval, Limit, Point
@@ -25,6 +26,16 @@ def refused_status(point: Point) -> str:
 
 def check_view(point: Point, macro: str, scope: Scope, arguments: tuple[str, ...]) -> CheckView:
     """The check of a point whose raw number is an integer; `arguments` are the points that its limits need."""
+    check = _limits_check(point, macro, scope, arguments)
+    if point.fixed is None or point.bits is not None:
+        return check
+    bits = f"uint{max(32, point.info.bits)}_t"
+    constant = f"(({bits})raw & {macro}_FIXED_MASK) == {macro}_FIXED_BITS"
+    test = f"({check.test})" if " || " in check.test else check.test
+    return replace(check, test=f"{constant} && {test}" if test else constant)
+
+
+def _limits_check(point: Point, macro: str, scope: Scope, arguments: tuple[str, ...]) -> CheckView:
     refused = f"{scope.upper}_{refused_status(point)}"
     bounds = raw_bounds(point)
     if arguments or not all(map(_is_fixed, point.allowed.intervals)):

@@ -26,11 +26,12 @@ _RAW_TYPES = {
     **{f"s{bits}": f"int{bits}_t" for bits in (8, 16, 32, 64)},
     "f32": "uint32_t",
     "f64": "uint64_t",
+    "text": "uint16_t",
 }
 
 
 def raw_type(point: Point) -> str:
-    """The C type of a point's raw number; bit patterns of floating-point numbers are unsigned."""
+    """The C type of a point's raw number (of a text: of one word); floating-point patterns are unsigned."""
     return _RAW_TYPES[point.type]
 
 

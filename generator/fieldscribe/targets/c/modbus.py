@@ -10,6 +10,8 @@ from fieldscribe.targets.c.literals import hexadecimal, raw_type, unsigned
 from fieldscribe.text import c_comment
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from fieldscribe.model import Block, Command, Device, Place, Point
     from fieldscribe.targets.c.scope import Scope
     from fieldscribe.targets.c.views import Define, DeviceView, PointView
@@ -101,11 +103,29 @@ def modbus_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
         blocks=tuple(_blocks(group, blocks, scope) for group, blocks in device.blocks.items() if blocks),
         requests=tuple(request for request in requests if request is not None),
         commands=tuple(_command(command, scope) for command in device.commands),
-        exceptions=tuple(
-            (f"{scope.upper}_EXCEPTION_{upper(code.name)}", hexadecimal(code.number, 2), c_comment(code.title["en"]))
-            for code in bus.exceptions
-        ),
+        exceptions=exceptions_of(device, scope),
     )
+
+
+def exceptions_of(device: Device, scope: Scope) -> tuple[tuple[str, str, str], ...]:
+    """The codes with which a device refuses: enumerator, number and comment."""
+    return tuple(
+        (f"{scope.upper}_EXCEPTION_{upper(code.name)}", hexadecimal(code.number, 2), c_comment(code.title["en"]))
+        for code in device.bus.exceptions
+    )
+
+
+def identifiers(bus: BusView, view: DeviceView) -> Iterator[tuple[str, str]]:
+    """Every identifier of the header, with what it belongs to."""
+    for blocks in bus.blocks:
+        yield from ((name, f"the blocks of {blocks.name}") for name in (blocks.array, blocks.count_name))
+    for command in bus.commands:
+        names = (command.function, *(name for name, _ in command.defines))
+        yield from ((name, f"command {command.function}") for name in names)
+    yield from ((name, f"exception {title}") for name, _, title in bus.exceptions)
+    for request in bus.requests:
+        item = request.function[len(view.prefix) + 1 :]
+        yield from ((f"{request.function}{tail}", item) for tail in ("_read_request", "_write_request"))
 
 
 def _request(point: Point, view: PointView, functions: frozenset[int]) -> RequestView | None:

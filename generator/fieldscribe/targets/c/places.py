@@ -13,9 +13,9 @@ if TYPE_CHECKING:
 
 
 def words_view(point: Point, scope: Scope) -> WordsView | None:
-    """Conversions between raw and words; None where the one word is the raw number, or its bits are shared."""
+    """Conversions between raw and words; None where the one word is the raw number, or its bits are shared; of a text."""
     info = point.info
-    if point.bits is not None or info.bits == 1 or (info.bits <= 16 and not info.signed):
+    if point.text is not None or point.bits is not None or info.bits == 1 or (info.bits <= 16 and not info.signed):
         return None
     target = raw_type(point)
     if point.words == 1:
@@ -23,7 +23,8 @@ def words_view(point: Point, scope: Scope) -> WordsView | None:
         return WordsView(1, "", ((0, "(uint16_t)raw"),), f"({target}){scope.helper('signed')}({mask}, {sign})")
     bits = f"uint{info.bits}_t"
     order = sorted(point.addresses) if point.addresses else []
-    high_first = [order.index(address) for address in point.addresses] if order else list(range(point.words))
+    whole = len(order) == point.words  # one address of a parameter may hold several words, the high one first
+    high_first = [order.index(address) for address in point.addresses] if whole else list(range(point.words))
     shifts = [(16 * (point.words - 1 - place), index) for place, index in enumerate(high_first)]
     stores = tuple(
         (index, f"(uint16_t)(bits >> {shift})" if shift else "(uint16_t)(bits & 0xFFFFU)")
@@ -52,4 +53,20 @@ def bits_view(point: Point, macro: str, scope: Scope) -> BitsView | None:
         extract = f"({target})({field})"
     number = "(raw ? 1U : 0U)" if target == "bool" else "(uint16_t)raw"
     shifted = f"(uint32_t){number} << {macro}_SHIFT" if low else f"(uint32_t){number}"
-    return BitsView(extract, f"(uint16_t)((word & ~(uint32_t){macro}_MASK) | (({shifted}) & {macro}_MASK))")
+    changed = f"(word & ~(uint32_t){macro}_MASK) | (({shifted}) & {macro}_MASK)"
+    if point.fixed is not None:
+        changed = f"(({changed}) & ~(uint32_t){macro}_FIXED_MASK) | {macro}_FIXED_BITS"
+    return BitsView(extract, f"(uint16_t)({changed})")
+
+
+def fixed_number(point: Point, macro: str, scope: Scope, name: str) -> str:
+    """The number `name` of the point's raw type with the constant bits of its word put in."""
+    info, bits = point.info, f"uint{max(32, point.info.bits)}_t"
+    number = f"(({bits}){name} & ~({bits}){macro}_FIXED_MASK) | {macro}_FIXED_BITS"
+    if not info.signed:
+        return f"({raw_type(point)})({number})"
+    if info.bits > 16:
+        return f"{scope.helper(f'signed{info.bits}')}({number})"
+    sign = hexadecimal(1 << (info.bits - 1))
+    mask = f"({number}) & {hexadecimal((1 << info.bits) - 1)}"
+    return f"({raw_type(point)}){scope.helper('signed')}((uint16_t)({mask}), {sign})"

@@ -18,10 +18,20 @@ from fieldscribe.targets.c.literals import (
     signed,
     unsigned,
 )
-from fieldscribe.targets.c.places import bits_view, words_view
+from fieldscribe.targets.c.places import bits_view, fixed_number, words_view
 from fieldscribe.targets.c.rules import ruled_view
 from fieldscribe.targets.c.scales import scaled_view
-from fieldscribe.targets.c.views import Codec, Define, EnumView, FlagView, FloatView, PlainView, PointView
+from fieldscribe.targets.c.views import (
+    Codec,
+    Define,
+    DigitsView,
+    EnumView,
+    FlagView,
+    FloatView,
+    PlainView,
+    PointView,
+    TextView,
+)
 from fieldscribe.text import c_comment, c_string
 from fieldscribe.wording import access_text, range_text, raw_range_text, resolution_text, with_unit
 from fieldscribe.wording.exact import number_text
@@ -39,7 +49,9 @@ def point_view(point: Point, scope: Scope) -> PointView:
     low, high = (0, 0) if point.info.floating else outer_limits(point)
     scale, limits = point.scale_arguments, point.limit_arguments
     shape, codec = _codec(point, macro, scope, (low, high), scale)
-    check = check_view(point, macro, scope, limits) if point.writable and shape != "float" else None
+    checked = point.writable and shape in ("plain", "scaled", "ruled")
+    check = check_view(point, macro, scope, limits) if checked else None
+    enum = named_numbers(point)
     kind = raw_type(point)
     declare_scale, declare_limits = scope.declare(scale), scope.declare(limits)
     return PointView(
@@ -48,7 +60,7 @@ def point_view(point: Point, scope: Scope) -> PointView:
         item=point.item,
         comment=comment_lines(point, scope),
         defines=tuple(_defines(point, macro, scope, low, high)),
-        enum=_enum_view(point.enum, point, scope) if point.enum is not None else None,
+        enum=_enum_view(enum, point, scope) if enum is not None else None,
         shape=shape,
         codec=codec,
         raw_type=kind,
@@ -57,7 +69,7 @@ def point_view(point: Point, scope: Scope) -> PointView:
         readable=point.readable,
         writable=point.writable,
         check=check,
-        recheck=check is not None and (len(point.allowed.intervals) > 1 or bool(check.limits)),
+        recheck=check is not None and (len(point.allowed.intervals) > 1 or bool(check.limits) or _fixes(point)),
         no_value=_no_value(point) if point.specials else "",
         scale_arguments=scale,
         limit_arguments=limits,
@@ -95,10 +107,9 @@ def comment_lines(point: Point, scope: Scope) -> tuple[str, ...]:
     return tuple(lines)
 
 
-def enum_prefix(point: Point, scope: Scope) -> str:
-    """What the enumerators of the point's enum begin with."""
-    assert point.enum is not None
-    return f"{scope.upper}_{upper(point.enum.name)}"
+def named_numbers(point: Point) -> Enum | None:
+    """The enum that names the point's numbers, or each of its digits."""
+    return point.digits.enum if point.digits is not None else point.enum
 
 
 def special_defines(special: Special, macro: str) -> tuple[Define, Define]:
@@ -110,6 +121,10 @@ def special_defines(special: Special, macro: str) -> tuple[Define, Define]:
 
 
 def _range(point: Point) -> str:
+    if point.text is not None:
+        return f"{point.text.characters} characters, {point.text.encoding}"
+    if point.digits is not None:
+        return f"{point.digits.count} digits, the highest first"
     units, raws, step = range_text(point), raw_range_text(point), resolution_text(point)
     text = f"{units}, raw {raws}" if units and raws and units != raws else units or f"raw {raws}"
     return f"{text}, in steps of {step}" if step and point.form == "scaled" else text
@@ -131,11 +146,61 @@ def _codec(
         return ("ruled", ruled_view(point, scope)) if arguments else ("scaled", scaled_view(point, scope, *outer))
     if form == "float":
         return "float", _float_view(point, scope)
+    if form == "text":
+        return "text", _text_view(point, macro)
+    if form == "digits":
+        return "digits", _digits_view(point)
     kind = value_type(point)
     least, greatest = VALUE_BOUNDS[kind]
+    if _fixes(point):  # a value without its constant bits may lie outside: only what the type cannot hold is refused
+        low, high = raw_bounds(point)
+        tests = [f"value < {bare(low)}"] if low > least else []
+        tests += [f"value > {bare(high)}"] if high < greatest else []
+        return "plain", PlainView(kind, " || ".join(tests), fixed_number(point, macro, scope, "value"))
     tests = [f"value < {macro}_RAW_MIN"] if outer[0] > least else []
     tests += [f"value > {macro}_RAW_MAX"] if outer[1] < greatest else []
-    return "plain", PlainView(kind, " || ".join(tests))
+    return "plain", PlainView(kind, " || ".join(tests), "")
+
+
+def _fixes(point: Point) -> bool:
+    """Whether encoding puts constant bits into the raw number; for a bit group its insertion does."""
+    return point.fixed is not None and point.bits is None
+
+
+_REFUSED_CHARACTERS = {
+    "ascii": "character < 0x20U || character > 0x7EU",
+    "latin-1": "character < 0x20U || (character > 0x7EU && character < 0xA0U)",
+}
+
+
+def _text_view(point: Point, macro: str) -> TextView:
+    assert point.text is not None
+    addresses = ", ".join(hexadecimal(address) for address in point.addresses)
+    characters = point.text.characters
+    return TextView(point.words, characters, _REFUSED_CHARACTERS[point.text.encoding], addresses)
+
+
+def _digits_view(point: Point) -> DigitsView:
+    """Only the first digit can be more than 9: it takes what is left."""
+    assert point.digits is not None
+    count = point.digits.count
+    largest = raw_bounds(point)[1] // 10 ** (count - 1)
+    numbers = sorted({entry.raw for entry in point.digits.enum.entries})
+    kind = "uint8_t" if max(largest, 9) < 256 else "uint16_t"
+    bounds = (0, 255 if kind == "uint8_t" else 65535)
+    tests = [interval_test("digit", low, high, bounds, unsigned) for low, high in _runs(numbers)]
+    return DigitsView(count, kind, any_of(tests))
+
+
+def _runs(numbers: list[int]) -> list[tuple[int, int]]:
+    """Ascending numbers as intervals without holes."""
+    runs: list[tuple[int, int]] = []
+    for number in numbers:
+        if runs and runs[-1][1] == number - 1:
+            runs[-1] = (runs[-1][0], number)
+        else:
+            runs.append((number, number))
+    return runs
 
 
 def _float_view(point: Point, scope: Scope) -> FloatView:
@@ -160,6 +225,10 @@ def _defines(point: Point, macro: str, scope: Scope, low: int, high: int) -> lis
     address = point.address
     if address is not None:
         defines.append((f"{macro}_ADDRESS", hexadecimal(address)))
+        if point.index is not None:
+            defines.append((f"{macro}_INDEX", unsigned(point.index)))
+        if point.telegram is not None:
+            defines.append((f"{macro}_TELEGRAM", f"{scope.upper}_TELEGRAM_{upper(point.telegram)}"))
         defines += [
             (f"{macro}_{upper(place.purpose)}_ADDRESS", hexadecimal(min(place.addresses)))
             for place in point.places[1:]
@@ -171,10 +240,18 @@ def _defines(point: Point, macro: str, scope: Scope, low: int, high: int) -> lis
         literal = c_string(number) if isinstance(number, str) else (unsigned if number >= 0 else signed)(number)
         defines.append((f"{macro}_{upper(key)}", literal))
     defines.append((f"{macro}_WORDS", f"{point.words}U"))
-    if not point.info.floating:
+    if point.text is not None:
+        defines.append((f"{macro}_CHARACTERS", unsigned(point.text.characters)))
+    elif point.digits is not None:
+        defines.append((f"{macro}_DIGITS", unsigned(point.digits.count)))
+    elif not point.info.floating:
         defines += [(f"{macro}_RAW_MIN", signed(low)), (f"{macro}_RAW_MAX", signed(high))]
     if point.scale is not None and point.form == "scaled":
         defines.append((f"{macro}_DECIMALS", f"{point.decimals}"))
+    if point.fixed is not None:
+        digits = 4 * point.words
+        defines.append((f"{macro}_FIXED_MASK", hexadecimal(point.fixed.mask, digits)))
+        defines.append((f"{macro}_FIXED_BITS", hexadecimal(point.fixed.bits, digits)))
     if point.bits is not None:
         mask = ((1 << point.width) - 1) << point.bits[1]
         defines += [(f"{macro}_SHIFT", f"{point.bits[1]}U"), (f"{macro}_MASK", hexadecimal(mask))]
@@ -198,7 +275,7 @@ def _enum_view(enum: Enum, point: Point, scope: Scope) -> EnumView | None:
     if enum.name in scope.enums:
         return None
     scope.enums.add(enum.name)
-    prefix = enum_prefix(point, scope)
+    prefix = f"{scope.upper}_{upper(enum.name)}"
     entries: list[tuple[str, str, str]] = []
     cases: dict[int, tuple[str, str]] = {}
     for entry in enum.entries:

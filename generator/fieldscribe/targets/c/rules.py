@@ -11,6 +11,9 @@ if TYPE_CHECKING:
     from fieldscribe.model import Factor, Limit, Linear, Point, ScaleCase
     from fieldscribe.targets.c.scope import Scope
 
+_MANTISSA = 1 << 24
+"""No mantissa of a binary32 number is larger."""
+
 
 def ruled_view(point: Point, scope: Scope) -> RuledView:
     """The rule function of a point, case by case."""
@@ -59,6 +62,12 @@ def _rule(rule: Linear, scope: Scope, test: str = "", *, of_limit: bool = False)
     steps, tens = [], []
     for factor in rule.factors:
         number = _number(factor, "int64_t")
+        if _floats(factor, scope):
+            ends[factor.power] *= _MANTISSA
+            kind = "plain" if ends[factor.power] <= INT64[1] else "checked"
+            side = "num" if factor.power > 0 else "den"
+            steps.append(Step(kind, side, "mantissa", False, "", f"{factor.point}_raw"))
+            continue
         if factor.ten_to:
             exponent = f"-{number}" if factor.power < 0 else number
             tens.append(Step("ten", "rule", exponent, False, _beyond(factor, scope)))
@@ -74,7 +83,15 @@ def _rule(rule: Linear, scope: Scope, test: str = "", *, of_limit: bool = False)
         signed(rule.offset.numerator),
         signed(rule.offset.denominator),
         (*steps, *tens),
+        scope.shifts,
     )
+
+
+def _floats(factor: Factor, scope: Scope) -> bool:
+    """Whether a factor is the number of an f32 point: a mantissa of 24 bits times a power of two."""
+    floating = scope.points[factor.point].info.floating
+    assert not floating or (factor.slope, factor.intercept, factor.ten_to) == (1, 0, False)
+    return floating
 
 
 def _beyond(factor: Factor, scope: Scope) -> str:
@@ -90,6 +107,8 @@ def _beyond(factor: Factor, scope: Scope) -> str:
 def _simple(rule: Linear, scope: Scope) -> tuple[str, tuple[str, ...]] | None:
     """A limit as one expression and the factors that must not be zero; None when 64 bits are not proven to suffice."""
     factors, part = rule.factors, rule.offset.denominator
+    if any(_floats(factor, scope) for factor in factors):
+        return None
     positive = all(_bounds(factor, scope)[0] >= 0 for factor in factors if factor.power < 0)
     if any(factor.ten_to for factor in factors) or not positive or _reach(rule, scope) > INT64[1]:
         return None
@@ -125,6 +144,8 @@ def _number(factor: Factor, cast: str) -> str:
 
 
 def _bounds(factor: Factor, scope: Scope) -> tuple[int, int]:
+    if _floats(factor, scope):
+        return -_MANTISSA, _MANTISSA
     ends = [raw * factor.slope + factor.intercept for raw in raw_bounds(scope.points[factor.point])]
     return min(ends), max(ends)
 

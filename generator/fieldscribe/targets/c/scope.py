@@ -19,13 +19,15 @@ if TYPE_CHECKING:
 class Scope:
     """The namespace of one device.
 
-    `used` collects the names of shared helpers, `enums` the enums already placed, `scales` what points share.
+    `shifts` says that some rule has a factor of type f32; `used` collects the names of shared helpers, `enums` the
+    enums already placed, `scales` what points share.
     """
 
     prefix: str
     upper: str
     points: Mapping[str, Point]
     errata: Mapping[str, str]
+    shifts: bool
     used: set[str] = field(default_factory=set)
     enums: set[str] = field(default_factory=set)
     scales: dict[tuple[object, ...], ScaledView] = field(default_factory=dict)
@@ -55,4 +57,6 @@ def scope_of(device: Device) -> Scope:
         f"printed: {one.printed.rstrip('.')}; taken: {one.taken.rstrip('.')}."
         for one in device.errata
     }
-    return Scope(device.id, upper(device.id), points, lines)
+    floating = {point.name for point in device.points if point.info.floating}
+    shifts = any(not floating.isdisjoint(point.arguments) for point in device.points) if floating else False
+    return Scope(device.id, upper(device.id), points, lines, shifts)

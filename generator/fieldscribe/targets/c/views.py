@@ -24,7 +24,8 @@ class EnumView:
 class Step:
     """One factor of a rule: `kind` is plain, checked (may overflow) or ten.
 
-    `zero` asks for a test before; `beyond` tests whether an exponent is more than its point may hold.
+    `zero` asks for a test before; `beyond` tests whether an exponent is more than its point may hold. `pattern` is the
+    raw number of an f32 point, whose mantissa is the factor.
     """
 
     kind: str
@@ -32,6 +33,7 @@ class Step:
     factor: str
     zero: bool
     beyond: str
+    pattern: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,6 +46,7 @@ class RuleCase:
     offset: str
     parts: str
     steps: tuple[Step, ...]
+    shifts: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,10 +77,11 @@ class CheckView:
 
 @dataclass(frozen=True, slots=True)
 class PlainView:
-    """The raw number is the value."""
+    """The raw number is the value, but for the bits that `fixed` puts in; `number` is that raw number, if not simple."""
 
     value_type: str
     outside: str
+    number: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,7 +123,26 @@ class FloatView:
     inside: str
 
 
-Codec = PlainView | ScaledView | RuledView | FloatView
+@dataclass(frozen=True, slots=True)
+class TextView:
+    """Characters, two a word; `refused` tests whether `character` is none of the encoding."""
+
+    words: int
+    characters: int
+    refused: str
+    addresses: str
+
+
+@dataclass(frozen=True, slots=True)
+class DigitsView:
+    """Decimal digits, the highest first; `known` tests whether `digit` is one of the named numbers."""
+
+    count: int
+    digit_type: str
+    known: str
+
+
+Codec = PlainView | ScaledView | RuledView | FloatView | TextView | DigitsView
 
 
 @dataclass(frozen=True, slots=True)
@@ -207,7 +230,18 @@ class Needs:
     f32_order: bool
     f64_order: bool
     rules: bool
+    shifts: bool
     floats: bool
+
+
+@dataclass(frozen=True, slots=True)
+class TelegramView:
+    """A telegram: the enumerator that names it, its number, and the macro that says how many words it has."""
+
+    name: str
+    number: int
+    words_name: str
+    words: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -223,6 +257,7 @@ class DeviceView:
     version: str
     digest: str
     spaces: tuple[tuple[str, int], ...]
+    telegrams: tuple[TelegramView, ...]
     groups: tuple[GroupView, ...]
     aliases: tuple[tuple[str, str], ...]
     needs: Needs

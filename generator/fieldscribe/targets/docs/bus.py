@@ -6,12 +6,14 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.modbus import BROADCAST
-from fieldscribe.targets.docs.cells import Table, by_rows, cell, code, paragraph, source_text, target
+from fieldscribe.targets.docs.cells import Table, by_rows, cell, code, link, paragraph, source_text, target
 from fieldscribe.wording import address_text, title_text
 from fieldscribe.wording.exact import hex_text
 
 if TYPE_CHECKING:
-    from fieldscribe.model import Bus, Code, Device
+    from collections.abc import Iterator
+
+    from fieldscribe.model import Bus, Code, Device, Role
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,7 +23,11 @@ class BusView:
     note: str
     facts: Table | None
     functions: Table | None
+    function_heading: str
+    responses: Table | None
     exceptions: Table | None
+    messages: Table | None
+    telegrams: Table | None
     serial: Table | None
     timing: Table | None
     commands: Table | None
@@ -37,27 +43,111 @@ def bus_view(device: Device) -> BusView:
     ]
     return BusView(
         note=paragraph(title_text(bus.note)) if bus.note else "",
-        facts=by_rows(("Fact", "Value"), _facts(bus)),
-        functions=_functions(bus),
-        exceptions=by_rows(("Code", "Name", "Title"), [_code(one) for one in bus.exceptions]),
+        facts=by_rows(("Fact", "Value"), [*_FACTS[device.family](bus)]),
+        functions=_tasks(bus) if bus.responses else _functions(bus),
+        function_heading="Tasks" if bus.responses else "Functions",
+        responses=_linked_codes(bus.responses, "Tasks"),
+        exceptions=_linked_codes(bus.exceptions, "Tasks"),
+        messages=_messages(device),
+        telegrams=_telegrams(device),
         serial=by_rows(("Setting", "Code", "Meaning"), serial),
         timing=by_rows(("Time", "Value"), [(code(key), cell(value)) for key, value in bus.timing.items()]),
         commands=_commands(device),
     )
 
 
-def _facts(bus: Bus) -> list[tuple[str, str]]:
-    rows = [
-        ("Framing", cell(", ".join(bus.framings))),
-        ("Unit numbers", f"{bus.units[0]}..{bus.units[1]}"),
-        ("Broadcast", "none" if bus.broadcast is None else f"unit {bus.broadcast}, not answered"),
-    ]
+def _modbus_facts(bus: Bus) -> Iterator[tuple[str, str]]:
+    yield "Framing", cell(", ".join(bus.framings))
+    yield "Unit numbers", _span(bus.units)
+    yield "Broadcast", "none" if bus.broadcast is None else f"unit {bus.broadcast}, not answered"
     if bus.pad_coil_bytes:
-        rows.append(("Data bytes when coils are written", cell(f"padded to an {bus.pad_coil_bytes} number")))
+        yield "Data bytes when coils are written", cell(f"padded to an {bus.pad_coil_bytes} number")
     for space, gaps in bus.gaps.items():
         spans = ", ".join(f"{address_text(low)} to {address_text(high)}" for low, high in gaps)
-        rows.append((cell(f"No request may cross ({space})"), spans))
-    return rows
+        yield cell(f"No request may cross ({space})"), spans
+
+
+def _can_facts(bus: Bus) -> Iterator[tuple[str, str]]:
+    if bus.bitrate is not None:
+        yield "Bit rate", f"{bus.bitrate} bit/s"
+    if bus.identifier_bits is not None:
+        yield "Identifier", f"{bus.identifier_bits} bits"
+    yield "Unit numbers", _span(bus.units)
+
+
+def _uss_facts(bus: Bus) -> Iterator[tuple[str, str]]:
+    yield "Unit numbers", _span(bus.units)
+    if bus.broadcast is not None:
+        yield "Broadcast", f"address byte {hex_text(bus.broadcast, 2)}, not answered"
+    lengths = ("variable (127)" if one == _VARIABLE else str(one) for one in bus.pkw)
+    yield "Words of the parameter part (PKW)", cell(", ".join(lengths))
+    yield "Words of process data (PZD)", _span(bus.pzd)
+
+
+_FACTS = {"modbus": _modbus_facts, "can": _can_facts, "uss": _uss_facts}
+_VARIABLE = 127
+
+
+def _span(ends: tuple[int, int]) -> str:
+    return f"{ends[0]}..{ends[1]}"
+
+
+def _tasks(bus: Bus) -> Table | None:
+    rows = [(*_code(one), _numbers(one.answers), _numbers(one.refusals)) for one in bus.functions]
+    return by_rows(("Code", "Name", "Title", "Response", "Response when refused"), rows)
+
+
+def _linked_codes(codes: tuple[Code, ...], head: str) -> Table | None:
+    return by_rows(("Code", "Name", "Title", head), [(*_code(one), _numbers(one.answers)) for one in codes])
+
+
+def _numbers(numbers: tuple[int, ...]) -> str:
+    return ", ".join(map(str, numbers))
+
+
+def _messages(device: Device) -> Table | None:
+    """The bytes of each message, one column a byte."""
+    rows = [
+        (
+            target("message", one.name),
+            cell(title_text(one.title)),
+            cell(one.direction),
+            link("message", one.answers) if one.answers else "",
+            hex_text(one.can_id, 3) + (" + unit" if one.adds_unit else ""),
+            *(_role(role) for role in one.roles),
+            cell(source_text(one.source, len(device.documents) > 1)),
+        )
+        for one in device.messages
+    ]
+    bytes_heads = (f"Byte {place}" for place in range(len(device.messages[0].roles) if device.messages else 0))
+    return by_rows(("Name", "Title", "Direction", "Answers", "CAN id", *bytes_heads, "Source"), rows)
+
+
+def _role(role: Role) -> str:
+    part = "high" if role.number == 8 else "low"
+    if role.kind in ("address", "raw"):
+        return f"{role.kind} {part}"
+    if role.kind == "word":
+        return f"word {role.number // 2 + 1} {'low' if role.number & 1 else 'high'}"
+    if role.kind == "xor":
+        places = [str(place) for place in range(role.number.bit_length()) if role.number >> place & 1]
+        return f"XOR of bytes {', '.join(places)}"
+    return hex_text(role.number, 2) if role.kind == "constant" else role.kind
+
+
+def _telegrams(device: Device) -> Table | None:
+    rows = [
+        (
+            target("telegram", one.name),
+            cell(title_text(one.title)),
+            cell(one.direction),
+            str(one.words),
+            link("message", one.message) if one.message else "",
+            cell(source_text(one.source, len(device.documents) > 1)),
+        )
+        for one in device.telegrams
+    ]
+    return by_rows(("Name", "Title", "Direction", "Words", "Message", "Source"), rows)
 
 
 def _functions(bus: Bus) -> Table | None:

@@ -114,8 +114,8 @@ def _documents(device: Device) -> Table | None:
 def _enum_views(device: Device) -> Iterator[EnumView]:
     users: dict[str, list[Point]] = {}
     for point in device.points:
-        if point.enum is not None:
-            users.setdefault(point.enum.name, []).append(point)
+        for enum in _enums_of(point):
+            users.setdefault(enum.name, []).append(point)
     for enum in _all_enums(device):
         links = ", ".join(link("point", point.item) for point in users.get(enum.name, ()))
         yield EnumView(
@@ -132,9 +132,17 @@ def _all_enums(device: Device) -> Iterable[Enum]:
     """The device's enums, then those that only points without code use."""
     enums = {enum.name: enum for enum in device.enums}
     for point in device.points:
-        if point.enum is not None:
-            enums.setdefault(point.enum.name, point.enum)
+        for enum in _enums_of(point):
+            enums.setdefault(enum.name, enum)
     return enums.values()
+
+
+def _enums_of(point: Point) -> Iterator[Enum]:
+    """The enums of the point's number, or of each of its digits."""
+    if point.enum is not None:
+        yield point.enum
+    if point.digits is not None:
+        yield point.digits.enum
 
 
 def _entries(enum: Enum) -> Table | None:

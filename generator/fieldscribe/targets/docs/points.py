@@ -28,7 +28,11 @@ if TYPE_CHECKING:
 _INLINE_NAMES = 4
 """An enum with at most so many names stands in the point's row; a longer one is linked."""
 
-_KEEPS = {"no": "lost when switched off", "yes": "kept, each write wears the memory"}
+_KEEPS = {
+    "no": "lost when switched off",
+    "yes": "kept, each write wears the memory",
+    "choice": "kept when written to the EEPROM",
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,6 +105,7 @@ def _point_table(
             ("Title", [cell(wording.title_text(point.title)) for point in points]),
             ("Space", [cell(point.space) if with_space else "" for point in points]),
             ("Wire address", [wording.words_text(point) for point in points]),
+            ("Index", ["" if point.index is None else str(point.index) for point in points]),
             *references,
             ("Type", [wording.type_text(point) for point in points]),
             ("Access", [point.access for point in points]),
@@ -155,6 +160,8 @@ def _repeated(point: Point) -> Iterator[str]:
         yield cell(f"record {point.record}")
     if point.set is not None:
         yield f"set {point.set}"
+    if point.telegram is not None:
+        yield cell(f"telegram {point.telegram}")
 
 
 def _words(addresses: tuple[int, ...]) -> str:
@@ -164,6 +171,10 @@ def _words(addresses: tuple[int, ...]) -> str:
 def _names(point: Point) -> Iterator[str]:
     if point.flags:
         yield f"bits: {link('bits', point.item)}"
+    if point.fixed is not None:
+        yield cell(wording.fixed_text(point))
+    if point.digits is not None:
+        yield f"names of each digit: {link('names', point.digits.enum.name)}"
     if point.enum is None:
         return
     if len(point.enum.entries) <= _INLINE_NAMES:
@@ -188,6 +199,8 @@ def _conditions(device: Device, point: Point) -> Iterator[str]:
         yield cell(f"until {point.until}")
     if point.changes:
         yield cell(f"changes {point.changes}")
+    if point.changes_with:
+        yield f"read it again after writing {', '.join(link('point', name) for name in point.changes_with)}"
     yield from (f"was {code(old)}" for old in point.was)
     if point.reserved:
         yield "reserved"

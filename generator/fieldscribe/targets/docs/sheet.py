@@ -31,11 +31,11 @@ def sheet_of(device: Device) -> list[str]:
     return lines
 
 
-_PLACE = ("space", "wire_hex", "wire", "words_high_first", "other_places")
+_PLACE = ("space", "wire_hex", "wire", "words_high_first", "other_places", "index", "telegram")
 _FACTS = (
     *("type", "words", "bits", "access", "raw_min", "raw_max", "raw_range", "range", "unit", "scale", "resolution"),
-    *("default", "steps", "names", "flags", "specials"),
-    *("keeps", "conditions", "when", "since", "until", "changes", "record", "set", "was", "note"),
+    *("default", "steps", "names", "flags", "specials", "fixed"),
+    *("keeps", "conditions", "when", "since", "until", "changes", "changes_with", "record", "set", "was", "note"),
     *("errata", "document", "section", "page", "line", "generated", "reason"),
 )
 
@@ -46,12 +46,13 @@ def _identity(point: Point) -> tuple[str, ...]:
 
 def _place(point: Point) -> tuple[str, ...]:
     addresses = point.addresses
+    beside = "" if point.index is None else str(point.index), _cell(point.telegram or "")
     if not addresses:
-        return _cell(point.space), "", "", "", ""
+        return _cell(point.space), "", "", "", "", *beside
     lowest = min(addresses)
     others = "; ".join(f"{one.purpose}: {one.space} {_hexes(one.addresses)}" for one in point.places[1:])
     words = _hexes(addresses) if len(addresses) > 1 else ""
-    return _cell(point.space), hex_text(lowest), str(lowest), words, _cell(others) if others else ""
+    return _cell(point.space), hex_text(lowest), str(lowest), words, _cell(others) if others else "", *beside
 
 
 def _hexes(addresses: tuple[int, ...]) -> str:
@@ -78,10 +79,11 @@ def _meaning(point: Point, by_name: dict[str, Point]) -> tuple[str, ...]:
 
 
 def _names(point: Point) -> tuple[str, ...]:
-    names = "; ".join(map(wording.entry_text, point.enum.entries)) if point.enum else ""
+    enum = point.enum or (point.digits and point.digits.enum)
+    names = "; ".join(map(wording.entry_text, enum.entries)) if enum else ""
     flags = "; ".join(map(wording.flag_text, point.flags))
     specials = "; ".join(map(wording.special_text, point.specials))
-    return _cell(names), _cell(flags), _cell(specials)
+    return _cell(names), _cell(flags), _cell(specials), _cell(wording.fixed_text(point))
 
 
 def _behaviour(device: Device, point: Point) -> tuple[str, ...]:
@@ -92,6 +94,7 @@ def _behaviour(device: Device, point: Point) -> tuple[str, ...]:
         _cell(point.since or ""),
         _cell(point.until or ""),
         _cell(point.changes or ""),
+        _cell(" ".join(point.changes_with)),
         _cell(point.record or ""),
         "" if point.set is None else str(point.set),
         _cell("; ".join(point.was)),

@@ -18,8 +18,13 @@ if TYPE_CHECKING:
     from fieldscribe.model import Device
     from fieldscribe.render import Render
 
-_RUNTIME = (
+_MODULES = (
     "__init__",
+    "can/__init__",
+    "can/device",
+    "can/frames",
+    "can/receiver",
+    "can/session",
     "commands",
     "descriptors",
     "device",
@@ -27,13 +32,23 @@ _RUNTIME = (
     "facts",
     "forms",
     "handles",
-    "modbus",
-    "planner",
+    "modbus/__init__",
+    "modbus/device",
+    "modbus/frames",
+    "modbus/planner",
+    "modbus/session",
     "points",
     "quantities",
     "rules",
     "session",
+    "texts",
+    "uss/__init__",
+    "uss/descriptors",
+    "uss/device",
+    "uss/frames",
+    "uss/session",
     "words",
+    "wrappers",
 )
 
 
@@ -52,9 +67,12 @@ def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
 
 
 def runtime(device: Device) -> Iterable[tuple[str, str]]:
-    """The files copied beside the package: output path, and path under the templates folder."""
-    del device  # every device shares one runtime
-    for name in (*(f"{module}.py" for module in _RUNTIME), "py.typed"):
+    """The files copied beside the package: output path, and path under the templates folder.
+
+    All devices share one runtime, so it is the same whatever the family: devices of several lie beside one copy.
+    """
+    del device
+    for name in (*(f"{module}.py" for module in _MODULES), "py.typed"):
         yield f"python/fieldscribe_runtime/{name}", f"python/runtime/fieldscribe_runtime/{name}"
 
 

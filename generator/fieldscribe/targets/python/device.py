@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.names import pascal
-from fieldscribe.targets.python.identifiers import Identifiers, parameter
+from fieldscribe.targets.python.families import FAMILIES
+from fieldscribe.targets.python.identifiers import Identifiers, parameter, sorted_imports
 from fieldscribe.text import python_string
 
 if TYPE_CHECKING:
@@ -24,18 +25,39 @@ class Axis:
 
 
 @dataclass(frozen=True, slots=True)
-class DeviceView:
-    """The device module."""
+class DeviceClass:
+    """One class: its name, the device of the runtime that it is, the transport that this takes, and how to read."""
 
     name: str
-    async_name: str
+    base: str
+    transport: str
+    example: str
+
+
+@dataclass(frozen=True, slots=True)
+class DeviceView:
+    """The device module: what it takes from where, its classes, their variants, and further settings of the bus."""
+
+    module: str
+    imports: tuple[str, ...]
+    classes: tuple[DeviceClass, ...]
     axes: tuple[Axis, ...]
+    settings: tuple[tuple[str, str], ...]
 
 
 def device_view(device: Device, names: Identifiers) -> DeviceView:
     """The classes of the device."""
+    family = FAMILIES[device.family]
     axes = tuple(
         Axis(python_string(axis), parameter(axis), f"{pascal(axis)}Choice", tuple(map(python_string, values)))
         for axis, values in device.variants.items()
     )
-    return DeviceView(names.device_class, names.async_class, axes)
+    blocking, awaiting = family.blocking, family.awaiting
+    classes = (
+        DeviceClass(names.device_class, blocking.device, blocking.transport, "drive.point.read()"),
+        DeviceClass(names.async_class, awaiting.device, awaiting.transport, "await drive.point.read()"),
+    )
+    used = {blocking.device, awaiting.device}
+    if axes:  # only then has the class a constructor of its own
+        used |= {blocking.transport, awaiting.transport, *(kind for _, kind in family.settings)}
+    return DeviceView(family.module, tuple(sorted_imports(used)), classes, axes, family.settings)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.names import upper
 from fieldscribe.targets.python.identifiers import Identifiers, word_attribute
-from fieldscribe.targets.python.layout import call, laid_out
+from fieldscribe.targets.python.layout import Node, call, laid_out
 from fieldscribe.text import python_doc
 
 if TYPE_CHECKING:
@@ -64,7 +64,7 @@ def _word(point: Point, names: Identifiers, used: set[str]) -> list[EnumClass]:
             classes.append(_enum(named, flag.title, flag.values))
         mask = (1 << flag.width) - 1 << flag.low
         bits.append(Member(upper(flag.name), f"0x{mask:04X}", _flag_doc(flag)))
-        readers.append(f"{word_attribute(flag.name)} = {_reader(point, flag, names)}")
+        readers.append(laid_out(_reader(point, flag, names), 4))
         used.add("Flag" if flag.width == 1 else "Field")
     name, doc = names.word_class(point), _sentence(point.title["en"])
     # what reads the flags is in a base class, because type checkers take an enum's own attributes for members
@@ -72,11 +72,13 @@ def _word(point: Point, names: Identifiers, used: set[str]) -> list[EnumClass]:
     return [*classes, EnumClass(name, f"{laid_out(bases, 0)}:", doc, tuple(bits), tuple(readers))]
 
 
-def _reader(point: Point, flag: Flag, names: Identifiers) -> str:
+def _reader(point: Point, flag: Flag, names: Identifiers) -> Node:
+    """The assignment that reads a flag on the word."""
+    attribute = word_attribute(flag.name)
     if flag.width == 1:
-        return f"Flag({flag.low})" if flag.active else f"Flag({flag.low}, active=0)"
+        return call(f"{attribute} = Flag", (str(flag.low),) if flag.active else (str(flag.low), "active=0"))
     named = names.field_class(point, flag.name)
-    return f"Field({flag.low}, {flag.width}, {named})" if named else f"Field({flag.low}, {flag.width})"
+    return call(f"{attribute} = Field", (str(flag.low), str(flag.width), *((named,) if named else ())))
 
 
 def _entry_doc(entry: Entry) -> str:

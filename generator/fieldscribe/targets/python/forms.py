@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.model import Bound, Factor, Interval, Limit, Linear, Place, Point, ScaleCase, Special
@@ -10,22 +9,14 @@ from fieldscribe.targets.python.layout import Group, Node, call
 from fieldscribe.text import python_string
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Iterable
     from fractions import Fraction
 
-    from fieldscribe.targets.python.identifiers import Identifiers
-
-
-@dataclass(frozen=True, slots=True)
-class Scope:
-    """What expressions refer to: final names, points by name, and (filled on the way) names of the runtime."""
-
-    names: Identifiers
-    points: Mapping[str, Point]
-    used: set[str]
+    from fieldscribe.targets.python.scope import Scope
 
 
 _PLACES = {"coil": "coil", "discrete": "discrete", "holding": "holding", "input": "input_register"}
+_NUMBERED = frozenset({"parameter", "telegram"})
 
 
 def form(point: Point, scope: Scope) -> Node:
@@ -39,30 +30,65 @@ def form(point: Point, scope: Scope) -> Node:
 
 
 def _plain_form(point: Point, scope: Scope) -> Node:
-    kind = point.form
-    if kind == "bit":
+    if point.form == "bit":
         scope.used.add("Bit")
         return "Bit()"
-    wire = point.type.upper()
-    scope.used.add(wire)
-    if kind == "integer":
-        scope.used.add("Integer")
-        return f"Integer({wire})"
-    if kind == "float":
-        scope.used.add("Floating")
-        pairs = tuple(f"({number(low, True)}, {number(high, True)})" for low, high in point.allowed.units)
-        return call("Floating", (wire, Group("units=(", pairs)) if pairs else (wire,))
-    if kind == "scaled":
-        scope.used.update(("Rule", "Scaled"))
-        return call("Scaled", (wire, _scale(point.scale or (), scope), f"decimals={point.decimals}"))
-    scope.used.add("enums")
-    if kind == "flags":
-        scope.used.add("Flags")
-        return call("Flags", (wire, f"enums.{scope.names.word_class(point)}"))
-    scope.used.add("Named")
+    if point.form == "text":
+        return _text(point, scope)
+    scope.used.add(point.type.upper())
+    return _FORMS[point.form](point, point.type.upper(), scope)
+
+
+def _integer(point: Point, wire: str, scope: Scope) -> Node:
+    del point
+    scope.used.add("Integer")
+    return f"Integer({wire})"
+
+
+def _floating(point: Point, wire: str, scope: Scope) -> Node:
+    scope.used.add("Floating")
+    pairs = tuple(f"({number(low, True)}, {number(high, True)})" for low, high in point.allowed.units)
+    return call("Floating", (wire, Group("units=(", pairs)) if pairs else (wire,))
+
+
+def _scaled(point: Point, wire: str, scope: Scope) -> Node:
+    scope.used.update(("Rule", "Scaled"))
+    return call("Scaled", (wire, _scale(point.scale or (), scope), f"decimals={point.decimals}"))
+
+
+def _flags(point: Point, wire: str, scope: Scope) -> Node:
+    scope.used.update(("Flags", "enums"))
+    return call("Flags", (wire, f"enums.{scope.names.word_class(point)}"))
+
+
+def _named(point: Point, wire: str, scope: Scope) -> Node:
+    scope.used.update(("Named", "enums"))
     enum = "" if point.enum is None else scope.names.enum_class(point.enum.name)
     closed = ("closed=True",) if point.enum is not None and point.enum.closed else ()
     return call("Named", (wire, f"enums.{enum}", *closed))
+
+
+def _digits(point: Point, wire: str, scope: Scope) -> Node:
+    scope.used.update(("Digits", "enums"))
+    enum = "" if point.digits is None else scope.names.enum_class(point.digits.enum.name)
+    return call("Digits", (wire, f"enums.{enum}", f"count={0 if point.digits is None else point.digits.count}"))
+
+
+_FORMS = {
+    "integer": _integer,
+    "float": _floating,
+    "scaled": _scaled,
+    "flags": _flags,
+    "enum": _named,
+    "digits": _digits,
+}
+
+
+def _text(point: Point, scope: Scope) -> Node:
+    scope.used.add("Text")
+    if point.text is None or point.text.encoding == "ascii":
+        return f"Text({0 if point.text is None else point.text.characters})"
+    return call("Text", (str(point.text.characters), python_string(point.text.encoding)))
 
 
 def _only_named(point: Point) -> bool:
@@ -115,6 +141,9 @@ def _factor(factor: Factor, scope: Scope) -> Node:
         arguments.append(f"intercept={factor.intercept}")
     if factor.power != 1:
         arguments.append(f"power={factor.power}")
+    source = scope.points.get(factor.point)
+    if source is not None and source.info.floating:
+        arguments.append("f32=True")
     if factor.ten_to:
         arguments.append("ten_to=({}, {})".format(*_outer(scope.points[factor.point])))
     return call("Factor", arguments)
@@ -131,7 +160,9 @@ def _outer(point: Point) -> tuple[int, int]:
 def allowed(point: Point, scope: Scope) -> Node | None:
     """The raw numbers that may be written; None where the type or the enum's names say it."""
     intervals = point.allowed.intervals
-    if point.form == "float" or intervals == (Interval(point.least, point.greatest),) or _only_named(point):
+    if point.form in ("float", "text", "digits") or _only_named(point):
+        return None
+    if intervals == (Interval(point.least, point.greatest),):
         return None
     return Group("allowed=(", tuple(Group("(", (_bound(one.low, scope), _bound(one.high, scope))) for one in intervals))
 
@@ -156,15 +187,21 @@ def _bound(bound: Bound, scope: Scope) -> Node:
     )
 
 
-def place(keyword: str, where: Place, scope: Scope) -> Node:
-    """Where a point is, as `at=holding(0x1028)`."""
-    addresses = [f"0x{address:04X}" for address in where.addresses]
+def place(keyword: str, where: Place, scope: Scope, point: Point | None = None) -> Node:
+    """Where a point is, as `at=holding(0x1028)`; the point says its telegram or its index in an array."""
     function = [] if where.function is None else [f"function=0x{where.function:02X}"]
+    index = [] if point is None or point.index is None else [f"index={point.index}"]
+    addresses = [f"0x{address:04X}" for address in where.addresses]
+    if where.space in _NUMBERED:  # manuals print these in decimal
+        scope.used.add(where.space)
+        numbers = [str(address) for address in where.addresses]
+        telegram = [] if point is None or point.telegram is None else [python_string(point.telegram)]
+        return call(f"{keyword}={where.space}", (*telegram, *numbers, *function, *index))
     if (maker := _PLACES.get(where.space)) is not None:
         scope.used.add(maker)
-        return call(f"{keyword}={maker}", (*addresses, *function))
+        return call(f"{keyword}={maker}", (*addresses, *function, *index))
     scope.used.add("Place")
-    return call(f"{keyword}=Place", (python_string(where.space), Group("(", tuple(addresses)), *function))
+    return call(f"{keyword}=Place", (python_string(where.space), Group("(", tuple(addresses)), *function, *index))
 
 
 def spans(head: str, specials: Iterable[Special]) -> Group:

@@ -17,7 +17,12 @@ DEVICE_MEMBERS = frozenset(
         "ask",
         "command",
         "forget",
+        "fresh_for",
+        "gather_steps",
+        "get_steps",
         "handle",
+        "link",
+        "patience",
         "point",
         "put_steps",
         "raws_steps",
@@ -26,8 +31,13 @@ DEVICE_MEMBERS = frozenset(
         "read_many_steps",
         "read_raw_steps",
         "read_steps",
+        "receivers",
         "require",
         "run",
+        "shared_word_steps",
+        "store_steps",
+        "take",
+        "taken",
         "transport",
         "unit",
         "variants",
@@ -38,7 +48,7 @@ DEVICE_MEMBERS = frozenset(
 )
 """Public members of the runtime's devices, which no point may hide (the tests hold this against the runtime)."""
 
-HELPERS = frozenset({"coil", "discrete", "enums", "holding", "input_register", "renamed"})
+HELPERS = frozenset({"coil", "discrete", "enums", "holding", "input_register", "parameter", "renamed", "telegram"})
 """What the body of the generated class refers to by a lower-case name."""
 
 WORD_MEMBERS = frozenset(
@@ -63,7 +73,7 @@ WORD_MEMBERS = frozenset(
 
 _ATTRIBUTE_TAKEN = PYTHON_RESERVED | DEVICE_MEMBERS | HELPERS
 _WORD_TAKEN = PYTHON_RESERVED | WORD_MEMBERS
-_PARAMETER_TAKEN = PYTHON_RESERVED | {"self", "transport", "unit", "variants"}
+_PARAMETER_TAKEN = PYTHON_RESERVED | {"link", "self", "transport", "unit", "variants"}
 _DIGITS = re.compile(r"([0-9]+)")
 
 

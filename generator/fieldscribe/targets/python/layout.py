@@ -41,17 +41,29 @@ def laid_out(node: Node, indent: int) -> str:
     if isinstance(node, str):
         return node
     line = flat(node)
-    if indent + len(line) < WIDTH:
-        return line
-    inner = " " * (indent + 4)
+    return line if indent + len(line) < WIDTH else _spread(node, indent)
+
+
+def _spread(node: Group, indent: int) -> str:
+    """One item a line.
+
+    Formatters join a tuple of one item again where lines may be longer, whatever the comma behind it, unless the item
+    itself is spread.
+    """
+    inner, only = " " * (indent + 4), node.items[0] if len(node.items) == 1 else ""
+    if isinstance(only, Group) and only.items and _is_tuple(node):
+        return f"{node.head}\n{inner}{_spread(only, indent + 4)},\n{' ' * indent}{node.close}"
     items = "".join(f"{inner}{laid_out(item, indent + 4)},\n" for item in node.items)
     return f"{node.head}\n{items}{' ' * indent}{node.close}"
+
+
+def _is_tuple(node: Group) -> bool:
+    return node.head == "(" or node.head.endswith("=(") or node.head.endswith(": (")
 
 
 def flat(node: Node) -> str:
     """The expression on one line."""
     if isinstance(node, str):
         return node
-    is_tuple = node.head == "(" or node.head.endswith("=(") or node.head.endswith(": (")
-    comma = "," if is_tuple and len(node.items) == 1 else ""
+    comma = "," if len(node.items) == 1 and _is_tuple(node) else ""
     return f"{node.head}{', '.join([flat(item) for item in node.items])}{comma}{node.close}"

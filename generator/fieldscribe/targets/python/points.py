@@ -6,10 +6,13 @@ import textwrap
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from fieldscribe.targets.python.bus import blocks, commands, profile, variants
-from fieldscribe.targets.python.forms import Scope, allowed, form, number, place, spans
+from fieldscribe.targets.python.commands import commands, variants
+from fieldscribe.targets.python.families import FAMILIES
+from fieldscribe.targets.python.families.family import RUNTIME, Family
+from fieldscribe.targets.python.forms import allowed, form, number, place, spans
 from fieldscribe.targets.python.identifiers import Identifiers, attribute, sorted_imports
 from fieldscribe.targets.python.layout import WIDTH, Group, Node, comment, laid_out
+from fieldscribe.targets.python.scope import Scope
 from fieldscribe.text import python_doc, python_string
 from fieldscribe.wording import range_text
 
@@ -18,7 +21,6 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Device, Erratum, Point
 
-_ACCESS = {"r": "ReadOnly", "w": "WriteOnly", "rw": "ReadWrite"}
 _DOC = WIDTH - 4 - 6  # what an indentation and two triple quotes leave
 _BODY = 8  # the indentation of an attribute's arguments
 
@@ -45,9 +47,9 @@ class GroupView:
 
 @dataclass(frozen=True, slots=True)
 class PointsView:
-    """The points module."""
+    """The points module. `imports` are modules of the runtime with the names taken from each."""
 
-    runtime: list[str]
+    imports: list[tuple[str, list[str]]]
     uses_enums: bool
     profile: str
     blocks: str
@@ -58,8 +60,8 @@ class PointsView:
 
 def points_view(device: Device, names: Identifiers) -> PointsView:
     """All points, group by group."""
-    used = {"Block", "PointTable", "Profile"} if device.blocks else {"PointTable", "Profile"}
-    scope = Scope(names, {point.name: point for point in device.points}, used)
+    family = FAMILIES[device.family]
+    scope = Scope(names, {point.name: point for point in device.points}, {"PointTable"})
     errata = {one.id: one for one in device.errata}
     groups = {group.name: GroupView(comment(f"{group.name}: {group.title['en']}")) for group in device.groups}
     by_name: dict[str, list[Point]] = {}
@@ -68,25 +70,33 @@ def points_view(device: Device, names: Identifiers) -> PointsView:
         if not point.generated:
             group.left_out.append(_left_out(point))
             continue
-        group.points.append(_point(point, scope, errata))
+        group.points.append(_point(point, family, scope, errata))
         if point.variant is not None:
             by_name.setdefault(point.name, []).append(point)
     for same in by_name.values():
         groups[same[0].group].points.append(_by_variant(same, scope))
     made = tuple(PointView(*one, ()) for one in commands(device, scope))
+    profile, blocks = family.profile(device, scope), family.blocks(device, scope)
     return PointsView(
-        runtime=sorted_imports(used - {"enums"}),
-        uses_enums="enums" in used,
-        profile=laid_out(profile(device), 4),
-        blocks=laid_out(blocks(device), 4) if device.blocks else "",
+        imports=_imports(scope.used - {"enums"}, family),
+        uses_enums="enums" in scope.used,
+        profile=laid_out(profile, 4),
+        blocks="" if blocks is None else laid_out(blocks, 4),
         variants=laid_out(variants(device), 4) if device.variants else "",
         groups=[group for group in groups.values() if group.points or group.left_out],
         commands=made,
     )
 
 
-def _point(point: Point, scope: Scope, errata: Mapping[str, Erratum]) -> PointView:
-    maker = _ACCESS["".join(letter for letter in "rw" if letter in point.access)]
+def _imports(used: set[str], family: Family) -> list[tuple[str, list[str]]]:
+    """The names by the module that they come from, as import sorters have them."""
+    own = used & family.exports if family.module != RUNTIME else set()
+    found = [(RUNTIME, sorted_imports(used - own)), (family.module, sorted_imports(own))]
+    return [(module, names) for module, names in found if names]
+
+
+def _point(point: Point, family: Family, scope: Scope, errata: Mapping[str, Erratum]) -> PointView:
+    maker = family.maker(point)
     scope.used.add(maker)
     old_names = point.was if point.variant is None else ()
     if old_names:
@@ -105,8 +115,12 @@ def _arguments(point: Point, scope: Scope) -> list[Node]:
         arguments.append(f"default={number(point.default)}")
     if specials := [one for one in point.specials if not one.no_value]:
         arguments.append(spans("specials={", specials))
+    if point.fixed is not None:
+        arguments.append(f"fixed=(0x{point.fixed.mask:04X}, 0x{point.fixed.bits:04X})")
     if point.changes in ("never", "rarely"):
         arguments.append(f"changes={python_string(point.changes)}")
+    if point.changes_with:
+        arguments.append(Group("changes_with=(", tuple([python_string(name) for name in point.changes_with])))
     if point.variant is not None:
         axis, _, value = point.variant.partition("=")
         arguments.append(Group("variant=(", (python_string(axis), python_string(value))))
@@ -116,10 +130,10 @@ def _arguments(point: Point, scope: Scope) -> list[Node]:
 
 def _places(point: Point, scope: Scope) -> list[Node]:
     """Where the point is, on the wire and in the manual."""
-    arguments: list[Node] = [place("at", point.places[0], scope)]
+    arguments: list[Node] = [place("at", point.places[0], scope, point)]
     write_place = next((one for one in point.places if one.purpose == "write"), point.places[0])
     if write_place is not point.places[0] and point.writable:
-        arguments.append(place("write_at", write_place, scope))
+        arguments.append(place("write_at", write_place, scope, point))
     if point.bits is not None:
         arguments.append(f"bits=({point.bits[0]}, {point.bits[1]})")
     arguments.append(f"group={python_string(point.group)}")

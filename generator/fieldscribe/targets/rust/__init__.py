@@ -18,16 +18,32 @@ _SOURCES = ("lib", "points", "enums", "flags", "with")
 _RUNTIME = (
     "Cargo.toml",
     "src/arithmetic.rs",
+    "src/can/client.rs",
+    "src/can/error.rs",
+    "src/can/message.rs",
+    "src/can/mod.rs",
+    "src/can/receiver.rs",
     "src/client.rs",
+    "src/digits.rs",
     "src/lib.rs",
+    "src/modbus/client.rs",
     "src/modbus/error.rs",
     "src/modbus/function.rs",
     "src/modbus/mod.rs",
     "src/modbus/profile.rs",
     "src/modbus/reply.rs",
     "src/modbus/request.rs",
+    "src/pattern.rs",
     "src/point.rs",
     "src/raw.rs",
+    "src/rule.rs",
+    "src/text.rs",
+    "src/uss/client.rs",
+    "src/uss/error.rs",
+    "src/uss/mod.rs",
+    "src/uss/profile.rs",
+    "src/uss/reply.rs",
+    "src/uss/request.rs",
 )
 
 
@@ -39,7 +55,8 @@ def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     yield f"{folder}/Cargo.toml", render("rust/Cargo.toml.j2", context)
     for name in _SOURCES:
         yield f"{folder}/src/{name}.rs", render(f"rust/{name}.rs.j2", context)
-    suite = {**context, "tables": conformance_tables(scope)}
+    tables = conformance_tables(scope)
+    suite = {**context, "tables": tables, "kinds": {kind for kind, _, _ in tables}}
     yield f"{folder}/tests/conformance.rs", render("rust/conformance.rs.j2", suite)
 
 
@@ -48,4 +65,4 @@ def runtime(device: Device) -> Iterator[tuple[str, str]]:
     for name in _RUNTIME:
         yield f"rust/fieldscribe_runtime/{name}", f"rust/runtime/fieldscribe_runtime/{name}"
     yield f"rust/{device.id}/tests/runner/mod.rs", "rust/runtime/runner/mod.rs"
-    yield f"rust/{device.id}/tests/runner/frames.rs", "rust/runtime/runner/frames.rs"
+    yield f"rust/{device.id}/tests/runner/frames.rs", f"rust/runtime/runner/{device.family}.rs"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fieldscribe.targets.rust.families import family_traits
 from fieldscribe.targets.rust.literals import type_name, value_name
 from fieldscribe.targets.rust.words import getter_name
 from fieldscribe.text import rust_string
@@ -22,7 +23,9 @@ def conformance_tables(scope: Scope) -> tuple[Table, ...]:
     """The tables by kind; rows are tokens that the runner's macro reads."""
     scaled = [one for one in scope.subjects if one.form == "scaled"]
     floats = [one for one in scope.subjects if one.form == "float"]
-    whole = [one for one in scope.subjects if one.form not in ("scaled", "float")]
+    texts = [one for one in scope.subjects if one.form == "text"]
+    digits = [one for one in scope.subjects if one.form == "digits"]
+    whole = [one for one in scope.subjects if one.form not in ("scaled", "float", "text", "digits")]
     plain = [one for one in whole if one.carried == one.raw]
     mixed = [one for one in whole if one.carried != one.raw]
     read_scaled, write_scaled = tuple(_reads(scaled)), tuple(_writes(scaled))
@@ -36,7 +39,7 @@ def conformance_tables(scope: Scope) -> tuple[Table, ...]:
         ("encode_count", "encode_count", write_scaled),
         ("encode_plain", "encode_plain", write_plain),
         ("encode_mixed", "encode_count", write_mixed),
-        ("check", "check", (*write_scaled, *write_plain, *write_mixed, *_writes(floats))),
+        ("check", "check", (*write_scaled, *write_plain, *write_mixed, *_writes(floats), *_writes(digits))),
         ("name", "name", tuple(_names(whole))),
         ("special", "special", tuple(_specials(scope.subjects))),
         ("flag", "flag", tuple(_flags(whole))),
@@ -44,20 +47,59 @@ def conformance_tables(scope: Scope) -> tuple[Table, ...]:
         ("bits", "bits", tuple(_row(one, "alone") for one in scope.subjects if one.point.bits)),
         ("words", "words", tuple(_row(one, "alone") for one in scope.subjects if _has_words(one.point))),
         ("address", "address", tuple(_row(one, _references(one.point)) for one in scope.subjects)),
+        *_newer(scope, texts, digits),
     )
+
+
+def _newer(scope: Scope, texts: list[Subject], digits: list[Subject]) -> Iterator[Table]:
+    """The tables of kinds that few devices have."""
+    placed = (one for one in scope.subjects if _has_place(one.point))
+    fixed = (one for one in scope.subjects if one.point.fixed is not None)
+    heard = (one for one in scope.subjects if one.form != "text" and _is_heard(one, scope))
+    for kind, rows in (
+        ("place", tuple(_row(one, "alone") for one in placed)),
+        ("fixed", tuple(_row(one, "alone") for one in fixed)),
+        ("text_decode", tuple(_row(one, _sizes(one.point)) for one in texts if one.point.readable)),
+        ("text_encode", tuple(_row(one, _sizes(one.point)) for one in texts if one.point.writable)),
+        ("digits", tuple(_row(one, _counted(one)) for one in digits if one.point.readable)),
+        ("digits_encode", tuple(_row(one, _counted(one)) for one in digits if one.point.writable)),
+        ("can_telegram", tuple(_row(one, "frames") for one in heard)),
+    ):
+        if rows:
+            yield kind, kind, rows
 
 
 def _row(subject: Subject, how: str) -> str:
     return f"{rust_string(subject.point.item)} {subject.name} ({how})"
 
 
+def _is_heard(subject: Subject, scope: Scope) -> bool:
+    """Whether the point comes in frames of a telegram."""
+    return any("can::Received" in lines[0] for lines in family_traits(subject, scope))
+
+
+def _sizes(point: Point) -> str:
+    return f"sizes {point.text.characters if point.text is not None else 0} {point.words}"
+
+
+def _counted(subject: Subject) -> str:
+    digits = subject.point.digits
+    return f"digits {digits.count if digits is not None else 0} {subject.carried}"
+
+
+def _has_place(point: Point) -> bool:
+    """Whether more than an address says where the point is."""
+    return point.text is not None or point.index is not None or point.telegram is not None
+
+
 def _has_words(point: Point) -> bool:
     """Whether the words of a point are more than its raw number."""
-    return point.bits is None and (point.words > 1 or point.info.signed)
+    return point.bits is None and point.text is None and (point.words > 1 or point.info.signed)
 
 
 def _references(point: Point) -> str:
-    return " ".join(("at", *(f"{key.upper()} {rust_string(key)}" for key in point.references)))
+    keys = (f"{key.upper()} {rust_string(key)}" for key in point.references)
+    return " ".join(("at" if point.text is None else "text", *keys))
 
 
 def _reads(subjects: Iterable[Subject]) -> Iterator[str]:

@@ -6,21 +6,16 @@ import re
 from typing import TYPE_CHECKING
 
 from fieldscribe import __version__
-from fieldscribe.targets.rust.documentation import left_out, quoted, sentence
-from fieldscribe.targets.rust.layout import array
-from fieldscribe.targets.rust.points import point_view, space
-from fieldscribe.targets.rust.words import arguments_views, enum_views, flags_views
+from fieldscribe.targets.rust.documentation import left_out, quoted
+from fieldscribe.targets.rust.families import family_context
+from fieldscribe.targets.rust.points import point_view
+from fieldscribe.targets.rust.words import arguments_views, enum_views, flags_views, is_long
 from fieldscribe.text import line, rust_string
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from fieldscribe.model import Code, Device
+    from fieldscribe.model import Device
     from fieldscribe.targets.rust.subjects import Scope
     from fieldscribe.targets.rust.views import PointView
-
-_MOST = {1: 2000, 2: 2000, 3: 125, 4: 125, 5: 1, 6: 1, 8: 1, 15: 1968, 16: 123}
-"""The functions that the frames know, with the protocol's own limits."""
 
 _SEMANTIC = re.compile(r"\d+\.\d+\.\d+(?:-[0-9A-Za-z.-]+)?")
 
@@ -47,6 +42,7 @@ def device_context(device: Device, scope: Scope) -> dict[str, object]:
         "points": points,
         "left_out": left_out(device),
         "enums": enums,
+        "long_enums": any(map(is_long, enums)),
         "words": words,
         "structs": structs,
         "uses_arithmetic": any(map(_computes, points)),
@@ -61,7 +57,7 @@ def device_context(device: Device, scope: Scope) -> dict[str, object]:
         "package_version": device.version if _SEMANTIC.fullmatch(device.version) else "0.0.0",
         "package_head": head(device, "#"),
         "title_literal": rust_string(f"{device.vendor} {device.model}"),
-        **(_bus(device) if device.family == "modbus" else {"modbus": False}),
+        **family_context(device),
     }
 
 
@@ -71,44 +67,3 @@ def _computes(point: PointView) -> bool:
     if point.write or point.bits or any(factor.bounds or factor.line for factor in factors):
         return True
     return point.read is not None and any("arithmetic::" in text for text in (point.read.value, point.read.count))
-
-
-def _bus(device: Device) -> dict[str, object]:
-    bus = device.bus
-    functions = [
-        f"Function::new({code.number}, {_most(code)})" + (".without_broadcast()" if code.broadcast is False else "")
-        for code in bus.functions
-    ]
-    return {
-        "modbus": True,
-        "functions": array(functions),
-        "units": f"({bus.units[0]}, {bus.units[1]})",
-        "broadcast": "None" if bus.broadcast is None else f"Some({bus.broadcast})",
-        "pad": "true" if bus.pad_coil_bytes == "even" else "false",
-        "exceptions": tuple((sentence(one.name), one.name.upper(), f"0x{one.number:02X}") for one in bus.exceptions),
-        "blocks": tuple(_blocks(device)),
-        "groups": array([f"({rust_string(group)}, blocks::{group.upper()})" for group in device.blocks]),
-        "commands": tuple(_commands(device)),
-    }
-
-
-def _most(code: Code) -> int:
-    """The largest count of items in one request: the device's, within the protocol's."""
-    own = 65535 if code.most is None else code.most
-    return min(own, _MOST.get(code.number, own))
-
-
-def _blocks(device: Device) -> Iterator[tuple[str, str, tuple[str, ...]]]:
-    """Group as constant and by name, and the lines of its array."""
-    for group, blocks in device.blocks.items():
-        items = [
-            f"Block::new({space(one.space).replace('runtime::', '')}, {one.function}, 0x{one.address:04X}, {one.count})"
-            for one in blocks
-        ]
-        yield group.upper(), group, array(items)
-
-
-def _commands(device: Device) -> Iterator[tuple[str, str, str]]:
-    for one in device.commands:
-        value = "None" if one.value is None else f"Some({one.value})"
-        yield sentence(one.name), one.name.upper(), f"{one.function}, 0x{one.address:04X}, {value}"

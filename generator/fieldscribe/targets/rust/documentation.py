@@ -44,11 +44,17 @@ def left_out(device: Device) -> tuple[str, ...]:
 
 
 def _facts(point: Point) -> Iterator[str]:
-    where = f"{point.space} {address_text(min(point.places[0].addresses))}"
+    space = point.space if point.telegram is None else f"telegram {quoted(point.telegram)} word"
+    where = f"{space} {address_text(min(point.places[0].addresses))}"
+    where += "" if point.index is None else f" index {point.index}"
     bits = f" bits {point.bits[0]} to {point.bits[1]}" if point.bits else ""
     yield f"{quoted(point.code)} at {where}{bits}" if point.code else f"At {where}{bits}"
     yield f"`{point.type}`"
-    if point.form != "float":
+    if point.form == "text" and point.text is not None:
+        yield f"{point.text.characters} characters of {quoted(point.text.encoding)}"
+    elif point.form == "digits" and point.digits is not None:
+        yield f"{point.digits.count} decimal digits"
+    elif point.form != "float":
         span = raw_range_text(point)
         if span:
             yield f"raw {quoted(span)}"

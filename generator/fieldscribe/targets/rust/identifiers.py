@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fieldscribe.targets.rust.families import family_identifiers
 from fieldscribe.targets.rust.literals import type_name
 from fieldscribe.targets.rust.subjects import Subject, scope_of
 from fieldscribe.targets.rust.words import getter_name
@@ -33,6 +34,7 @@ def identifiers(device: Device) -> Iterator[Identifier]:
         yield "blocks", group.upper(), f"group {group}"
     for code in device.bus.exceptions:
         yield "exceptions", code.name.upper(), f"exception {code.name}"
+    yield from family_identifiers(device)
 
 
 def _of_point(subject: Subject) -> Iterator[Identifier]:

@@ -4,8 +4,12 @@ from __future__ import annotations
 
 import struct
 from functools import lru_cache
+from typing import TYPE_CHECKING
 
 from fieldscribe.names import RUST_RESERVED, pascal
+
+if TYPE_CHECKING:
+    from fieldscribe.model import Point
 
 RAW_TYPES = {
     "bit": "u8",
@@ -22,6 +26,13 @@ FLOAT_GREATEST = {32: 3.4028234663852886e38, 64: 1.7976931348623157e308}
 _PRELUDE = frozenset({"Err", "None", "Ok", "Option", "Result", "Some", "Self"})
 _NOT_RAW = frozenset({"crate", "self", "super", "Self"})
 _UNGROUPED = 10_000
+
+
+def raw_type(point: Point) -> str:
+    """The Rust type of a point's raw number."""
+    if point.text is not None:
+        return f"[u16; {point.words}]"
+    return "bool" if point.form == "bit" else RAW_TYPES[point.type]
 
 
 @lru_cache(maxsize=32)

@@ -6,7 +6,8 @@ import re
 from typing import TYPE_CHECKING
 
 from fieldscribe.targets.rust.documentation import point_doc, sentence
-from fieldscribe.targets.rust.layout import binding
+from fieldscribe.targets.rust.families import family_traits, space
+from fieldscribe.targets.rust.layout import binding, short_array
 from fieldscribe.targets.rust.literals import integer, mask, raw_literal, type_name, type_range
 from fieldscribe.targets.rust.reading import read_view
 from fieldscribe.targets.rust.rules import bounds, run_time_rules
@@ -21,14 +22,7 @@ if TYPE_CHECKING:
     from fieldscribe.targets.rust.subjects import Scope, Subject
 
 _ALIAS = re.compile(r"[\w.:/+-]+(?: [\w.:/+-]+)*")
-_SPACES = {"coil": "Coil", "discrete": "Discrete", "input": "Input", "holding": "Holding"}
 _LETTERS = ("a", "b", "c", "d")
-
-
-def space(name: str) -> str:
-    """A space as a variant of the runtime's enum."""
-    known = _SPACES.get(name)
-    return f"runtime::Space::{known}" if known else f"runtime::Space::Other({rust_string(name)})"
 
 
 def point_view(subject: Subject, scope: Scope) -> PointView:
@@ -44,8 +38,10 @@ def point_view(subject: Subject, scope: Scope) -> PointView:
         raw=subject.raw,
         value=_value_type(subject),
         constants=_constants(subject, low, high),
-        order=_order(point) if len(point.places[0].addresses) > 1 else None,
+        order=None if point.text is not None else _order(point),
+        scattered=point.text is not None and list(point.addresses) != sorted(point.addresses),
         bits=_bits(point),
+        traits=(*_digits(subject), *family_traits(subject, scope)),
         rules=rules,
         factors=subject.factors_type,
         last_rule_holds=bool(rules) and not rules[-1].held,
@@ -59,36 +55,64 @@ def point_view(subject: Subject, scope: Scope) -> PointView:
 def _value_type(subject: Subject) -> str:
     if subject.form in ("scaled", "float"):
         return "f64"
+    if subject.point.text is not None:
+        return f"runtime::Text<{subject.point.text.characters}>"
+    if subject.enum is not None and subject.point.digits is not None:
+        return f"[enums::{type_name(subject.enum.name)}; {subject.point.digits.count}]"
     if subject.enum is not None:
         return f"enums::{type_name(subject.enum.name)}"
     return f"flags::{subject.name}" if subject.form == "flags" else subject.raw
 
 
 def _constants(subject: Subject, low: int, high: int) -> tuple[str, ...]:
-    point, raw = subject.point, subject.raw
+    point = subject.point
     lines = [f"const NAME: &'static str = {rust_string(point.item)};"]
     if point.code:
         lines.append(f"const CODE: Option<&'static str> = Some({rust_string(point.code)});")
     lines.append(f"const SPACE: runtime::Space = {space(point.places[0].space)};")
-    lines.append(f"const ADDRESS: u16 = 0x{min(point.places[0].addresses):04X};")
+    lines += _whereabouts(point)
     if point.words != 1:
         lines.append(f"const WORDS: u16 = {point.words};")
     if subject.form == "scaled" and point.decimals:
         lines.append(f"const DECIMALS: u32 = {point.decimals};")
     if point.unit.symbol:
         lines.append(f"const UNIT: &'static str = {rust_string(point.unit.symbol)};")
+    return (*lines, *_outer_limits(subject, low, high))
+
+
+def _whereabouts(point: Point) -> Iterator[str]:
+    """Addresses and what stands beside them, and the bits that are always a constant."""
+    addresses = point.places[0].addresses
+    yield f"const ADDRESS: u16 = 0x{min(addresses):04X};"
+    if len(addresses) > 1:
+        items = [f"0x{address:04X}" for address in addresses]
+        yield from short_array(4, "const ADDRESSES: &'static [u16]", items)
+    if point.index is not None:
+        yield f"const INDEX: Option<u8> = Some({point.index});"
+    if point.telegram is not None:
+        yield from binding(4, "const TELEGRAM: Option<&'static str>", f"Some({rust_string(point.telegram)})")
+    if point.fixed is not None:
+        width = "u16" if point.words == 1 else "u32"
+        yield f"const FIXED_MASK: u32 = {mask(point.fixed.mask, width)};"
+        yield f"const FIXED_BITS: u32 = {mask(point.fixed.bits, width)};"
+
+
+def _outer_limits(subject: Subject, low: int, high: int) -> Iterator[str]:
+    """The ends of what may be written, where they are not the type's."""
+    if subject.form in ("float", "text", "digits"):
+        return
+    raw = subject.raw
     least, greatest = type_range(raw)
-    if subject.form != "float" and low != least:
-        lines.append(f"const RAW_MIN: {raw} = {raw_literal(low, raw)};")
-    if subject.form != "float" and high != greatest:
-        lines.append(f"const RAW_MAX: {raw} = {raw_literal(high, raw)};")
-    return tuple(lines)
+    if low != least:
+        yield f"const RAW_MIN: {raw} = {raw_literal(low, raw)};"
+    if high != greatest:
+        yield f"const RAW_MAX: {raw} = {raw_literal(high, raw)};"
 
 
 def _order(point: Point) -> OrderView | None:
     """How reading order and address order map; None where the high part comes first."""
     addresses = point.places[0].addresses
-    if list(addresses) == sorted(addresses):
+    if len(addresses) == 1 or list(addresses) == sorted(addresses):
         return None
     letters = _LETTERS[: len(addresses)]
     by_address = [letters[place] for place in sorted(range(len(addresses)), key=addresses.__getitem__)]
@@ -102,6 +126,14 @@ def _bits(point: Point) -> BitsView | None:
     bits = mask(((1 << (high - low + 1)) - 1) << low, "u16")
     signed = "_signed" if point.info.signed else ""
     return BitsView(low, bits, f"arithmetic::extract{signed}(word, {low}, {bits})")
+
+
+def _digits(subject: Subject) -> Iterator[tuple[str, ...]]:
+    """What tells the numbers that each digit may be."""
+    if subject.form == "digits" and subject.enum is not None:
+        numbers = sorted({entry.raw for entry in subject.enum.entries if 0 <= entry.raw <= 0xFFFF})
+        array = short_array(4, "const NUMBERS: &'static [u16]", list(map(integer, numbers)))
+        yield f"impl runtime::Digits for {subject.name} {{", *(f"    {line}" for line in array), "}"
 
 
 def _references(point: Point) -> Iterator[ConstantView]:

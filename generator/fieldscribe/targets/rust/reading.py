@@ -39,6 +39,10 @@ def read_view(subject: Subject, low: int, high: int) -> ReadView:
         failing = narrows = path.overflows
     elif form == "scaled":
         value, count_type, count, failing = "", "i64", f"decode_count::<{integer(10**point.decimals)}>", True
+    elif form == "text":
+        value = "runtime::Text::from_words(&raw)"
+    elif form == "digits":
+        value = _digits(subject)
     else:
         value, count_type = _plain_value(subject), plain_count(raw)
         count = "raw" if count_type == raw else f"{count_type}::from(raw)"
@@ -55,6 +59,15 @@ def read_view(subject: Subject, low: int, high: int) -> ReadView:
         count=count,
         function="" if function in (None, _FUNCTIONS.get(point.places[0].space)) else str(function),
     )
+
+
+def _digits(subject: Subject) -> str:
+    """Each digit as an entry of the enum, which may carry wider numbers than digits are."""
+    enum = "" if subject.enum is None else type_name(subject.enum.name)
+    raw = "raw" if subject.raw == "u16" else "u16::from(raw)"
+    if subject.carried == "u16":
+        return f"runtime::digits::split({raw}).map(enums::{enum}::from)"
+    return f"runtime::digits::split({raw}).map(|one| enums::{enum}::from({subject.carried}::from(one)))"
 
 
 def _plain_value(subject: Subject) -> str:

@@ -197,10 +197,14 @@ def _factors(rule: Linear, points: Mapping[str, Point], *, limit: bool) -> list[
 
 def _factor(factor: Factor, points: Mapping[str, Point], *, limit: bool) -> FactorView:
     exponent_bounds = ""
+    source = points.get(factor.point)
+    if source is not None and source.type == "f32":
+        method = "over" if factor.power < 0 else "limited_by" if limit else "times"
+        return FactorView(_raw_of(factor.point), True, "", "", f"{method}_f32")
     if factor.ten_to:
         method = "times_ten_to" if factor.power > 0 else "over_ten_to"
-        if factor.point in points:
-            low, high = bounds(points[factor.point])
+        if source is not None:
+            low, high = bounds(source)
             exponent_bounds = f"{integer(low)}, {integer(high)}"
     elif factor.power > 0:
         method = "limited_by" if limit else "times"
@@ -208,7 +212,7 @@ def _factor(factor: Factor, points: Mapping[str, Point], *, limit: bool) -> Fact
         method = "over"
     plain = (factor.slope, factor.intercept) == (1, 0)
     line = "" if plain else f"{integer(factor.slope)}, {integer(factor.intercept)}"
-    return FactorView(_raw_of(factor.point), exponent_bounds, line, method)
+    return FactorView(_raw_of(factor.point), False, exponent_bounds, line, method)
 
 
 def _raw_of(name: str) -> str:

@@ -5,12 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from fieldscribe.targets.rust.literals import RAW_TYPES, type_name
+from fieldscribe.targets.rust.literals import raw_type, type_name
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from fieldscribe.model import Device, Enum, Linear, Point
+    from fieldscribe.model import Device, Enum, Linear, Message, Point, Telegram
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,13 +49,18 @@ class Subject:
 
 @dataclass(frozen=True, slots=True)
 class Scope:
-    """What the points of one device share: points, raw types and enums' raw types by name, the device's functions."""
+    """What the points of one device share: points, raw types and enums' raw types by name, the device's functions.
+
+    Points are found by item and by name; the telegrams are by name, with the messages that carry them.
+    """
 
     points: Mapping[str, Point]
     raw_types: Mapping[str, str]
     enums: Mapping[str, str]
     functions: frozenset[int]
     subjects: tuple[Subject, ...]
+    family: str
+    telegrams: Mapping[str, tuple[Telegram, Message | None]]
 
 
 def scope_of(device: Device) -> Scope:
@@ -63,26 +68,31 @@ def scope_of(device: Device) -> Scope:
     points: dict[str, Point] = {}
     enums: dict[str, str] = {}
     for point in device.points:
-        points.setdefault(point.name, point)
-        form = point.form
-        if form == "enum" and point.generated and point.enum is not None:
-            raw = RAW_TYPES[point.type]
-            known = enums.setdefault(point.enum.name, raw)
+        points.setdefault(point.item, point)
+        enum = _enum(point)
+        if point.generated and enum is not None:
+            raw = "u16" if point.form == "digits" else raw_type(point)
+            known = enums.setdefault(enum.name, raw)
             if known != raw:
-                enums[point.enum.name] = "i128" if "u64" in (known, raw) else "i64"
+                enums[enum.name] = "i128" if "u64" in (known, raw) else "i64"
+    for point in device.points:
+        points.setdefault(point.name, point)
+    messages = {message.name: message for message in device.messages}
     return Scope(
         points,
-        {name: _raw_type(point, point.form) for name, point in points.items()},
+        {name: raw_type(point) for name, point in points.items()},
         enums,
         frozenset(code.number for code in device.bus.functions),
         tuple(_subject(point, enums) for point in device.points if point.generated),
+        device.family,
+        {one.name: (one, messages.get(one.message or "")) for one in device.telegrams},
     )
 
 
 def _subject(point: Point, enums: Mapping[str, str]) -> Subject:
     form = point.form
-    enum = point.enum if form == "enum" else None
-    raw = _raw_type(point, form)
+    enum = _enum(point)
+    raw = raw_type(point)
     factors = point.scale_arguments if point.scale is not None else ()
     limits = point.limit_arguments
     arguments = tuple(dict.fromkeys((*factors, *limits))) if factors or limits else ()
@@ -91,5 +101,8 @@ def _subject(point: Point, enums: Mapping[str, str]) -> Subject:
     return Subject(point, form, raw, type_name(point.item), arguments, factors, limits, rule, enum, carried)
 
 
-def _raw_type(point: Point, form: str) -> str:
-    return "bool" if form == "bit" else RAW_TYPES[point.type]
+def _enum(point: Point) -> Enum | None:
+    """The enum that the values of a point are of, or that each of its digits is of."""
+    if point.digits is not None and point.form == "digits":
+        return point.digits.enum
+    return point.enum if point.form == "enum" else None

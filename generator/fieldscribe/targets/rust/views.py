@@ -7,9 +7,13 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class FactorView:
-    """One factor of a rule: the raw number it takes, the line and the bounds of an exponent (or empty), the method."""
+    """One factor of a rule: the raw number it takes, the line and the bounds of an exponent (or empty), the method.
+
+    `pattern` says that the raw number is the pattern of a floating-point number, which the method takes as it is.
+    """
 
     raw: str
+    pattern: bool
     bounds: str
     line: str
     method: str
@@ -41,7 +45,8 @@ class LimitView:
 class CheckView:
     """Whether a raw number may be written: conditions of which one has to hold; none if every number may.
 
-    `number` is what the conditions are about, where that is not `raw` itself.
+    `number` is what the conditions are about, where that is not `raw` itself. `fixed` is a condition that has to hold
+    as well (or empty), `call` what is asked instead of conditions (or empty).
     """
 
     report: str
@@ -50,6 +55,8 @@ class CheckView:
     number: str
     conditions: tuple[str, ...]
     limits: tuple[LimitView, ...]
+    fixed: str = ""
+    call: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,7 +79,7 @@ class ReadView:
 class WriteView:
     """Encoding: the check, and how a value (`kind` says by which steps) and a count become a raw number.
 
-    `bounded` says that counts within their bounds need no check.
+    `bounded` says that counts within their bounds need no check, `fixed` is `raw` with its constant bits (or empty).
     """
 
     arguments: str
@@ -89,6 +96,7 @@ class WriteView:
     count: str
     function: str
     address: str
+    fixed: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,7 +127,7 @@ class OrderView:
 
 @dataclass(frozen=True, slots=True)
 class PointView:
-    """One point."""
+    """One point. `scattered`: the words of a text do not come first to last; `traits`: what else it implements."""
 
     doc: tuple[str, ...]
     alias: str
@@ -128,7 +136,9 @@ class PointView:
     value: str
     constants: tuple[str, ...]
     order: OrderView | None
+    scattered: bool
     bits: BitsView | None
+    traits: tuple[tuple[str, ...], ...]
     rules: tuple[RuleView, ...]
     factors: str
     last_rule_holds: bool

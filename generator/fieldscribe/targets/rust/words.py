@@ -16,12 +16,19 @@ if TYPE_CHECKING:
     from fieldscribe.model import Device, Entry, Enum, Flag
     from fieldscribe.targets.rust.subjects import Scope
 
+_LONG = 90
+
 
 def enum_views(device: Device, scope: Scope) -> Iterator[EnumView]:
     """The enums that generated points use, in the device's order."""
     for enum in device.enums:
         if enum.name in scope.enums:
             yield _enum(enum, scope.enums[enum.name])
+
+
+def is_long(enum: EnumView) -> bool:
+    """Whether a function with an arm for each name has more lines than clippy likes."""
+    return max(sum(len(one.named) for one in enum.entries), sum(len(one.numbered) for one in enum.entries)) > _LONG
 
 
 def getter_name(flag: str) -> str:

@@ -4,7 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.targets.rust.literals import FLOAT_GREATEST, float_literal, integer, nearest_float, type_range
+from fieldscribe.targets.rust.literals import (
+    FLOAT_GREATEST,
+    float_literal,
+    integer,
+    mask,
+    nearest_float,
+    type_range,
+)
 from fieldscribe.targets.rust.reading import parameter, plain_count
 from fieldscribe.targets.rust.rules import count_path, encode_float, limit_views, merged, patterns
 from fieldscribe.targets.rust.views import CheckView, WriteView
@@ -19,7 +26,7 @@ _FUNCTIONS = {"coil": (5, 15), "holding": (6, 16)}
 def write_view(subject: Subject, low: int, high: int, scope: Scope) -> WriteView:
     """Encoding of a point whose raw numbers are written within `low..=high`."""
     point, raw, form, rule = subject.point, subject.raw, subject.form, subject.rule
-    kind, count_type, within, scaled, count = form, "", "", "", ""
+    kind, count_type, within, scaled, count, fixed = form, "", "", "", "", ""
     if form == "float":
         value = f"f{point.width}_bits"
     elif form == "scaled" and rule is not None:
@@ -29,8 +36,14 @@ def write_view(subject: Subject, low: int, high: int, scope: Scope) -> WriteView
     elif form == "scaled":
         kind, count_type, count = "run_time", "i64", f"encode_count::<{integer(10**point.decimals)}>"
         value = "with" if subject.factors == subject.arguments else "with.factors()"
+    elif form == "text":
+        value = "value.into_words()"
+    elif form == "digits":
+        value = f"runtime::digits::join::<Self>(&value.map({subject.carried}::from))?"
+        value = value if raw == "u16" else f"arithmetic::held::<Self>({value}, runtime::Error::UnknownValue)?"
     else:
         kind, value, count_type = "plain", _plain_raw(subject), plain_count(raw)
+        fixed = _fixed(subject)[0]
         count = "arithmetic::bit(count)?" if raw == "bool" else _held("count", closed=subject.closed)
     bounded = not subject.limits and len(merged(_numbers(point))) == 1
     function, address = _place(point, scope)
@@ -50,6 +63,7 @@ def write_view(subject: Subject, low: int, high: int, scope: Scope) -> WriteView
         count=count,
         function=function,
         address=address,
+        fixed=fixed,
     )
 
 
@@ -62,6 +76,24 @@ def _plain_raw(subject: Subject) -> str:
 
 def _held(number: str, *, closed: bool) -> str:
     return f"arithmetic::held::<Self>({number}, runtime::Error::{'UnknownValue' if closed else 'OutOfRange'})?"
+
+
+def _fixed(subject: Subject) -> tuple[str, str]:
+    """`raw` with the bits of its word that are always a constant, and whether it has them; empty if there are none."""
+    point, raw = subject.point, subject.raw
+    if point.fixed is None or point.bits is not None or raw == "bool":
+        return "", ""
+    ones = (1 << point.info.bits) - 1
+    all_bits, bits = (_pattern(number & ones, raw) for number in (point.fixed.mask, point.fixed.bits))
+    cleared = f"raw & !{all_bits}"
+    return f"({cleared}) | {bits}" if point.fixed.bits & ones else cleared, f"raw & {all_bits} == {bits}"
+
+
+def _pattern(bits: int, raw: str) -> str:
+    """Bits as a hexadecimal literal of the type, which may be signed."""
+    least, greatest = type_range(raw)
+    negative = bits > greatest
+    return f"{'-' if negative else ''}{mask(-(bits + 2 * least) if negative else bits, raw)}"
 
 
 def _float_ranges(point: Point) -> tuple[str, ...]:
@@ -78,15 +110,23 @@ def _check(subject: Subject, with_type: str, scope: Scope) -> CheckView:
     if subject.limits:
         limits, conditions = limit_views(point, scope.points)
         number = "runtime::Raw::to_i64(raw)"
-        return CheckView(report, "raw", parameter(with_type, "With", used=True), number, conditions, limits)
+        with_limits = parameter(with_type, "With", used=True)
+        return CheckView(report, "raw", with_limits, number, conditions, limits, _fixed(subject)[1])
     unused = parameter(with_type, "With", used=False)
     if subject.form == "float":
         return CheckView(report, "raw", unused, f"arithmetic::f{point.width}_number(raw)?", _float_ranges(point), ())
-    numbers = _numbers(point)
+    if point.text is not None:
+        encoding = "is_ascii" if point.text.encoding == "ascii" else "is_latin_1"
+        return CheckView(report, "raw", unused, "", (f"runtime::text::{encoding}(&raw)",), ())
+    if subject.form == "digits" and point.digits is not None:
+        number = "raw" if raw == "u16" else "u16::from(raw)"
+        call = f"runtime::digits::check::<Self, {point.digits.count}>({number})"
+        return CheckView(report, "raw", unused, "", (), (), call=call)
+    numbers, fixed = _numbers(point), _fixed(subject)[1]
     least, greatest = type_range(raw)
     if any(low <= least and greatest <= high for low, high in merged(numbers)):
-        return CheckView(report, "_", unused, "", (), ())
-    return CheckView(report, "raw", unused, "", patterns(numbers, raw), ())
+        return CheckView(report, "raw" if fixed else "_", unused, "", (), (), fixed)
+    return CheckView(report, "raw", unused, "", patterns(numbers, raw), (), fixed)
 
 
 def _numbers(point: Point) -> list[tuple[int, int]]:

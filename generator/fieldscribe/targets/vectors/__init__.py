@@ -8,13 +8,16 @@ from __future__ import annotations
 from json import dumps
 from typing import TYPE_CHECKING
 
+from fieldscribe.targets.vectors.can import can
+from fieldscribe.targets.vectors.characters import digits, text
 from fieldscribe.targets.vectors.floats import floats
-from fieldscribe.targets.vectors.frames import blocks, builds, printed, replies
 from fieldscribe.targets.vectors.lines import Lines
+from fieldscribe.targets.vectors.modbus import modbus
 from fieldscribe.targets.vectors.oracle import Oracle
 from fieldscribe.targets.vectors.places import address, words
 from fieldscribe.targets.vectors.scaled import scaled
-from fieldscribe.targets.vectors.whole import bits, flags, names, specials, whole
+from fieldscribe.targets.vectors.uss import uss
+from fieldscribe.targets.vectors.whole import bits, fixed, flags, names, specials, whole
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -23,6 +26,9 @@ if TYPE_CHECKING:
     from fieldscribe.render import Render
 
 FORMAT = 1
+
+_FAMILIES = {"modbus": modbus, "can": can, "uss": uss}
+"""What each family adds for its frames."""
 
 
 def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
@@ -53,11 +59,7 @@ def collect(device: Device) -> Lines:
     for point in device.points:
         if point.generated:
             _point(lines, oracle, point)
-    if device.family == "modbus":
-        builds(lines, device.bus)
-        replies(lines, device.bus)
-        printed(lines, device)
-    blocks(lines, device)
+    _FAMILIES[device.family](lines, device)
     return lines
 
 
@@ -67,11 +69,16 @@ def _point(lines: Lines, oracle: Oracle, point: Point) -> None:
         scaled(lines, oracle, point)
     elif point.form == "float":
         floats(lines, point)
+    elif point.form == "text":
+        text(lines, point)
+    elif point.form == "digits":
+        digits(lines, point)
     else:
         whole(lines, oracle, point)
     names(lines, point)
     specials(lines, point)
     flags(lines, point)
+    fixed(lines, point)
     bits(lines, point)
     words(lines, point)
     lines.gather()

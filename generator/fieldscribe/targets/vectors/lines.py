@@ -26,6 +26,20 @@ KINDS = (
     "printed_build",
     "printed_reply",
     "block",
+    "place",
+    "fixed",
+    "text_decode",
+    "text_encode",
+    "digits",
+    "digits_encode",
+    "can_build",
+    "can_parse",
+    "can_telegram",
+    "uss_build",
+    "uss_broadcast",
+    "uss_reply",
+    "uss_printed_build",
+    "uss_printed_reply",
 )
 
 _TEXT = JSONEncoder(ensure_ascii=False)

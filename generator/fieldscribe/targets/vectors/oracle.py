@@ -4,16 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import lru_cache
+from math import isfinite
 from typing import TYPE_CHECKING
 
-from fieldscribe.targets.vectors.numbers import EXACT, INFINITY, half_away, quotient
+from fieldscribe.targets.vectors.numbers import EXACT, INFINITY, float_of_bits, half_away, quotient
 
 if TYPE_CHECKING:
     from fieldscribe.model import Bound, Factor, Limit, Linear, Point
 
 Settings = Mapping[str, int]
 """Raw numbers of the points that a rule or a limit needs."""
+
+Numbers = Mapping[str, Fraction | int]
+"""The same, with the number that it stands for in place of each floating-point pattern; 0 where it is no number."""
 
 INT64 = 1 << 63
 
@@ -80,25 +85,27 @@ def fixed_ratio(rule: Linear) -> Ratio:
     return Ratio(rule.ratio.numerator, rule.ratio.denominator, rule.offset.numerator, rule.offset.denominator)
 
 
-def _number(factor: Factor, settings: Settings) -> int:
+def _number(factor: Factor, numbers: Numbers) -> Fraction | int:
     """The number that a factor takes from its point."""
-    return factor.slope * settings[factor.point] + factor.intercept
+    return factor.slope * numbers[factor.point] + factor.intercept
 
 
-def _product(rule: Linear, settings: Settings) -> tuple[int, int]:
+def _product(rule: Linear, numbers: Numbers) -> tuple[int, int]:
     """The rule's ratio times its factors, as numerator and denominator; the latter may be 0 or negative."""
     over, under = rule.ratio.numerator, rule.ratio.denominator
     for factor in rule.factors:
-        number = _number(factor, settings)
-        power = factor.power * number if factor.ten_to else factor.power
-        size = 10 ** abs(number) if factor.ten_to else number
-        over, under = (over * size, under) if power >= 0 else (over, under * size)
+        number = _number(factor, numbers)
+        if factor.ten_to:
+            power, size, part = factor.power * int(number), 10 ** abs(int(number)), 1
+        else:
+            power, size, part = factor.power, number.numerator, number.denominator
+        over, under = (over * size, under * part) if power >= 0 else (over * part, under * size)
     return over, under
 
 
-def _limit_number(limit: Limit, settings: Settings) -> int:
+def _limit_number(limit: Limit, numbers: Numbers) -> int:
     """The raw number that a limit is now; it does not divide by zero."""
-    over, under = _product(limit.rule, settings)
+    over, under = _product(limit.rule, numbers)
     offset = limit.rule.offset
     over, under = over * offset.denominator + offset.numerator * under, under * offset.denominator
     return half_away(over, under) if under > 0 else half_away(-over, -under)
@@ -118,12 +125,23 @@ class Oracle:
         return "no_case"
 
     def _with_factors(self, rule: Linear, settings: Settings) -> Ratio | str:
-        if any(_number(factor, settings) == 0 for factor in rule.factors if not factor.ten_to):
+        numbers = self._numbers(settings)
+        if any(_number(factor, numbers) == 0 for factor in rule.factors if not factor.ten_to):
             return "zero_factor"
         if any(not self.exponent_fits(factor, settings) for factor in rule.factors if factor.ten_to):
             return "overflow"
-        over, under = _product(rule, settings)
+        over, under = _product(rule, numbers)
         return Ratio(over, under, rule.offset.numerator, rule.offset.denominator)
+
+    def _numbers(self, settings: Settings) -> Numbers:
+        return {name: self._value(name, raw) for name, raw in settings.items()}
+
+    def _value(self, name: str, raw: int) -> Fraction | int:
+        source = self.points.get(name)
+        if source is None or not source.info.floating:
+            return raw
+        value = float_of_bits(raw, source.width)
+        return Fraction(value) if isfinite(value) else 0
 
     def exponent_fits(self, factor: Factor, settings: Settings) -> bool:
         """Whether an exponent's raw number lies within what its own point may hold."""
@@ -151,12 +169,12 @@ class Oracle:
             return bound
         if any(codes and settings[name] in codes for name, codes in bound.unless):
             return bound.least if lower else bound.greatest
-        factors = bound.rule.factors
-        if any(one.power < 0 and not one.ten_to and _number(one, settings) == 0 for one in factors):
+        factors, numbers = bound.rule.factors, self._numbers(settings)
+        if any(one.power < 0 and not one.ten_to and _number(one, numbers) == 0 for one in factors):
             return "zero_factor"
         if any(one.ten_to and not self.exponent_fits(one, settings) for one in factors):
             return "overflow"
-        number = _limit_number(bound, settings)
+        number = _limit_number(bound, numbers)
         return max(bound.least, number) if lower else min(bound.greatest, number)
 
 

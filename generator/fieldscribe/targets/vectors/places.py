@@ -24,7 +24,7 @@ def address(lines: Lines, point: Point) -> None:
     text = f'"space": {dumps(point.places[0].space)}, "address": {point.address}, "words": {point.words}'
     text += f', "code": {"null" if point.code is None else quoted(line(point.code))}'
     form = point.form
-    if form != "float":
+    if form not in ("float", "text", "digits"):
         low, high = outer_bounds(point)
         text += f', "raw_min": {low}, "raw_max": {high}'
     if form == "scaled":
@@ -33,14 +33,25 @@ def address(lines: Lines, point: Point) -> None:
         if key not in KEYS:
             text += f', "{key}": {quoted(line(number)) if isinstance(number, str) else number}'
     lines.add("address", f"{subject(point.item)}, {text}")
+    if point.index is not None or point.telegram is not None or point.text is not None:
+        index = "null" if point.index is None else str(point.index)
+        rest = f'"addresses": {array(point.addresses)}, "index": {index}, "telegram": {dumps(point.telegram)}'
+        lines.add("place", f"{subject(point.item)}, {rest}")
 
 
 def words(lines: Lines, point: Point) -> None:
     """Patterns of a point of several words, or of a signed word, in ascending order of the addresses."""
-    if not point.places or point.bits is not None or (point.words < 2 and not point.info.signed):
+    if (
+        not point.places
+        or point.bits is not None
+        or point.text is not None
+        or (point.words < 2 and not point.info.signed)
+    ):
         return
     count = point.words
-    order = sorted(range(count), key=point.places[0].addresses.__getitem__)
+    addresses = point.places[0].addresses
+    # words without an address each (a USS parameter) travel with the high one first
+    order = sorted(range(count), key=addresses.__getitem__) if len(addresses) == count else list(range(count))
     for pattern in _wide_patterns(count) if count > 1 else _NARROW:
         raw = as_raw(point, pattern)
         whole = raw & (1 << 16 * count) - 1  # a signed byte fills its word with its sign

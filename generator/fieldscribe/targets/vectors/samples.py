@@ -11,6 +11,21 @@ from fieldscribe.targets.vectors.oracle import Oracle, Ratio, outer_bounds
 
 Limits = Sequence[tuple[int, int]]
 
+_FIFTY = 0x4248_0000
+_FACTORS_32 = (
+    0x4248_0000,
+    0x4270_0000,
+    0x3F80_0000,
+    0x3DCC_CCCD,
+    0xC2C8_0000,
+    0x4422_8AC1,
+    0x0000_0000,
+    0x8000_0000,
+    0x7F80_0000,
+    0x7FC0_0000,
+)
+"""Binary32 patterns for a factor: 50, 60, 1, one tenth, -100, 650.16..., both zeros, infinity, no number."""
+
 
 def edges(limits: Limits) -> dict[int, None]:
     """Each limit and one beyond it, in the order of the limits; so every hole of a list is met."""
@@ -115,6 +130,8 @@ def _typical(oracle: Oracle, point: Point, name: str) -> int:
     for case in point.scale or ():
         if case.point == name and case.raw is not None:
             return case.raw
+    if (source := oracle.points.get(name)) is not None and source.info.floating:
+        return _FIFTY
     low, high = _bounds(oracle, name)
     middle = low + (high - low) // 3
     return middle or min(high, 1)
@@ -122,6 +139,8 @@ def _typical(oracle: Oracle, point: Point, name: str) -> int:
 
 def _choices(oracle: Oracle, point: Point, name: str) -> list[int]:
     """Raw numbers for one argument, as far as its point holds them: ends, cases, zeros, codes that lift limits."""
+    if (source := oracle.points.get(name)) is not None and source.info.floating:
+        return list(_FACTORS_32)
     low, high = _bounds(oracle, name)
     cases = [case.raw for case in point.scale or () if case.point == name and case.raw is not None]
     found = [*cases, max(cases) + 1] if cases else [low, high]
@@ -135,7 +154,6 @@ def _choices(oracle: Oracle, point: Point, name: str) -> list[int]:
     found += [
         code for limit in limits_of(point) for other, codes in limit.unless if other == name for code in codes[:4]
     ]
-    source = oracle.points.get(name)
     return [raw for raw in dict.fromkeys(found) if source is None or source.least <= raw <= source.greatest]
 
 

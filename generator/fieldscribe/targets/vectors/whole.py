@@ -30,6 +30,7 @@ def whole(lines: Lines, oracle: Oracle, point: Point) -> None:
 
 def _sheet(lines: Lines, point: Point, head: str, limits: samples.Limits) -> None:
     raws = dict.fromkeys((*samples.raws_to_check(point, limits), *samples.raws_to_decode(point, limits)))
+    raws.update({with_fixed(point, raw): None for raw in list(raws)})
     if point.enum is not None:
         raws.update(dict.fromkeys(entry.raw for entry in point.enum.entries))
     for flag in point.flags:
@@ -45,13 +46,23 @@ def _sheet(lines: Lines, point: Point, head: str, limits: samples.Limits) -> Non
     beyond = dict.fromkeys((*samples.edges(limits), point.least - 1, point.greatest + 1, top - 1, -top))
     for count in {**raws, **beyond}:
         if -top <= count < top:
-            status = admit(point, count, limits)
+            put = with_fixed(point, count)
+            status = admit(point, put, limits)
             lines.add(
                 "encode_count",
-                f'{head}, "count": {count}, "status": "{status}"' + (f', "raw": {count}' if status == "ok" else ""),
+                f'{head}, "count": {count}, "status": "{status}"' + (f', "raw": {put}' if status == "ok" else ""),
             )
     for raw in raws:
-        lines.add("check", f'{head}, "raw": {raw}, "status": "{admit(point, raw, limits)}"')
+        status = admit(point, raw, limits) if with_fixed(point, raw) == raw else "out_of_range"
+        lines.add("check", f'{head}, "raw": {raw}, "status": "{status}"')
+
+
+def with_fixed(point: Point, raw: int) -> int:
+    """A raw number with the bits put in that are always written as a constant; what the type cannot hold stays."""
+    fixed = point.fixed
+    if fixed is None or point.bits is not None or not point.least <= raw <= point.greatest:
+        return raw
+    return raw & ~fixed.mask | fixed.bits
 
 
 def names(lines: Lines, point: Point) -> None:
@@ -92,6 +103,13 @@ def flags(lines: Lines, point: Point) -> None:
                 lines.add("flag_name", f"{subject(point.item)}, {rest}")
 
 
+def fixed(lines: Lines, point: Point) -> None:
+    """The bits of the word that are always written as a constant."""
+    if point.fixed is not None:
+        rest = f'"mask": {point.fixed.mask}, "bits": {point.fixed.bits}'
+        lines.add("fixed", f"{subject(point.item)}, {rest}")
+
+
 def bits(lines: Lines, point: Point) -> None:
     """A bit group taken out of its word, and another number put in."""
     if point.bits is None:
@@ -102,5 +120,7 @@ def bits(lines: Lines, point: Point) -> None:
     tries += [(0, put) for put in patterns] + [(pattern << low, ones ^ pattern) for pattern in patterns]
     for word, put in dict.fromkeys(tries):
         raw, result = word >> low & ones, word & ~(ones << low) | put << low
+        if point.fixed is not None:
+            result = result & ~point.fixed.mask | point.fixed.bits
         rest = f'"raw": {as_raw(point, raw)}, "replaced": {as_raw(point, put)}, "result": {result}'
         lines.add("bits", f'{head}, "word": {word}, {rest}')

@@ -1,4 +1,4 @@
-"""Vectors of frames: requests to build, replies good and bad, the manual's own examples, and batched reads."""
+"""Vectors of Modbus frames: requests to build, replies good and bad, the manual's own examples, and batched reads."""
 
 from __future__ import annotations
 
@@ -29,6 +29,14 @@ if TYPE_CHECKING:
 _READS = (0x01, 0x02, 0x03, 0x04)
 _TRANSACTION = 0x1234
 _ADDRESS = 0x0102
+
+
+def modbus(lines: Lines, device: Device) -> None:
+    """Everything about Modbus frames."""
+    builds(lines, device.bus)
+    replies(lines, device.bus)
+    printed(lines, device)
+    blocks(lines, device)
 
 
 def builds(lines: Lines, bus: Bus) -> None:

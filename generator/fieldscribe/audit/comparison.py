@@ -1,0 +1,251 @@
+"""A description's claims held against a manual's text."""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_right
+from typing import TYPE_CHECKING
+
+from fieldscribe.audit.claims import Claim, PrintedErratum, claims_of, errata_of
+from fieldscribe.audit.manual import Extent, Manual, Token, tokens_of
+from fieldscribe.audit.outcome import Audit, Missing, Moved, Uncited, Unprinted, Unused
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+    from fractions import Fraction
+
+    from fieldscribe.checks.subject import Subject
+
+_SHORT = 100
+"""So many characters of a line are shown."""
+_RUN = re.compile(r"\bbis\b|\bto\b|\.\.|\u2026|[0-9]\s*[-\u2013]\s*[0-9]")
+"""What says that the numbers between two stand there too."""
+_WEIGHTS = {"section": 4, "code": 2}
+"""What tells a place better than an address, which may stand in many lines."""
+_FAR = 400
+"""A place that moved farther is looked for no more."""
+
+
+def audit(subject: Subject, device: str, manual_name: str, text: str, *, same_text: bool | None) -> Audit:
+    """Everything that does not agree. `same_text`: whether it is the text that was transcribed, None if unknown."""
+    manual = Manual(text)
+    claims, errata = list(claims_of(subject)), list(errata_of(subject))
+    return _Comparison(manual, claims, errata, Audit(device, manual_name, same_text, len(manual))).run()
+
+
+class _Comparison:
+    """The state of one audit: where cited lines stand now, and which numbers were used."""
+
+    def __init__(self, manual: Manual, claims: list[Claim], errata: list[PrintedErratum], found: Audit) -> None:
+        self.manual, self.claims, self.errata, self.found = manual, claims, errata, found
+        self.used: set[tuple[int, int]] = set()
+        self.taken: dict[str, list[frozenset[Fraction]]] = {}
+        for erratum in errata:
+            for name in erratum.subjects:
+                self.taken.setdefault(name, []).append(erratum.taken)
+        self.codes = {word for claim in claims if claim.fact == "code" for word in claim.words}
+        self.subjects: dict[Extent, dict[str, None]] = {}
+        cited = sorted({first for claim in claims for first, _ in claim.cited})
+        self.now = {line: line for line in cited} if found.same_text else self._moved(cited)
+        self.starts = sorted(set(self.now.values()))
+        self._extents: dict[tuple[int, int], Extent] = {}
+
+    def run(self) -> Audit:
+        """All findings."""
+        for claim in self.claims:
+            self._check(claim)
+        for erratum in self.errata:
+            self._check_erratum(erratum)
+        self._unused()
+        self._uncited()
+        self.found.facts, self.found.errata = len(self.claims), len(self.errata)
+        return self.found
+
+    def _extent(self, first: int, last: int) -> Extent:
+        key = (first, last)
+        if key not in self._extents:
+            start = self.now.get(first, first)
+            if last:
+                found = Extent(start, start + last - first, "lines")
+            else:
+                place = bisect_right(self.starts, start)
+                found = self.manual.extent(start, self.starts[place] if place < len(self.starts) else None)
+            self._extents[key] = found
+        return self._extents[key]
+
+    def _tokens(self, extent: Extent) -> list[Token]:
+        tokens = [token for line in range(extent.first, extent.last + 1) for token in self._of_line(line)]
+        merged = self.manual.merged_cells(extent.first)
+        return tokens + [token for line, cell in merged for token in tokens_of(cell, line)]
+
+    def _text(self, extent: Extent) -> str:
+        lines = [self.manual.line(line) for line in range(extent.first, extent.last + 1)]
+        return "\n".join((*lines, *(cell for _, cell in self.manual.merged_cells(extent.first))))
+
+    def _of_line(self, line: int) -> list[Token]:
+        return self.manual.tokens[line - 1] if 1 <= line <= len(self.manual) else []
+
+    def _check(self, claim: Claim) -> None:
+        extents = [self._extent(*cited) for cited in claim.cited]
+        for extent in extents:
+            self.subjects.setdefault(extent, {})[claim.subject] = None
+        stands = [self._stands(claim, extent) for extent in extents]  # in all of them: each marks what it uses
+        if not any(stands) and not self._is_taken(claim):
+            nearest = self._nearest(claim, extents[0].first)
+            missing = Missing(claim.subject, claim.fact, claim.shown, extents[0].first, extents[0].last, nearest)
+            self.found.missing.append(missing)
+
+    def _is_taken(self, claim: Claim) -> bool:
+        """Whether an erratum says that the description has this instead of what is printed."""
+        return any(claim.numbers & taken for taken in self.taken.get(claim.point, ()))
+
+    def _stands(self, claim: Claim, extent: Extent) -> bool:
+        if claim.words and any(_has_word(self._text(extent), word) for word in claim.words):
+            return True
+        if claim.fact == "section":
+            return self._lies_in(claim.words[0], extent.first)
+        if claim.fact == "bytes":
+            return self._has_bytes(claim.shown, extent)
+        tokens = self._tokens(extent)
+        hits = [token for token in tokens if token.readings & claim.numbers]
+        self.used.update((token.line, token.column) for token in hits)
+        if hits or not claim.between:
+            return bool(hits)
+        there = {reading for token in tokens for reading in token.readings}
+        return there.issuperset(claim.between) and _RUN.search(self._text(extent)) is not None
+
+    def _has_bytes(self, digits: str, extent: Extent) -> bool:
+        """Whether the bytes stand there in one piece, or each of them as a number of its own, in any notation."""
+        text = "".join(self.manual.line(line) for line in range(extent.first, extent.last + 1)).upper()
+        tokens = self._tokens(extent)
+        joined = "".join(text.split())
+        if digits in joined or (digits[:-4] in joined and "CRC" in joined):  # its checksum may be left out
+            self.used.update((token.line, token.column) for token in tokens)
+            return True
+        wanted = {int(digits[at : at + size], 16) for size in (2, 4) for at in range(0, len(digits), size)}
+        hits = [token for token in tokens if any(reading in wanted for reading in token.readings)]
+        self.used.update((token.line, token.column) for token in hits)
+        there = {int(reading) for token in hits for reading in token.readings if reading.denominator == 1}
+        return all(int(digits[at : at + 2], 16) in there for at in range(0, len(digits), 2)) or all(
+            int(digits[at : at + 4], 16) in there for at in range(0, len(digits), 4)
+        )
+
+    def _nearest(self, claim: Claim, line: int) -> int | None:
+        places: Iterable[int] = ()
+        if claim.numbers:
+            places = [place for number in claim.numbers for place in self.manual.lines_of.get(number, ())]
+        elif claim.words:
+            places = self._places_of_word(claim.words[0])
+        return min(places, key=lambda place: (abs(place - line), place), default=None)
+
+    def _places_of_word(self, word: str) -> list[int]:
+        if word in self.manual.numbered:
+            return [self.manual.numbered[word]]
+        first = "".join(char if char.isalnum() else " " for char in word).split()
+        lines = self.manual.words.get(first[0].lower(), []) if first else []
+        return [line for line in lines if _has_word(self.manual.line(line), word)]
+
+    def _check_erratum(self, erratum: PrintedErratum) -> None:
+        if not erratum.numbers and not erratum.texts:
+            self.found.uncheckable += 1
+            return
+        extents = [self._extent(line, 0) for line in erratum.lines]
+        if erratum.told:  # a sentence may speak of what stands around
+            sections = [self.manual.section_of(extent.first) for extent in extents]
+            extents = [
+                Extent(min(one.first, two.first), max(one.last, two.last), "section")
+                for one, two in zip(extents, sections, strict=True)
+            ]
+        tokens = [token for extent in extents for token in self._tokens(extent)]
+        absent = False
+        for number in erratum.numbers:
+            hits = [token for token in tokens if abs(number) in token.readings]
+            self.used.update((token.line, token.column) for token in hits)
+            absent = absent or not hits
+        text = " ".join(" ".join(self._text(extent) for extent in extents).split())
+        if absent or any(" ".join(one.split()) not in text for one in erratum.texts):
+            first = extents[0].first
+            places = [place for number in erratum.numbers for place in self.manual.lines_of.get(abs(number), ())]
+            nearest = min(places, key=lambda place: (abs(place - first), place), default=None)
+            self.found.unprinted.append(Unprinted(erratum.id, erratum.shown, erratum.lines[0], nearest))
+
+    def _lies_in(self, section: str, line: int) -> bool:
+        """Whether a line lies in a section: below its heading, and above the next that does not belong to it."""
+        start = self.manual.numbered.get(section)
+        if start is None:
+            return any(_has_word(self.manual.line(above), section) for above in range(max(1, line - _FAR), line))
+        following = [
+            place
+            for number, place in self.manual.numbered.items()
+            if place > start and not number.startswith(f"{section}.")
+        ]
+        return start <= line < min(following, default=len(self.manual) + 1)
+
+    def _unused(self) -> None:
+        for extent, subjects in self.subjects.items():
+            for line in range(extent.first, extent.last + 1):
+                for token in self._of_line(line):
+                    if (token.line, token.column) not in self.used and token.text not in self.codes:
+                        self.used.add((token.line, token.column))
+                        one = Unused(token.line, token.column, token.text, tuple(subjects))
+                        self.found.unused.append(one)
+        self.found.unused.sort(key=lambda one: (one.line, one.column))
+
+    def _uncited(self) -> None:
+        covered = {line for extent in self.subjects for line in range(extent.first, extent.last + 1)}
+        covered |= {self.now.get(line, line) for erratum in self.errata for line in erratum.lines}
+        manual = self.manual
+        for line in manual.headings:
+            section = manual.section_of(line)
+            if not any(number in covered for number in range(section.first, section.last + 1)):
+                self.found.uncited.append(Uncited(line, "section", manual.line(line).strip()[:_SHORT]))
+        for line in range(1, len(manual) + 1):
+            if line not in covered and manual.is_row(line) and manual.tokens[line - 1]:
+                self.found.uncited.append(Uncited(line, "row", manual.line(line).strip()[:_SHORT]))
+        self.found.uncited.sort(key=lambda one: one.line)
+
+    def _moved(self, cited: list[int]) -> dict[int, int]:
+        """Where each cited line stands in a manual that changed: where most of what tells its subjects apart stands."""
+        anchors: dict[int, list[Claim]] = {}
+        for claim in self.claims:
+            if claim.anchor:
+                for first, _ in claim.cited:
+                    anchors.setdefault(first, []).append(claim)
+        now: dict[int, int] = {}
+        shift = 0
+        for line in cited:
+            place = self._place_of(anchors.get(line, []), line + shift)
+            if place is not None:
+                shift = place - line
+            now[line] = line + shift
+            if shift:
+                for name in dict.fromkeys(claim.subject for claim in anchors.get(line, [])):
+                    self.found.moved.append(Moved(name, line, line + shift))
+        return now
+
+    def _place_of(self, anchors: list[Claim], expected: int) -> int | None:
+        scores: dict[int, int] = {}
+        for claim in anchors:
+            for place in set(self._places(claim)):
+                scores[place] = scores.get(place, 0) + _WEIGHTS.get(claim.fact, 1)
+        most = max(scores.values(), default=0)
+        if most == 0 or scores.get(expected, 0) == most:
+            return expected if most else None
+        near = [place for place, score in scores.items() if score == most and abs(place - expected) <= _FAR]
+        return min(near, key=lambda place: (abs(place - expected), place), default=None)
+
+    def _places(self, claim: Claim) -> list[int]:
+        if claim.words:
+            return self._places_of_word(claim.words[0])
+        return [place for number in claim.numbers for place in self.manual.lines_of.get(number, ())]
+
+
+def _has_word(text: str, word: str) -> bool:
+    """Whether a word stands in a text by itself: `4.2.1` is not in `4.2.10`, nor `A02` in `A020`."""
+    at = text.find(word)
+    while at >= 0:
+        before, after = text[at - 1 : at], text[at + len(word) : at + len(word) + 1]
+        if not before.isalnum() and not after.isalnum():
+            return True
+        at = text.find(word, at + 1)
+    return False

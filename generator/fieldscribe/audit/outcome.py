@@ -1,0 +1,120 @@
+"""What an audit found, as plain data."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import asdict, dataclass, field
+
+
+@dataclass(frozen=True, slots=True)
+class Missing:
+    """A fact that does not stand where it is cited. `nearest` is the nearest line that has it, None if none does."""
+
+    subject: str
+    fact: str
+    wanted: str
+    line: int
+    last: int
+    nearest: int | None
+
+
+@dataclass(frozen=True, slots=True)
+class Moved:
+    """A cited place that stands on another line now."""
+
+    subject: str
+    line: int
+    now: int
+
+
+@dataclass(frozen=True, slots=True)
+class Unused:
+    """A number in a cited place that no fact uses."""
+
+    line: int
+    column: int
+    number: str
+    subjects: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Uncited:
+    """A section, or a row of a table, that nothing cites."""
+
+    line: int
+    kind: str
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Unprinted:
+    """An erratum whose printed text does not stand at its line."""
+
+    erratum: str
+    printed: str
+    line: int
+    nearest: int | None
+
+
+@dataclass(slots=True)
+class Audit:
+    """Everything that was found. `facts` were looked for; `uncheckable` errata print nothing that can be looked for."""
+
+    device: str
+    manual: str
+    same_text: bool | None
+    lines: int
+    facts: int = 0
+    errata: int = 0
+    uncheckable: int = 0
+    missing: list[Missing] = field(default_factory=list)
+    moved: list[Moved] = field(default_factory=list)
+    unprinted: list[Unprinted] = field(default_factory=list)
+    unused: list[Unused] = field(default_factory=list)
+    uncited: list[Uncited] = field(default_factory=list)
+
+    @property
+    def clean(self) -> bool:
+        """Whether every cited fact stands where it is cited, and every erratum too."""
+        return not (self.missing or self.moved or self.unprinted)
+
+    @property
+    def counts(self) -> dict[str, int]:
+        """How much there is of each."""
+        return {
+            "facts": self.facts,
+            "missing": len(self.missing),
+            "moved": len(self.moved),
+            "errata": self.errata,
+            "errata_not_printed": len(self.unprinted),
+            "errata_uncheckable": self.uncheckable,
+            "unused_numbers": len(self.unused),
+            "uncited": len(self.uncited),
+        }
+
+    def shifts(self) -> list[tuple[int, int, int, int]]:
+        """Moved places in runs that moved alike: first line, last line, by how many lines, how many places."""
+        runs: list[tuple[int, int, int, int]] = []
+        for line, by in sorted({(one.line, one.now - one.line) for one in self.moved}):
+            count = Counter((one.line, one.now - one.line) for one in self.moved)[line, by]
+            if runs and runs[-1][2] == by:
+                first, _, _, before = runs[-1]
+                runs[-1] = (first, line, by, before + count)
+            else:
+                runs.append((line, line, by, count))
+        return runs
+
+    def as_data(self) -> dict[str, object]:
+        """The same for JSON."""
+        return {
+            "device": self.device,
+            "manual": self.manual,
+            "same_text": self.same_text,
+            "clean": self.clean,
+            "counts": self.counts,
+            "missing": [asdict(one) for one in self.missing],
+            "moved": [asdict(one) for one in self.moved],
+            "errata_not_printed": [asdict(one) for one in self.unprinted],
+            "unused_numbers": [asdict(one) for one in self.unused],
+            "uncited": [asdict(one) for one in self.uncited],
+        }

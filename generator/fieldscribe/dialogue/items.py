@@ -1,0 +1,74 @@
+"""The points of a device by where they are, and what raw numbers say of them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from fieldscribe.dialogue import Item
+from fieldscribe.dialogue.codec import setting_of
+from fieldscribe.dialogue.meanings import meaning_of, range_remark, raw_text
+from fieldscribe.dialogue.selection import label
+from fieldscribe.text import line
+from fieldscribe.wording import title_text
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+    from fractions import Fraction
+
+    from fieldscribe.dialogue.codec import Settings
+    from fieldscribe.model import Device, Point
+
+Where = tuple[str, int, int]
+"""(the space or the telegram, the address, the index or 0)."""
+
+Base = tuple[str, int, int]
+"""(space, address, count): where an item is."""
+
+
+class Directory:
+    """Which points stand where."""
+
+    def __init__(self, device: Device) -> None:
+        self._at: dict[Where, list[Point]] = {}
+        for point in device.points:
+            for place in point.places:
+                for address in place.addresses:
+                    here = self._at.setdefault((point.telegram or place.space, address, point.index or 0), [])
+                    if point not in here:
+                        here.append(point)
+        self._places: dict[str, set[tuple[tuple[int, ...], int | None]]] = {}
+        for point in device.points:
+            self._places.setdefault(point.name, set()).add((point.addresses, point.index))
+
+    def at(self, where: str, address: int, index: int = 0) -> list[Point]:
+        """The points of which that is a word."""
+        return self._at.get((where, address, index), [])
+
+    def settings(self, found: Iterable[tuple[Point, int]]) -> Iterator[tuple[str, int | Fraction]]:
+        """What rules take of points with these raw numbers; not of variants that are in different places."""
+        for point, raw in found:
+            if len(self._places[point.name]) == 1:
+                yield point.name, setting_of(point, raw)
+
+
+def title_of(point: Point) -> str:
+    """The English title."""
+    return title_text({"en": point.title["en"]})
+
+
+def named_item(point: Point, base: Base, said: str = "") -> Item:
+    """A point that a frame names without a raw number; `said` stands for the title."""
+    return Item(*base, line(f"{label(point)}: {said or title_of(point)}"), point.item, point.code)
+
+
+def value_item(
+    device: Device, point: Point, base: Base, raw: int, settings: Settings, *, written: bool = False
+) -> Item:
+    """A point and what its raw number means; if it is `written`, also why the device will not take it."""
+    meaning = meaning_of(device, point, raw, settings)
+    text = f"{label(point)} = {meaning.text} ({raw_text(point, raw)}): {title_of(point)}"
+    odd = range_remark(device, point, raw, settings) if written else ""
+    text += f"; {odd}" if odd else ""
+    text += f"; {meaning.hint}" if meaning.hint else ""
+    shown = None if point.text is not None else raw
+    return Item(*base, line(text), point.item, point.code, shown, meaning.value, meaning.missing)

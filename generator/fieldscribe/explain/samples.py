@@ -1,0 +1,45 @@
+"""A raw number to show in an example: one that may be written and moves a machine least."""
+
+from __future__ import annotations
+
+import struct
+from typing import TYPE_CHECKING
+
+from fieldscribe import wording
+from fieldscribe.wording.exact import fixed_rule, hex_text
+
+if TYPE_CHECKING:
+    from fieldscribe.model import Point
+
+
+def sample_raw(point: Point) -> int | None:
+    """A raw number that may be written: the default, else the smallest; None where no fixed one is sure."""
+    if point.text is not None:
+        return None
+    if point.info.floating:
+        first = point.allowed.units[0][0] if point.allowed.units else 0
+        number = first if point.default is None else point.default
+        kind = ("<f", "<I") if point.type == "f32" else ("<d", "<Q")
+        result: int = struct.unpack(kind[1], struct.pack(kind[0], float(number)))[0]
+        return result
+    rule = fixed_rule(point)
+    if rule is not None and point.default is not None:
+        raw = (point.default * rule[2] - rule[1]) / rule[0]
+        if raw.denominator == 1:
+            return _with_fixed(point, int(raw))
+    ends = [end for one in point.allowed.intervals for end in (one.low, one.high) if isinstance(end, int)]
+    return _with_fixed(point, min(ends, key=abs)) if ends else None
+
+
+def sample_said(point: Point, raw: int) -> str:
+    """The number as an example: what it means, and the raw number."""
+    if point.info.floating:
+        return f"for example the pattern {hex_text(raw, point.width // 4)}"
+    meaning = wording.meaning_text(point, raw)
+    return f"for example {meaning} is raw {raw}" if meaning else f"for example raw {raw}"
+
+
+def _with_fixed(point: Point, raw: int) -> int:
+    if point.fixed is None or point.bits is not None:
+        return raw
+    return raw & ~point.fixed.mask | point.fixed.bits

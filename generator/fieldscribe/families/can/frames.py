@@ -1,0 +1,98 @@
+"""Messages of a CAN device: building their frames, and reading frames back. Pure functions, no I/O."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from fieldscribe.model import Message, Role
+
+LENGTH = 8
+"""How many bytes every message of this family has."""
+_WORD = 0xFFFF
+
+
+@dataclass(frozen=True, slots=True)
+class CanFrame:
+    """A frame on the bus: its identifier and its data."""
+
+    id: int
+    data: bytes
+
+
+@dataclass(frozen=True, slots=True)
+class Parsed:
+    """What a frame says as a message: 0 for what the message does not carry, all 0 unless `status` is ok."""
+
+    status: str
+    address: int = 0
+    raw: int = 0
+
+
+def identifier(message: Message, unit: int) -> int:
+    """The identifier that carries a message to or from a unit."""
+    return message.can_id + unit if message.adds_unit else message.can_id
+
+
+def checksum(data: Sequence[int], mask: int) -> int:
+    """The bytes of a mask, combined by exclusive or."""
+    result = 0
+    for place, byte in enumerate(data):
+        if mask >> place & 1:
+            result ^= byte
+    return result
+
+
+def build(message: Message, units: tuple[int, int], unit: int, address: int, raw: int) -> tuple[str, CanFrame]:
+    """The frame of a message; (status, an empty frame) when it must not be sent.
+
+    The first failure wins: `bad_unit` (outside `units`), `bad_address` and `bad_value` (not 16 bits).
+    """
+    for status, number, low, high in (
+        ("bad_unit", unit, *units),
+        ("bad_address", address, 0, _WORD),
+        ("bad_value", raw, 0, _WORD),
+    ):
+        if not low <= number <= high:
+            return status, CanFrame(0, b"")
+    data = [_byte(role, unit, address, raw) for role in message.roles]
+    for place, role in enumerate(message.roles):
+        if role.kind == "xor":
+            data[place] = checksum(data, role.number)
+    return "ok", CanFrame(identifier(message, unit), bytes(data))
+
+
+def _byte(role: Role, unit: int, address: int, raw: int) -> int:
+    if role.kind == "constant":
+        return role.number
+    if role.kind == "unit":
+        return unit & 0xFF
+    carried = {"address": address, "raw": raw}.get(role.kind, 0)
+    return carried >> role.number & 0xFF
+
+
+def parse(message: Message, unit: int, frame: CanFrame) -> Parsed:
+    """What a frame says as that message of that unit. Any bytes at any length are safe; the first failure wins.
+
+    `wrong_id`, `wrong_length` (not 8 bytes), `wrong_constant`, `wrong_unit`, `wrong_check`.
+    """
+    data = frame.data
+    if frame.id != identifier(message, unit):
+        return Parsed("wrong_id")
+    if len(data) != LENGTH:
+        return Parsed("wrong_length")
+    found = list(zip(message.roles, data, strict=True))
+    if any(role.kind == "constant" and byte != role.number for role, byte in found):
+        return Parsed("wrong_constant")
+    if any(role.kind == "unit" and byte != unit & 0xFF for role, byte in found):
+        return Parsed("wrong_unit")
+    if any(role.kind == "xor" and byte != checksum(data, role.number) for role, byte in found):
+        return Parsed("wrong_check")
+    return Parsed("ok", _carried(found, "address"), _carried(found, "raw"))
+
+
+def _carried(found: list[tuple[Role, int]], kind: str) -> int:
+    return sum(byte << role.number for role, byte in found if role.kind == kind)

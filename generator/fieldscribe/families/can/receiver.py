@@ -1,0 +1,86 @@
+"""A multiplexed telegram as its frames come in, and which of its words belong together."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from fieldscribe.families.can.frames import LENGTH, identifier
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from fieldscribe.families.can.frames import CanFrame
+    from fieldscribe.model import Message, Telegram
+
+
+@dataclass(slots=True)
+class _Slot:
+    """The words of one multiplexer value: the last ones and those before; moments are counted frames, 0 is never."""
+
+    words: tuple[int, ...] = ()
+    at: int = 0
+    words_before: tuple[int, ...] = ()
+    before: int = 0
+
+
+class Receiver:
+    """Takes the frames of a telegram from one unit, and gives words once they came."""
+
+    def __init__(self, telegram: Telegram, message: Message, unit: int) -> None:
+        self.message = message
+        self.unit = unit
+        self.per_frame = message.words
+        self._clock = 0
+        self._slots = [_Slot() for _ in range(-(-telegram.words // self.per_frame))]
+
+    def take(self, frame: CanFrame) -> bool:
+        """Whether the frame belongs to the telegram; if so its words are kept."""
+        place = self._place(frame)
+        if place is None:
+            return False
+        words = tuple(
+            sum(
+                byte << (0 if role.number & 1 else 8)
+                for role, byte in zip(self.message.roles, frame.data, strict=True)
+                if role.kind == "word" and role.number >> 1 == word
+            )
+            for word in range(self.per_frame)
+        )
+        self._clock += 1
+        slot = self._slots[place]
+        slot.words_before, slot.before = slot.words, slot.at
+        slot.words, slot.at = words, self._clock
+        return True
+
+    def _place(self, frame: CanFrame) -> int | None:
+        """The slot of a frame: its multiplexer, 0 without one; None if it is no frame of the telegram."""
+        if frame.id != identifier(self.message, self.unit) or len(frame.data) != LENGTH:
+            return None
+        place = 0
+        for role, byte in zip(self.message.roles, frame.data, strict=True):
+            expected = {"constant": role.number, "unit": self.unit & 0xFF}.get(role.kind, byte)
+            if byte != expected:
+                return None
+            if role.kind == "multiplexer":
+                place = byte
+        return place if place < len(self._slots) else None
+
+    def words(self, positions: Sequence[int]) -> tuple[str, tuple[int, ...]]:
+        """The words at positions of the telegram, the high one first: ("ok", words), or `missing` or `torn` and none.
+
+        Two words of two frames are believed when the same high word came before and after the low one.
+        """
+        found = [(self._slots[position // self.per_frame], position % self.per_frame) for position in positions]
+        if any(slot.at == 0 for slot, _ in found):
+            return "missing", ()
+        (high, high_word), (low, low_word) = found[0], found[-1]
+        if high is low:
+            return "ok", tuple(slot.words[word] for slot, word in found)
+        if high.before == 0 or high.words[high_word] != high.words_before[high_word]:
+            return "torn", ()
+        if high.before < low.at < high.at:
+            return "ok", (high.words[high_word], low.words[low_word])
+        if low.at > high.at and high.before < low.before < high.at:
+            return "ok", (high.words[high_word], low.words_before[low_word])
+        return "torn", ()

@@ -1,0 +1,134 @@
+"""Sets and arrays: one row of the manual that stands for a point in each parameter set, for each index, or both."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from fieldscribe.resolve.values import integer, interval
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from fieldscribe.language.nodes import Map
+    from fieldscribe.model import Titles
+    from fieldscribe.resolve.scope import Scope
+
+MOST_ELEMENTS = 4096
+"""The most points that one row may stand for."""
+
+_SET_WORDS = {"en": "set {}", "de": "{}. Parametersatz"}
+_INDEX_WORDS = {"en": "index {}", "de": "Index {}"}
+
+
+@dataclass(frozen=True, slots=True)
+class Element:
+    """One of the points that a row with `at: {number: …}` stands for; `at` is that mapping.
+
+    `set_number` and `index` are None where the row has no sets or indices; `sets` and `indices` count them.
+    """
+
+    at: Map
+    number: int
+    set_number: int | None
+    sets: int
+    index: int | None
+    indices: int
+    suffix: str
+
+    @property
+    def values(self) -> Mapping[str, Fraction]:
+        """What an addressing rule may name; a point outside sets and arrays is in set 1, at index 1."""
+        return {
+            "number": Fraction(self.number),
+            "index": Fraction(1 if self.index is None else self.index),
+            "set": Fraction(1 if self.set_number is None else self.set_number),
+            "sets": Fraction(self.sets),
+            "indices": Fraction(self.indices),
+        }
+
+    @property
+    def keys(self) -> tuple[str, ...]:
+        """What `each` may call it, the closest first: set/index, its index, or its set where there are no indices."""
+        if self.index is None:
+            return () if self.set_number is None else (f"{self.set_number}",)
+        alone = (f"{self.index}",)
+        return alone if self.set_number is None else (f"{self.set_number}/{self.index}", *alone)
+
+    def titled(self, title: Titles) -> Titles:
+        """The title of this element, from that of the whole."""
+        words = [
+            (words, number)
+            for key, words, number in (("sets", _SET_WORDS, self.set_number), ("indices", _INDEX_WORDS, self.index))
+            if key in self.at and number is not None and self.suffix
+        ]
+        if not words:
+            return title
+        return {language: f"{text} ({_said(words, language)})" for language, text in title.items()}
+
+
+def set_title(title: Titles, number: int) -> Titles:
+    """The title of a point in a further set."""
+    return {language: f"{text} ({_said([(_SET_WORDS, number)], language)})" for language, text in title.items()}
+
+
+def elements_of(scope: Scope, at: Map) -> list[Element]:
+    """All points that the row stands for, set by set, in each set index by index; none after a finding."""
+    number = integer(at["number"], at.span("number"), scope.report)
+    sets, indices = _axis(scope, at, "sets", "set"), _axis(scope, at, "indices", "index")
+    if number is None or sets is None or indices is None:
+        return []
+    if len(sets.used) * len(indices.used) > MOST_ELEMENTS:
+        message = f"these are {len(sets.used) * len(indices.used)} points"
+        scope.report.error("too-many-items", message, at.span("number"), f"one row has at most {MOST_ELEMENTS}")
+        return []
+    return [
+        Element(at, number, one, sets.count, each, indices.count, sets.suffix(one) + indices.suffix(each))
+        for one in sets.used
+        for each in indices.used
+    ]
+
+
+@dataclass(frozen=True, slots=True)
+class _Axis:
+    """The sets, or the indices: how many there are, which of them the row means, and what names say of them."""
+
+    count: int
+    used: tuple[int | None, ...]
+    word: str
+
+    def suffix(self, number: int | None) -> str:
+        return f"_{self.word}_{number}" if self.word else ""
+
+
+def _axis(scope: Scope, at: Map, many: str, one: str) -> _Axis | None:
+    """`sets: 4`, `indices: 0..1`, or `set: 2` alone; None after a finding."""
+    alone: int | None = at.get(one)
+    if many not in at:
+        return _Axis(1, (alone,), "")
+    span, text = at.span(many), str(at[many])
+    if ".." in text:
+        found = interval(text, span, scope.report)
+    else:
+        count = integer(at[many], span, scope.report)
+        found = None if count is None else (1, count)
+    if found is None:
+        return None
+    low, high = found
+    if low < 0 or high < low or high - low >= 65536:
+        message = f"`{many}: {text}` counts nothing"
+        scope.report.error("wrong-choice", message, span, f"write a count, or an interval such as `{many}: 0..1`")
+        return None
+    if alone is None:
+        used = range(low, min(high, low + MOST_ELEMENTS) + 1)
+        return _Axis(high - low + 1, tuple(used), one)
+    if not low <= alone <= high:
+        message = f"there is no {one} {alone} in {low}..{high}"
+        scope.report.error("wrong-choice", message, at.span(one), f"correct `{one}` or `{many}`")
+        return None
+    return _Axis(high - low + 1, (alone,), "")
+
+
+def _said(words: list[tuple[dict[str, str], int]], language: str) -> str:
+    return ", ".join(said.get(language, said["en"]).format(number) for said, number in words)

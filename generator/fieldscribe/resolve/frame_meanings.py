@@ -1,0 +1,111 @@
+"""What a worked example means: the raw numbers of points, from their values as the manual prints them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from fieldscribe.resolve.exact_scales import Held, encoded, held_by, pattern
+from fieldscribe.resolve.values import integer, number
+from fieldscribe.wording.exact import number_text
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+    from fractions import Fraction
+
+    from fieldscribe.language.nodes import Map
+    from fieldscribe.model import Point
+    from fieldscribe.resolve.names import Index
+    from fieldscribe.resolve.scope import Scope
+
+RAW = ".raw"
+"""Behind a point's name: the raw number is said, not the value."""
+
+
+def meaning_of(scope: Scope, raw: Map, index: Index, points: Mapping[str, Point]) -> dict[str, int]:
+    """The raw numbers by item that a frame is said to carry."""
+    held: Held = {}
+    given: Map | None = raw.get("with")
+    for point, found in _Said(scope, given).numbers(index, points) if given is not None else ():
+        held[point.item] = held[point.name] = held_by(point, found)
+    said: Map | None = raw.get("says")
+    return {} if said is None else {one.item: found for one, found in _Said(scope, said, held).numbers(index, points)}
+
+
+@dataclass(frozen=True, slots=True)
+class _Said:
+    """Values by point as an author wrote them, and what other points hold meanwhile."""
+
+    scope: Scope
+    said: Map
+    held: Held = field(default_factory=dict)
+
+    def numbers(self, index: Index, points: Mapping[str, Point]) -> Iterator[tuple[Point, int]]:
+        """Each point that is named, with its raw number; what cannot be told is a finding and left out."""
+        for word, value in self.said.items():
+            name = word.removesuffix(RAW)
+            draft = index.find(name)
+            if draft is None:
+                index.unknown(name, self.said.key_span(word))
+                continue
+            point = points.get(draft.item)
+            if point is None or draft.failed & {"scale", "type", "enum"}:
+                continue
+            is_raw = name != word
+            found = integer(value, self.said.span(word), self.scope.report) if is_raw else self._raw(point, word, value)
+            if found is not None:
+                yield point, found
+
+    def _raw(self, point: Point, word: str, value: Any) -> int | None:
+        """The raw number of a name, or of a value in the unit; None after a finding."""
+        if isinstance(value, bool):
+            return int(value)
+        if isinstance(value, str) and not value[:1].isdigit():
+            known = _names(point)
+            if known:
+                if value not in known:
+                    self.scope.unknown("entry", value, self.said.span(word), known)
+                return known.get(value)
+        fault = self._fault(point)
+        if fault is not None:
+            hint = f"give its raw number: `{word}{RAW}: …`" if point.text is None else "leave it out of `says`"
+            self._refuse("bad-formula", word, fault, hint)
+            return None
+        exact = number(value, self.said.span(word), self.scope.report)
+        return None if exact is None else self._number(point, word, value, exact)
+
+    def _number(self, point: Point, word: str, value: Any, exact: Fraction) -> int | None:
+        """The raw number of a value; None after a finding."""
+        if point.info.floating:
+            found = pattern(point.info.bits, exact)
+            if found is None:
+                self._refuse("bad-number", word, f"cannot be {value}: the type is too small", "correct it")
+            return found
+        if point.scale is not None and point.scale_arguments:
+            found = encoded(point.scale, exact, self.held)
+            if found is None:
+                self._refuse("bad-formula", word, "has no scale with what `with` says", "check the values under `with`")
+            return found
+        if point.scale is not None:
+            exact = exact * point.scale[0].rule.ratio + point.scale[0].rule.offset
+        if exact.denominator != 1:
+            fault = f"cannot be {value}: that is raw {number_text(exact)}"
+            self._refuse("bad-number", word, fault, "give the value as printed, in the unit of the point")
+            return None
+        return exact.numerator
+
+    def _fault(self, point: Point) -> str | None:
+        if point.text is not None:
+            return "is a text"
+        missing = [name for name in point.scale_arguments if name not in self.held]
+        return f"needs what {', '.join(missing)} holds to be scaled (say it under `with`)" if missing else None
+
+    def _refuse(self, rule: str, word: str, fault: str, hint: str) -> None:
+        self.scope.report.error(rule, f"`{word}` {fault}", self.said.span(word), hint)
+
+
+def _names(point: Point) -> dict[str, int]:
+    """The names that the point's numbers have."""
+    if point.enum is None:
+        return {"off": 0, "on": 1} if point.type == "bit" else {}
+    return {entry.name: entry.raw for entry in point.enum.entries}

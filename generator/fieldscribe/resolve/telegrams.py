@@ -1,0 +1,87 @@
+"""Telegrams: cyclic layouts of words, and the messages whose frames carry them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+from fieldscribe.model import Message, Telegram
+from fieldscribe.resolve.drafts import humanised
+from fieldscribe.resolve.scope import Scope, source_of, titles
+
+if TYPE_CHECKING:
+    from fieldscribe.diagnostics import Span
+    from fieldscribe.language.nodes import Map
+    from fieldscribe.resolve.drafts import Draft
+
+Telegrams = Mapping[str, tuple[Telegram, int]]
+"""By name: the telegram, and how many of its words one multiplexed frame carries (0: it is not multiplexed)."""
+
+SPACE = "telegram"
+"""The space whose points are words of a telegram."""
+
+_MULTIPLEXED = 256
+"""How many frames a multiplexer tells apart."""
+
+
+def telegrams_of(scope: Scope, messages: tuple[Message, ...]) -> Telegrams:
+    """All telegrams by name, in the order of the text."""
+    result: dict[str, tuple[Telegram, int]] = {}
+    seen: dict[str, Span] = {}
+    by_name = {message.name: message for message in messages}
+    for raw in scope.listed("telegrams"):
+        name = str(raw["name"])
+        if name in seen:
+            first = [(seen[name], "first given here")]
+            message = f"two telegrams have the name `{name}`"
+            scope.report.error("duplicate-name", message, raw.span("name"), "rename one of them", first)
+            continue
+        seen[name] = raw.span("name")
+        carried = _carried(scope, raw, by_name)
+        telegram = Telegram(
+            name=name,
+            title=titles(raw.get("title"), humanised(name)),
+            direction=raw["direction"],
+            words=raw["words"],
+            message=raw.get("message"),
+            source=source_of(scope, raw),
+        )
+        result[name] = (telegram, carried)
+    return result
+
+
+def telegram_of(scope: Scope, telegrams: Telegrams, draft: Draft) -> tuple[Telegram, int] | None:
+    """The telegram whose words the points of the draft's group are; None after a finding."""
+    name = draft.group.get("telegram")
+    if name is None:
+        if "telegram" not in draft.group.broken:
+            hint = "add `telegram: …` to the group"
+            span = draft.group.span("space") if "space" in draft.group else draft.span()
+            scope.report.error("missing-key", "the words of the space `telegram` belong to a telegram", span, hint)
+        return None
+    found = telegrams.get(name)
+    if found is None:
+        scope.unknown("telegram", name, draft.group.span("telegram"), telegrams)
+    return found
+
+
+def _carried(scope: Scope, raw: Map, messages: Mapping[str, Message]) -> int:
+    """How many words one frame carries if there are several frames, else 0; findings where they cannot."""
+    name = raw.get("message")
+    if name is None:
+        return 0
+    message = messages.get(name)
+    span = raw.span("message")
+    if message is None:
+        known = [str(one["name"]) for one in scope.listed("messages")]
+        if name not in known:
+            scope.unknown("message", name, span, known)
+        return 0
+    words, multiplexed = message.words, any(role.kind == "multiplexer" for role in message.roles)
+    most = words * (_MULTIPLEXED if multiplexed else 1)
+    if raw["words"] > most:
+        text = f"the frames of `{name}` carry at most {most} words, the telegram has {raw['words']}"
+        hint = "its layout needs `words`, and a `multiplexer` where there are several frames"
+        scope.report.error("too-many-items", text, span, hint)
+        return 0
+    return words if multiplexed else 0

@@ -1,0 +1,117 @@
+"""What words hold beside numbers: texts, decimal digits, and bits that are always written as a constant."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from fieldscribe.model import Allowed, Digits, Enum, Fixed, Interval, Text
+from fieldscribe.resolve.drafts import humanised
+from fieldscribe.resolve.enums import entries_of
+from fieldscribe.resolve.values import integer
+
+if TYPE_CHECKING:
+    from fieldscribe.language.nodes import Map
+    from fieldscribe.resolve.drafts import Draft
+    from fieldscribe.resolve.scope import Scope
+
+WORD_BITS = 16
+_LARGEST_DIGIT = 9
+_DEFAULT_ENCODING = "ascii"
+
+
+def text_of(scope: Scope, draft: Draft) -> Text | None:
+    """The layout of a text; None for another type, or after a finding."""
+    if not draft.text:
+        for key in ("characters", "encoding"):
+            if draft.get(key) is not None and "type" not in draft.failed:
+                message = f"`{key}` is for texts"
+                scope.report.error("text-fact", message, draft.span(key), "add `type: text`, or leave it out")
+        return None
+    characters: int | None = draft.get("characters")
+    if characters is None:
+        if "characters" not in draft.failed:
+            message = f"`{draft.name}` does not say how long the text is"
+            scope.report.error("missing-key", message, draft.span("type"), "add `characters: …`, two for each word")
+        return None
+    if characters % 2:
+        hint = f"two characters stand in a word: write {characters + 1}, or {characters - 1}"
+        message = f"{characters} characters leave half a word"
+        scope.report.error("text-length", message, draft.span("characters"), hint)
+        draft.failed.add("characters")
+        return None
+    return Text(characters, str(draft.get("encoding", _DEFAULT_ENCODING)))
+
+
+def digits_of(scope: Scope, draft: Draft) -> Digits | None:
+    """The decimal digits of a word and their names; None where there are none, or after a finding."""
+    raw: Map | None = draft.get("digits")
+    if raw is None:
+        return None
+    said = raw["enum"]
+    name, entries = (said, scope.named_enums.get(said)) if isinstance(said, str) else (draft.enum_name, said)
+    if entries is None:
+        scope.unknown("enum", name, raw.span("enum"), scope.named_enums)
+        draft.failed.add("digits")
+        return None
+    key = (name, id(entries), True)
+    if key not in scope.enums:
+        scope.enums[key] = Enum(name, {"en": humanised(name)}, entries_of(scope, entries), True)
+    enum = scope.enums[key]
+    wrong = next((entry for entry in enum.entries if not 0 <= entry.raw <= _LARGEST_DIGIT), None)
+    if wrong is not None:
+        message = f"`{wrong.name}` is {wrong.raw}, and a digit is 0..{_LARGEST_DIGIT}"
+        scope.report.error("enum-outside-range", message, raw.span("enum"), "name single digits")
+        draft.failed.add("digits")
+        return None
+    return Digits(raw["count"], enum) if enum.entries else None
+
+
+def allowed_digits(digits: Digits) -> Allowed:
+    """The numbers from all lowest to all highest digits; between them each digit is one of the enum's."""
+    ones = sum(10**place for place in range(digits.count))
+    numbers = [entry.raw for entry in digits.enum.entries]
+    return Allowed((Interval(min(numbers) * ones, min(max(numbers) * ones, (1 << WORD_BITS) - 1)),), False, ())
+
+
+def fixed_of(scope: Scope, draft: Draft, bits: tuple[int, int] | None, width: int) -> Fixed | None:
+    """The bits of the word that are written as a constant; None where there are none, or after a finding."""
+    raw: Map | None = draft.get("fixed")
+    if raw is None:
+        return None
+    word = WORD_BITS if bits is not None else width
+    own = 0 if bits is None else ((1 << width) - 1) << bits[1]
+    mask = value = 0
+    for key, said in raw.items():
+        found = _fixed_bits(scope, draft, raw, key, word)
+        number = integer(said, raw.span(key), scope.report)
+        if found is None or number is None:
+            continue
+        low, part = found
+        if not 0 <= number <= part:
+            message = f"{said} does not fit into the bits {key}"
+            scope.report.error("range-outside-type", message, raw.span(key), f"they hold 0..{part}")
+        elif mask & part << low:
+            message = f"the bits {key} are fixed twice"
+            scope.report.error("bits-overlap", message, raw.key_span(key), "remove one of them")
+        elif own & part << low:
+            message = f"the bits {key} are those of the point itself"
+            scope.report.error("bits-overlap", message, raw.key_span(key), "`fixed` names the bits beside it")
+        else:
+            mask, value = mask | part << low, value | number << low
+    return Fixed(mask, value) if mask else None
+
+
+def _fixed_bits(scope: Scope, draft: Draft, raw: Map, key: str, word: int) -> tuple[int, int] | None:
+    """The lowest bit that a key names, and what its bits hold at most; None after a finding."""
+    high_text, dots, low_text = key.partition("..")
+    high, low = int(high_text), int(low_text) if dots else int(high_text)
+    if high < low:
+        hint = f"the higher bit stands first: {low}..{high}"
+        scope.report.error("range-reversed", f"bits `{key}` run upwards", raw.key_span(key), hint)
+        return None
+    if high >= word:
+        if not draft.failed & {"type", "bits"}:
+            message = f"bit {high} lies outside the {word} bits of the word"
+            scope.report.error("bit-outside-word", message, raw.key_span(key), f"bits are numbered {word - 1}..0")
+        return None
+    return low, (1 << high - low + 1) - 1

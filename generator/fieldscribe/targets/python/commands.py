@@ -1,0 +1,43 @@
+"""Named constant writes, as attributes of the generated class, and the values of variants."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from fieldscribe.model import Command, Device, Place
+from fieldscribe.targets.python.forms import place
+from fieldscribe.targets.python.identifiers import attribute
+from fieldscribe.targets.python.layout import Group, Node, laid_out
+from fieldscribe.text import python_doc, python_string
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from fieldscribe.targets.python.scope import Scope
+
+
+def variants(device: Device) -> Node:
+    """The values of each variant axis."""
+    made = [
+        Group(f"{python_string(axis)}: (", tuple(map(python_string, values)))
+        for axis, values in device.variants.items()
+    ]
+    return Group("{", tuple(made), "}")
+
+
+def commands(device: Device, scope: Scope) -> Iterable[tuple[str, str, tuple[str, ...], tuple[str, ...]]]:
+    """Each command: its attribute, what makes it, the arguments and the docstring."""
+    points = {point.item for point in device.points} | {point.name for point in device.points}
+    for one in device.commands:
+        scope.used.add("Command")
+        name = f"{one.name}_command" if one.name in points else one.name
+        where = place("at", Place("write", one.space, (one.address,), one.function), scope)
+        value = () if one.value is None else (f"value={one.value}",)
+        yield attribute(name), "Command", (laid_out(where, 8), *value), (_command_doc(one),)
+
+
+def _command_doc(command: Command) -> str:
+    text = command.title["en"].rstrip(".") + "."
+    if command.wears:
+        text += f" The memory stands {command.wears} of them."
+    return python_doc(text)

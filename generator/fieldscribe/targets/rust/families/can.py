@@ -1,0 +1,132 @@
+"""What a crate of a CAN device says of its bus: messages, telegrams, which points are in them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from fieldscribe.targets.rust.documentation import sentence
+from fieldscribe.targets.rust.layout import array, binding
+from fieldscribe.targets.rust.literals import integer, mask, type_name
+from fieldscribe.text import rust_string
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+    from fieldscribe.model import Device, Message, Role, Telegram
+    from fieldscribe.targets.rust.subjects import Scope, Subject
+
+_NUMBERED = {"address": "Address", "raw": "Raw", "word": "Word"}
+_PLAIN = {"unit": "Unit", "multiplexer": "Multiplexer"}
+
+
+@dataclass(frozen=True, slots=True)
+class MessageView:
+    """A message: final name, literals of its name and identifier, roles of its bytes."""
+
+    doc: str
+    name: str
+    literal: str
+    id: str
+    adds_unit: str
+    roles: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class TelegramView:
+    """A telegram: final name, the lines that say its name, its sizes, the constant of its message."""
+
+    doc: str
+    name: str
+    lines: tuple[str, ...]
+    words: int
+    slots: int
+    message: str
+
+
+def can_context(device: Device) -> dict[str, object]:
+    """What the template of the family's items sees."""
+    bus = device.bus
+    carriers = {message.name: message for message in device.messages}
+    return {
+        "units": f"({bus.units[0]}, {bus.units[1]})",
+        "identifier_bits": bus.identifier_bits or 11,
+        "bitrate": "" if bus.bitrate is None else integer(bus.bitrate),
+        "dialogues": tuple(_dialogues(device.messages)),
+        "messages": tuple(map(_message, device.messages)),
+        "message_names": array([f"&{message.name.upper()}" for message in device.messages]),
+        "telegrams": tuple(
+            _telegram(one, carriers[one.message])
+            for one in device.telegrams
+            if one.message in carriers and carriers[one.message].words
+        ),
+    }
+
+
+def can_traits(subject: Subject, scope: Scope) -> Iterator[tuple[str, ...]]:
+    """A parameter is read and written word by word; a point of a telegram is received in frames."""
+    point, name = subject.point, subject.name
+    if point.telegram is None:
+        yield (f"impl runtime::can::Parameter for {name} {{}}",)
+        return
+    _, message = scope.telegrams.get(point.telegram, (None, None))
+    if not point.readable or message is None or not message.words:
+        return
+    frames = {position // message.words for position in point.addresses}
+    # Of more words than two in several frames nobody can tell whether they belong together.
+    if len(frames) == 1 or len(point.addresses) == 2:
+        telegram = binding(4, "type Telegram", f"crate::telegrams::{type_name(point.telegram)}")
+        yield f"impl runtime::can::Received for {name} {{", *(f"    {line}" for line in telegram), "}"
+
+
+def can_identifiers(device: Device) -> Iterator[tuple[str, str, str]]:
+    """The names of messages and telegrams; `ALL` is the list of the former."""
+    yield "messages", "ALL", "the list of all messages"
+    for message in device.messages:
+        yield "messages", message.name.upper(), f"message {message.name}"
+    for telegram in device.telegrams:
+        yield "telegrams", type_name(telegram.name), f"telegram {telegram.name}"
+
+
+def _dialogues(messages: Iterable[Message]) -> Iterator[tuple[str, str, str]]:
+    """The constants of the messages that read and write a parameter; the names are empty if there are none."""
+    requests = {message.name: message for message in messages if message.direction == "request"}
+    answered = [(requests[one.answers], one) for one in messages if one.answers in requests]
+    for name, writes in (("READ", False), ("WRITE", True)):
+        pairs = [(asked, answer) for asked, answer in answered if _carries(asked, "raw") is writes]
+        names = [(asked.name.upper(), answer.name.upper()) for asked, answer in pairs if _carries(asked, "address")]
+        yield name, *(names[0] if names else ("", ""))
+
+
+def _carries(message: Message, kind: str) -> bool:
+    return any(role.kind == kind for role in message.roles)
+
+
+def _message(message: Message) -> MessageView:
+    width = "u16" if message.can_id <= 0xFFFF else "u32"
+    return MessageView(
+        sentence(message.name),
+        message.name.upper(),
+        rust_string(message.name),
+        mask(message.can_id, width),
+        "true" if message.adds_unit else "false",
+        tuple(map(_role, message.roles)),
+    )
+
+
+def _role(role: Role) -> str:
+    if role.kind in _PLAIN:
+        return _PLAIN[role.kind]
+    if role.kind in _NUMBERED:
+        return f"{_NUMBERED[role.kind]}({role.number})"
+    if role.kind == "xor":
+        return f"Xor(0b{role.number >> 4:04b}_{role.number & 15:04b})"
+    return f"Constant(0x{role.number:02X})"
+
+
+def _telegram(telegram: Telegram, message: Message) -> TelegramView:
+    slots = -(-telegram.words // message.words)
+    name = binding(8, "const NAME: &'static str", rust_string(telegram.name))
+    return TelegramView(
+        sentence(telegram.name), type_name(telegram.name), name, telegram.words, slots, message.name.upper()
+    )

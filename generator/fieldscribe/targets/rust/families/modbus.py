@@ -1,0 +1,59 @@
+"""What a crate of a Modbus device says of its bus."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from fieldscribe.targets.rust.documentation import sentence
+from fieldscribe.targets.rust.families.spaces import space
+from fieldscribe.targets.rust.layout import array
+from fieldscribe.text import rust_string
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from fieldscribe.model import Code, Device
+
+_MOST = {1: 2000, 2: 2000, 3: 125, 4: 125, 5: 1, 6: 1, 8: 1, 15: 1968, 16: 123}
+"""The functions that the frames know, with the protocol's own limits."""
+
+
+def modbus_context(device: Device) -> dict[str, object]:
+    """What the template of the family's items sees."""
+    bus = device.bus
+    functions = [
+        f"Function::new({code.number}, {_most(code)})" + (".without_broadcast()" if code.broadcast is False else "")
+        for code in bus.functions
+    ]
+    return {
+        "functions": array(functions),
+        "units": f"({bus.units[0]}, {bus.units[1]})",
+        "broadcast": "None" if bus.broadcast is None else f"Some({bus.broadcast})",
+        "pad": "true" if bus.pad_coil_bytes == "even" else "false",
+        "exceptions": tuple((sentence(one.name), one.name.upper(), f"0x{one.number:02X}") for one in bus.exceptions),
+        "blocks": tuple(_blocks(device)),
+        "groups": array([f"({rust_string(group)}, blocks::{group.upper()})" for group in device.blocks]),
+        "commands": tuple(_commands(device)),
+    }
+
+
+def _most(code: Code) -> int:
+    """The largest count of items in one request: the device's, within the protocol's."""
+    own = 65535 if code.most is None else code.most
+    return min(own, _MOST.get(code.number, own))
+
+
+def _blocks(device: Device) -> Iterator[tuple[str, str, tuple[str, ...]]]:
+    """Group as constant and by name, and the lines of its array."""
+    for group, blocks in device.blocks.items():
+        items = [
+            f"Block::new({space(one.space).replace('runtime::', '')}, {one.function}, 0x{one.address:04X}, {one.count})"
+            for one in blocks
+        ]
+        yield group.upper(), group, array(items)
+
+
+def _commands(device: Device) -> Iterator[tuple[str, str, str]]:
+    for one in device.commands:
+        value = "None" if one.value is None else f"Some({one.value})"
+        yield sentence(one.name), one.name.upper(), f"{one.function}, 0x{one.address:04X}, {value}"

@@ -1,0 +1,137 @@
+"""Vectors of CAN frames: messages built and read, and telegrams that come in frame by frame."""
+
+from __future__ import annotations
+
+from json import dumps
+from typing import TYPE_CHECKING
+
+from fieldscribe.families.can import CanFrame, Receiver, build, identifier, parse
+from fieldscribe.targets.vectors.lines import Lines, array
+from fieldscribe.targets.vectors.numbers import as_raw
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from fieldscribe.model import Device, Message, Point, Telegram
+
+_NUMBERS = ((0, 0), (1, 1), (0x0102, 0xFEDC), (0xFFFF, 0xFFFF), (500, 1234), (0x00FF, 0xFF00), (0x8000, 0x8000))
+
+
+def can(lines: Lines, device: Device) -> None:
+    """Everything about the frames of a device with messages of its own."""
+    for message in device.messages:
+        if not any(role.kind == "word" for role in message.roles):
+            _builds(lines, device.bus.units, message)
+            _parses(lines, device.bus.units, message)
+    for telegram in device.telegrams:
+        _telegram(lines, device, telegram)
+    lines.gather()
+
+
+def _builds(lines: Lines, units: tuple[int, int], message: Message) -> None:
+    low, high = units
+    tried = [(low, *pair) for pair in _NUMBERS] + [(unit, 0x0102, 0xFEDC) for unit in (high, low - 1, high + 1)]
+    tried += [(low, 0x10000, 0), (low, 0, 0x10000), (high + 1, 0x10000, 0x10000)]
+    for unit, address, raw in dict.fromkeys(tried):
+        if unit >= 0:
+            status, frame = build(message, units, unit, address, raw)
+            rest = f'"unit": {unit}, "address": {address}, "raw": {raw}, "status": "{status}"'
+            lines.add(
+                "can_build",
+                f'"message": {dumps(message.name)}, {rest}, "id": {frame.id}, "bytes": "{frame.data.hex()}"',
+            )
+
+
+def _parses(lines: Lines, units: tuple[int, int], message: Message) -> None:
+    low, high = units
+    for unit in dict.fromkeys((low, high)):
+        for address, raw in _NUMBERS if unit == low else _NUMBERS[2:3]:
+            _, good = build(message, units, unit, address, raw)
+            _parsed(lines, message, unit, good)
+    _, good = build(message, units, low, 0x0102, 0xFEDC)
+    for frame in _spoiled(good):
+        _parsed(lines, message, low, frame)
+    _parsed(lines, message, high, good)
+
+
+def _spoiled(good: CanFrame) -> Iterator[CanFrame]:
+    """Other identifiers, every length, every single bit turned."""
+    for number in (good.id ^ 1, good.id + 1, 0, 0x7FF):
+        yield CanFrame(number, good.data)
+    for length in range(len(good.data)):
+        yield CanFrame(good.id, good.data[:length])
+    for bit in range(8 * len(good.data)):
+        data = bytearray(good.data)
+        data[bit >> 3] ^= 1 << (bit & 7)
+        yield CanFrame(good.id, bytes(data))
+
+
+def _parsed(lines: Lines, message: Message, unit: int, frame: CanFrame) -> None:
+    found = parse(message, unit, frame)
+    head = f'"message": {dumps(message.name)}, "unit": {unit}, "id": {frame.id}, "bytes": "{frame.data.hex()}"'
+    lines.add("can_parse", f'{head}, "status": "{found.status}", "address": {found.address}, "raw": {found.raw}')
+
+
+def _telegram(lines: Lines, device: Device, telegram: Telegram) -> None:
+    message = next((one for one in device.messages if one.name == telegram.message), None)
+    if message is None:
+        return
+    unit = device.bus.units[0]
+    for point in device.points:
+        if point.telegram == telegram.name and point.generated and point.form != "text":
+            _heard(lines, telegram, message, point, unit)
+
+
+def _heard(lines: Lines, telegram: Telegram, message: Message, point: Point, unit: int) -> None:
+    """One point of a telegram: missing, then there; of two frames also torn, in every order that can happen."""
+    slots = [position // message.words for position in point.addresses]
+    ask = _Asking(lines, telegram, message, point, unit)
+    first = ask.frame(slots[0], 0x1234)
+    ask.answer([])
+    ask.answer([first])
+    ask.answer([first, ask.frame(slots[0], 0xFEDC)])
+    other = (slots[0] + 1) % (-(-telegram.words // message.words))
+    ask.answer([ask.frame(other, 0x0F0F), CanFrame(first.id ^ 1, first.data), CanFrame(first.id, first.data[:7])])
+    ask.answer([CanFrame(first.id, bytes((first.data[0] ^ 1,)) + first.data[1:]), ask.frame(0xFF, 0x1111)])
+    if slots[0] == slots[-1]:
+        return
+    high, low = slots[0], slots[-1]
+    h1, h2, l1, l2 = (high, 0x0001), (high, 0x0002), (low, 0xFFFF), (low, 0x0000)
+    for order in (
+        (h1, l1), (l1, h1), (h1, l1, h1), (h1, l1, h2), (h1, l2, h2, l2), (h1, l1, h1, l1), (h1, l1, h1, l2),
+        (h1, l1, h2, l2, h2), (h1, h1, l1), (h1, l1, l2, h1), (l1, h1, h1), (h1, h1, l1, h1), (h2, l1, h1, l1, h1, l2),
+        (l1, h1, l2, h1, l1), (h1, l1, h1, h1),
+    ):  # fmt: skip
+        ask.answer([ask.frame(*one) for one in order])
+
+
+class _Asking:
+    """Frames for one point, and what the point is after them."""
+
+    def __init__(self, lines: Lines, telegram: Telegram, message: Message, point: Point, unit: int) -> None:
+        self.lines, self.telegram, self.message, self.point, self.unit = lines, telegram, message, point, unit
+
+    def frame(self, slot: int, pattern: int) -> CanFrame:
+        """A frame of a slot whose words all hold the pattern, turned by their place so that no two are alike."""
+        data = bytearray()
+        for role in self.message.roles:
+            word = (pattern + 0x1111 * (role.number >> 1)) & 0xFFFF
+            parts = {"constant": role.number, "unit": self.unit & 0xFF, "multiplexer": slot}
+            data.append(parts.get(role.kind, word & 0xFF if role.number & 1 else word >> 8))
+        return CanFrame(identifier(self.message, self.unit), bytes(data))
+
+    def answer(self, frames: list[CanFrame]) -> None:
+        """One vector: what the point is when these frames came."""
+        receiver = Receiver(self.telegram, self.message, self.unit)
+        taken = [int(receiver.take(frame)) for frame in frames]
+        status, words = receiver.words(self.point.addresses)
+        pattern = 0
+        for word in words:
+            pattern = pattern << 16 | word
+        if self.point.bits is not None:
+            pattern >>= self.point.bits[1]
+        raw = as_raw(self.point, pattern)
+        shown = ", ".join(f'[{frame.id}, "{frame.data.hex()}"]' for frame in frames)
+        head = f'"telegram": {dumps(self.telegram.name)}, "unit": {self.unit}, "frames": [{shown}]'
+        rest = f'"taken": {array(taken)}, "point": {dumps(self.point.item)}, "status": "{status}", "raw": {raw}'
+        self.lines.add("can_telegram", f"{head}, {rest}")

@@ -1,0 +1,88 @@
+"""Vectors of texts, and of words whose decimal digits each mean something."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from fieldscribe.targets.vectors.lines import Lines, array, subject
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from fieldscribe.model import Digits, Point
+
+_WRITABLE = {"ascii": frozenset(range(0x20, 0x7F)), "latin-1": frozenset((*range(0x20, 0x7F), *range(0xA0, 0x100)))}
+
+
+def text(lines: Lines, point: Point) -> None:
+    """Texts that fill the words, are shorter, end in blanks, are empty or too long, and bytes that are no letters."""
+    if point.text is None:
+        return
+    size, head = point.text.characters, subject(point.item)
+    alphabet = bytes(0x41 + place % 26 for place in range(size))
+    received = [alphabet, alphabet[:1], alphabet[:-1], b"", b"A " * (size // 2), b" B", bytes(range(size))]
+    received += [
+        bytes((0xFF, 0x80, 0x00) + (0x20,) * (size - 3)),
+        b"\0" * size,
+        bytes(0xA0 + place for place in range(size)),
+    ]
+    if point.readable:
+        for data in dict.fromkeys(received):
+            words = _words(data.ljust(size))
+            lines.add("text_decode", f'{head}, "words": {array(words)}, "text": "{data.rstrip(b" ").hex()}"')
+    if not point.writable:
+        return
+    tried = [*received, alphabet + b"Z", alphabet + b" ", b" ~", b"\x7f", b"\x1f", b"A\0", b"\xe4", b"\xff"]
+    for data in dict.fromkeys(tried):
+        good = len(data) <= size and _WRITABLE[point.text.encoding].issuperset(data)
+        rest = (
+            f'"status": "ok", "words": {array(_words(data.ljust(size)))}'
+            if good
+            else '"status": "out_of_range", "words": []'
+        )
+        lines.add("text_encode", f'{head}, "text": "{data.hex()}", {rest}')
+
+
+def _words(data: bytes) -> list[int]:
+    return [data[at] << 8 | data[at + 1] for at in range(0, len(data), 2)]
+
+
+def digits(lines: Lines, point: Point) -> None:
+    """Numbers taken apart and put together: each digit through all its numbers, and numbers that it cannot be."""
+    layout = point.digits
+    if layout is None:
+        return
+    head, allowed = subject(point.item), {entry.raw for entry in layout.enum.entries}
+    places = [10**place for place in reversed(range(layout.count))]
+    numbers = _numbers(layout, allowed)
+    raws = dict.fromkeys(sum(digit * place for digit, place in zip(one, places, strict=True)) for one in numbers)
+    raws = {
+        raw: None for raw in (*raws, 0, 10**layout.count - 1, 10**layout.count, 12345, 0x7FFF, 0xFFFF) if raw <= 0xFFFF
+    }
+    for raw in raws:
+        rest, found = raw, []
+        for place in places:
+            digit, rest = divmod(rest, place)
+            found.append(digit)
+        if point.readable:
+            lines.add("digits", f'{head}, "raw": {raw}, "digits": {array(found)}')
+        if point.writable:
+            status = "ok" if allowed.issuperset(found) else "unknown_value"
+            lines.add("check", f'{head}, "raw": {raw}, "status": "{status}"')
+    for one in numbers if point.writable else ():
+        raw = sum(digit * place for digit, place in zip(one, places, strict=True))
+        good = allowed.issuperset(one) and raw <= 0xFFFF
+        said = f'"status": "ok", "raw": {raw}' if good else '"status": "unknown_value"'
+        lines.add("digits_encode", f'{head}, "digits": {array(one)}, {said}')
+
+
+def _numbers(layout: Digits, allowed: Iterable[int]) -> list[tuple[int, ...]]:
+    """Digits to try: one place at a time through all numbers and two that it cannot be, the others at their least."""
+    known = sorted(allowed)
+    strange = [next(digit for digit in range(256) if digit not in known), 10]
+    base = (known[0],) * layout.count
+    found = [base, (known[-1],) * layout.count, tuple(known[place % len(known)] for place in range(layout.count))]
+    found += [
+        (*base[:place], digit, *base[place + 1 :]) for place in range(layout.count) for digit in (*known, *strange)
+    ]
+    return list(dict.fromkeys(found))

@@ -1,0 +1,227 @@
+"""Vectors of USS telegrams: requests, broadcasts, answers good and bad, and the manual's own examples."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from json import dumps
+from typing import TYPE_CHECKING
+
+from fieldscribe.families.uss import (
+    DOUBLE_RESPONSES,
+    LAST_PARAMETER,
+    START,
+    VARIABLE,
+    Link,
+    Request,
+    broadcast,
+    build,
+    parameter_words,
+    parse,
+    telegram,
+)
+from fieldscribe.targets.vectors.lines import Lines, array
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from fieldscribe.model import Bus, Device, Frame
+
+_TASK_WIDTHS = {2: 1, 3: 2, 7: 1, 8: 2, 11: 2, 12: 1, 13: 2, 14: 1}
+"""How many words of value the tasks that change something carry."""
+
+
+def uss(lines: Lines, device: Device) -> None:
+    """Everything about the telegrams of a USS device."""
+    for link in _links(device.bus):
+        dialogue = _Dialogue(lines, device.bus, link)
+        _builds(dialogue)
+        _broadcasts(dialogue)
+        _replies(dialogue)
+        lines.gather()
+    _printed(lines, device)
+
+
+class _Dialogue:
+    """Telegrams over a link that is set in one way."""
+
+    def __init__(self, lines: Lines, bus: Bus, link: Link) -> None:
+        self.lines, self.bus, self.link = lines, bus, link
+        self.words = tuple(0x047F + 0x3333 * place & 0xFFFF for place in range(link.pzd))
+        self._set = f'"pkw": {link.pkw}, "pzd": {link.pzd}'
+
+    def _head(self, request: Request) -> str:
+        first = "true" if self.link.single_first else "false"
+        asked = f'"task": {request.task}, "parameter": {request.parameter}, "index": {request.index}'
+        return f'{self._set}, "single_first": {first}, "unit": {request.unit}, {asked}'
+
+    def built(self, request: Request, frame: str | None = None) -> None:
+        """The bytes of a request; `frame` names the manual's example that it is."""
+        status, data = build(self.bus, self.link, request)
+        rest = f'"width": {request.width}, "value": {request.value}, "words": {array(request.words)}'
+        kind, lead = _kind("build", frame)
+        self.lines.add(kind, f'{lead}{self._head(request)}, {rest}, "status": "{status}", "bytes": "{data.hex()}"')
+
+    def answered(self, request: Request, data: bytes, frame: str | None = None) -> None:
+        """What bytes say as the answer to a request."""
+        found = parse(self.bus, self.link, request, data)
+        rest = (
+            f'"response": {found.response}, "width": {found.width}, "value": {found.value}, '
+            f'"error": {found.error}, "words": {array(found.words)}'
+        )
+        kind, lead = _kind("reply", frame)
+        head = f'{lead}{self._head(request)}, "bytes": "{data.hex()}"'
+        self.lines.add(kind, f'{head}, "status": "{found.status}", {rest}')
+
+    def sent(self, mask: tuple[int, ...], words: tuple[int, ...]) -> None:
+        """A telegram to all units."""
+        status, data = broadcast(self.bus, self.link, mask, words)
+        head = f'{self._set}, "mask": {array(mask)}, "words": {array(words)}'
+        self.lines.add("uss_broadcast", f'{head}, "status": "{status}", "bytes": "{data.hex()}"')
+
+    def parameter_part(self, request: Request, response: int) -> tuple[int, ...]:
+        """That of an answer, with recognisable values; of variable length as long as it must be."""
+        if self.link.pkw == 0:
+            return ()
+        number, index = parameter_words(response, request.parameter, request.index)
+        size = self.link.pkw if self.link.pkw != VARIABLE else 4 if response in DOUBLE_RESPONSES else 3
+        return (number, index, 0x4248, 0x0006)[:size]
+
+
+def _kind(what: str, frame: str | None) -> tuple[str, str]:
+    return (f"uss_{what}", "") if frame is None else (f"uss_printed_{what}", f'"frame": {dumps(frame)}, ')
+
+
+def _links(bus: Bus) -> Iterator[Link]:
+    """Every length of the parameter part with two words of process data, and the ends of these."""
+    least, most = bus.pzd
+    usual = min(max(2, least), most)
+    for pkw in bus.pkw:
+        yield Link(pkw, usual)
+        if pkw == 4:
+            yield Link(pkw, usual, single_first=True)
+    for pzd in dict.fromkeys((least, most, most + 1)):
+        if pzd != usual:
+            yield Link(bus.pkw[-1], pzd)
+    yield Link(5, usual)
+
+
+def _requests(bus: Bus, words: tuple[int, ...]) -> Iterator[Request]:
+    low, high = bus.units
+    for code in bus.functions:
+        width = _TASK_WIDTHS.get(code.number, 0)
+        yield Request(low, code.number, 700, 0, width, 5 if width else 0, words)
+    base = Request(high, 1, 1082, 0, 0, 0, words)
+    yield from (base, replace(base, unit=high + 1), replace(base, unit=max(0, low - 1)), replace(base, unit=255))
+    yield from (replace(base, task=16), replace(base, task=0, parameter=0))
+    for parameter in (0, 1, 1999, 2000, 2010, 3999, 4000, 6000, 8000, 16000, 30000, LAST_PARAMETER, LAST_PARAMETER + 1):
+        yield replace(base, parameter=parameter)
+    yield from (replace(base, parameter=2010, index=index) for index in (1, 2, 254, 255, 256))
+    change = replace(base, task=2, width=1, value=0xFFFF)
+    yield from (change, replace(change, value=0x10000), replace(change, value=0x8001, index=3, parameter=2016))
+    double = replace(base, task=3, width=2, value=0x42200000)
+    yield from (double, replace(double, value=0xFFFFFFFF), replace(double, value=0x100000000), replace(double, value=1))
+    yield from (replace(base, words=(*words, 1)), replace(base, words=words[1:] if words else (1,)))
+
+
+def _builds(dialogue: _Dialogue) -> None:
+    for request in dict.fromkeys(_requests(dialogue.bus, dialogue.words)):
+        dialogue.built(request)
+
+
+def _broadcasts(dialogue: _Dialogue) -> None:
+    if dialogue.link.pkw not in dialogue.bus.pkw:
+        return
+    for mask in ((6, 0xFFFF, 0, 0), (2, 0xFFFF, 0, 0), (6, 0x0401, 0, 0), (0xFFFF,) * 4):
+        dialogue.sent(mask, dialogue.words)
+    dialogue.sent((6, 0xFFFF, 0, 0), (*dialogue.words, 0))
+
+
+def _replies(dialogue: _Dialogue) -> None:
+    bus, link, words = dialogue.bus, dialogue.link, dialogue.words
+    if link.pkw not in bus.pkw or not bus.pzd[0] <= link.pzd <= bus.pzd[1]:
+        return
+    unit = bus.units[1]
+    tasks = [0] if link.pkw == 0 else sorted(code.number for code in bus.functions)
+    for task in tasks:
+        request = Request(unit, task, 2010, 1)
+        for response in range(16) if task in (0, 1, 2, 3, 6) else (*(_answers(bus, task)), 7, 8):
+            dialogue.answered(request, telegram(unit, (*dialogue.parameter_part(request, response), *words)))
+    request = Request(unit, 0 if link.pkw == 0 else 1, 1082, 0)
+    response = 1 if link.pkw == 3 else 2
+    for data in dict.fromkeys(_spoiled(dialogue, request, response)):
+        dialogue.answered(request, data)
+
+
+def _answers(bus: Bus, task: int) -> tuple[int, ...]:
+    return next(code.answers for code in bus.functions if code.number == task)
+
+
+def _spoiled(dialogue: _Dialogue, request: Request, response: int) -> Iterator[bytes]:
+    """Cut, too long, with other marks, with every single bit turned, and whole telegrams that answer something else."""
+    unit, words = request.unit, (*dialogue.parameter_part(request, response), *dialogue.words)
+    good = telegram(unit, words)
+    yield b""
+    yield from (good[:length] for length in range(1, len(good)))
+    yield from (good, good + b"\x00", good + good, bytes((START ^ 1,)) + good[1:])
+    for bit in range(8 * len(good)):
+        data = bytearray(good)
+        data[bit >> 3] ^= 1 << (bit & 7)
+        yield bytes(data)
+    yield telegram(unit ^ 1, words)
+    yield telegram(unit, (*words, 0))
+    yield telegram(unit, words[1:])
+    yield telegram(unit, ())
+    if dialogue.link.pkw:
+        yield telegram(unit, (words[0] ^ 0x0800, *words[1:]))
+        yield telegram(unit, (words[0] ^ 1, *words[1:]))
+        yield telegram(unit, (words[0], words[1] ^ 0x8000, *words[2:]))
+        yield telegram(unit, (words[0], words[1] ^ 1, *words[2:]))
+        yield telegram(unit, (0x7000 | words[0] & 0x0FFF, words[1], 17, *words[3:]))
+        yield telegram(unit, (0x2000 | words[0] & 0x0FFF, *words[1:3], *dialogue.words))
+        yield telegram(unit, (*words[:2], *dialogue.words))
+
+
+def _printed(lines: Lines, device: Device) -> None:
+    """The manual's examples, each in a whole telegram: parameter parts, process data, masks for all units."""
+    asked: dict[str, tuple[_Dialogue, Request]] = {}
+    bus, unit = device.bus, device.bus.units[0]
+    for one in device.frames:
+        words = _frame_words(one)
+        if one.framing == "pkw" and one.direction == "request":
+            dialogue = _Dialogue(lines, bus, Link(one.pkw or VARIABLE, bus.pzd[0]))
+            request = replace(_request_of(unit, words, dialogue.link), words=dialogue.words)
+            asked[one.name] = (dialogue, request)
+            dialogue.built(request, one.name)
+        elif one.framing == "pkw" and one.answers in asked:
+            dialogue, request = asked[one.answers]
+            dialogue.answered(request, telegram(unit, (*words, *dialogue.words)), one.name)
+        elif one.framing == "pzd":
+            _printed_words(_Dialogue(lines, bus, Link(bus.pkw[-1], len(words))), one, words)
+        elif one.framing == "broadcast":
+            _Dialogue(lines, bus, Link(bus.pkw[-1], len(words) - 4)).sent(words[:4], words[4:])
+
+
+def _printed_words(dialogue: _Dialogue, one: Frame, words: tuple[int, ...]) -> None:
+    """Words of process data alone: sent without a task, or come without an answer."""
+    request = Request(dialogue.bus.units[0], 0, words=words)
+    if one.direction == "request":
+        dialogue.built(request, one.name)
+    else:
+        empty = (0,) * (3 if dialogue.link.pkw == VARIABLE else dialogue.link.pkw)
+        dialogue.answered(request, telegram(request.unit, (*empty, *words)), one.name)
+
+
+def _frame_words(one: Frame) -> tuple[int, ...]:
+    data = one.corrected
+    return tuple(int.from_bytes(data[at : at + 2], "big") for at in range(0, len(data) - 1, 2))
+
+
+def _request_of(unit: int, words: tuple[int, ...], link: Link) -> Request:
+    """The request that the words of a parameter part are."""
+    number, pages = words[0], words[1]
+    page = sum((pages >> place & 1) << bit for bit, place in enumerate((15, 12, 13, 14)))
+    task, parameter = number >> 12, (number & 0x07FF) + 2000 * page
+    first, second = (*words[2:], 0, 0)[:2]
+    width = _TASK_WIDTHS.get(task, 0)
+    value = (0, second if link.single_last else first, first << 16 | second)[width]
+    return Request(unit, task, parameter, pages & 0xFF, width, value)

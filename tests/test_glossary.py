@@ -1,0 +1,77 @@
+"""All descriptions use the same English word for a word of the manuals: `descriptions/glossary.yaml` says which."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pytest
+import yaml
+from fieldscribe.diagnostics import Report
+from fieldscribe.pipeline import load_device
+from fieldscribe.resources import descriptions_dir
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from fieldscribe.model import Device, Titles
+
+GLOSSARY = descriptions_dir() / "glossary.yaml"
+TERMS: dict[str, str | list[str]] = yaml.safe_load(GLOSSARY.read_text(encoding="utf-8"))["terms"]
+DEVICES = sorted(path.parent.name for path in descriptions_dir().glob("*/device.yaml"))
+
+
+def titles_of(device: Device) -> Iterator[tuple[str, Titles]]:
+    """Every title of a device, with the name of what has it."""
+    for group in device.groups:
+        yield group.name, group.title
+    for point in device.points:
+        yield point.item, point.title
+        for entry in point.enum.entries if point.enum else ():
+            yield f"{point.item}: {entry.name}", entry.title
+        for flag in point.flags:
+            yield f"{point.item}: {flag.name}", flag.title
+    bus = device.bus
+    for code in (*bus.functions, *bus.responses, *bus.exceptions):
+        yield code.name, code.title
+    for command in device.commands:
+        yield command.name, command.title
+    for message in device.messages:
+        yield message.name, message.title
+    for telegram in device.telegrams:
+        yield telegram.name, telegram.title
+
+
+def breaches(german: str, english: str) -> list[str]:
+    """The terms that a German title has and the English one does not; a longer term hides those that it contains."""
+    rest, found = german.lower(), []
+    for term in sorted(TERMS, key=len, reverse=True):
+        if term.lower() in rest:
+            rest = rest.replace(term.lower(), " ")
+            words = TERMS[term]
+            if not any(word.lower() in english.lower() for word in (words if isinstance(words, list) else [words])):
+                found.append(term)
+    return found
+
+
+@pytest.mark.parametrize("name", DEVICES)
+def test_titles_use_the_words_of_the_glossary(name: str) -> None:
+    report = Report()
+    device = load_device(Path(descriptions_dir()) / name / "device.yaml", report)
+    assert device is not None, report.findings
+    pairs = dict.fromkeys((where, title["de"], title["en"]) for where, title in titles_of(device) if "de" in title)
+    wrong = [f"{where}: {de} / {en}: {', '.join(found)}" for where, de, en in pairs if (found := breaches(de, en))]
+    assert wrong == []
+
+
+@pytest.mark.parametrize(
+    ("german", "english", "found"),
+    [
+        ("Generatorleistungsschalter", "Generator circuit breaker", []),
+        ("Generatorleistungsschalter", "Generator switch", ["Leistungsschalter"]),
+        ("Hauptsollwert", "Main setpoint", []),
+        ("Sollwert 1", "Set value 1", ["Sollwert"]),
+    ],
+)
+def test_what_breaches_the_glossary(german: str, english: str, found: list[str]) -> None:
+    assert breaches(german, english) == found

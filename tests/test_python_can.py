@@ -1,0 +1,320 @@
+"""Generated Python for CAN devices: parameters, texts, digits, telegrams, and every way in which that can fail."""
+
+from __future__ import annotations
+
+import asyncio
+import sys
+import threading
+from typing import TYPE_CHECKING, Any
+
+import pytest
+from python_families import AsyncCanUnit, CanUnit, can_device
+from python_package import error, imported, typed_findings, write_package
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return write_package(can_device(), tmp_path_factory.mktemp("can"))
+
+
+@pytest.fixture(scope="module")
+def package(folder: Path) -> Iterator[Any]:
+    yield from imported(folder, "sample_can")
+
+
+@pytest.fixture
+def can(package: Any) -> Any:
+    return sys.modules["fieldscribe_runtime.can"]
+
+
+@pytest.fixture
+def unit(can: Any) -> CanUnit:
+    return CanUnit(can.Frame, 5)
+
+
+@pytest.fixture
+def mpu(package: Any, unit: CanUnit) -> Any:
+    return package.SampleCan(unit, 5, voltage="400V")
+
+
+def test_parameters(mpu: Any, unit: CanUnit) -> None:
+    unit.parameters[508] = 7
+    assert mpu.transformer.read() == 7
+    mpu.transformer.write(500)
+    assert unit.log == ["33F#ff0501fc0000fef9", "33F#ee0501fc01f4ee0d"]
+    mpu.level.write(99)
+    assert unit.parameters[600] == 99
+    assert error(mpu.level.write, 100).status == "out_of_range"
+    assert mpu.read_at("parameter", 507, 3) == (0, 500, 0)
+    mpu.write_at("parameter", 1, 0xFFFF)
+    assert unit.parameters[1] == 0xFFFF
+    assert error(mpu.read_at, "telegram", 1).status == "bad_space"
+    assert error(mpu.write_at, "telegram", 1, 1).status == "bad_space"
+    assert error(mpu.read_at, "parameter", 0x10000).status == "bad_address"
+    assert error(mpu.write_at, "parameter", 1, 0x10000).status == "bad_value"
+
+
+def test_bits_keep_their_neighbours_and_constants(mpu: Any, package: Any, unit: CanUnit) -> None:
+    unit.parameters[19] = 0x3FF6
+    mpu.controller.write(package.Switch.ON)
+    assert unit.parameters[19] == 0xFFF6
+    mpu.slow_ramp.write(True)
+    assert unit.parameters[19] == 0xFF0F
+    assert mpu.controller.read() is package.Switch.ON
+    unit.parameters[19] = 0x4000
+    assert mpu.controller.read() == 1  # an undefined pattern survives
+
+
+def test_constant_bits_of_whole_words(mpu: Any, package: Any, unit: CanUnit) -> None:
+    mpu.command_word.write(package.CommandWord.START)
+    assert unit.parameters[30] == 0x0406 | 1 & ~0x040F
+    assert error(mpu.command_word.write_raw, 1).status == "out_of_range"
+    mpu.command_word.write_raw(0x8406)
+    assert mpu.command_number.encode(5) == 0x8005
+    assert error(mpu.command_number.encode, 0x100).status == "out_of_range"
+    assert error(mpu.command_number.check, 5).status == "out_of_range"
+    assert mpu.command_number.decode(5) == 5
+
+
+def test_texts(mpu: Any, unit: CanUnit) -> None:
+    mpu.fault_text.write("Low oil")
+    assert [unit.parameters[address] for address in (739, 738, 737, 736)] == [0x4C6F, 0x7720, 0x6F69, 0x6C20]
+    assert mpu.fault_text.read() == "Low oil"
+    unit.parameters.update({740: 0xFF80, 741: 0x0020})
+    assert mpu.label.read() == "ÿ\x80\x00"
+    mpu.label.write("Ölä")
+    assert mpu.label.read() == "Ölä"
+    for point, value in (("fault_text", "123456789"), ("fault_text", "Öl"), ("fault_text", "\n"), ("label", "€")):
+        assert error(getattr(mpu, point).write, value).status == "out_of_range"
+    message = str(error(mpu.fault_text.write, "much too long"))
+    assert message == "fault_text: much too long is no text of at most 8 printable ascii characters"
+    assert error(mpu.fault_text.write, 5).status == "out_of_range"
+    assert error(mpu.fault_text.write_raw, 0).status == "out_of_range"
+    assert type(mpu).fault_text.encode("") == 0x2020202020202020
+
+
+def test_digits(mpu: Any, package: Any, unit: CanUnit) -> None:
+    unit.parameters[404] = 1257
+    assert mpu.delays.read() == (1, 2, 5, 7)
+    assert mpu.delays.read()[0] is package.Delay.STEP_1
+    mpu.delays.write((5, package.Delay.STEP_0, 1, 2))
+    assert unit.parameters[404] == 5012
+    assert type(mpu).delays.decode(12345) == (12, 3, 4, 5)
+    assert error(mpu.delays.write, (1, 2, 3, 5)).status == "unknown_value"
+    assert error(mpu.delays.write, (1, 2, package.Switch.OFF, 5)).status == "unknown_value"
+    assert error(mpu.delays.write, (1, 2)).status == "wrong_length"
+    assert error(mpu.delays.check, 1234).status == "unknown_value"
+    assert mpu.delays.name_of(5) == "step_5"
+    unit.parameters[404] = 1
+    assert mpu.read_many(["delays", "fault_text"]) == {"delays": (0, 0, 0, 1), "fault_text": "\0" * 8}
+
+
+def test_factors_are_kept_until_what_changes_them_is_written(mpu: Any, unit: CanUnit) -> None:
+    unit.parameters.update({507: 200, 510: 100})
+    assert mpu.voltage_setpoint.read() == 200.0
+    mpu.voltage_setpoint.write(100.0)
+    assert unit.parameters[510] == 50
+    assert len(unit.log) == 3  # the factor was read once
+    mpu.limited.write(400)
+    assert len(unit.log) == 4
+    mpu.transformer.write(1)
+    unit.parameters[507] = 400
+    assert mpu.voltage_setpoint.read() == 50.0
+    assert len(unit.log) == 7
+    mpu.write_at("parameter", 508, 2)
+    assert error(mpu.limited.write, 801).status == "out_of_range"
+    assert len(unit.log) == 9
+
+
+def test_telegrams_are_listened_to(mpu: Any, unit: CanUnit) -> None:
+    unit.waiting = [unit.words(1, 7), unit.words(0, 5000, 25, 0x0200), unit.words(3, 1, 2)]
+    assert mpu.frequency.read() == 50.0
+    assert mpu.power.read() == 2500.0
+    assert len(unit.waiting) == 1
+    assert mpu.starts.read() == 1 << 16 | 2
+    assert not unit.log
+    assert mpu.take(unit.words(0, 100)) is True
+    assert mpu.take(unit.frame(0x321, b"")) is False
+    assert mpu.read_many(["frequency", "power_exponent"]) == {"frequency": 1.0, "power_exponent": 0}
+    assert not hasattr(mpu.frequency, "write")
+
+
+def test_old_words_do_not_count(mpu: Any, unit: CanUnit) -> None:
+    mpu.fresh_for = -1.0
+    mpu.take(unit.words(0, 1))
+    unit.waiting = [unit.words(0, 2)]
+    mpu.fresh_for = 0.0
+    assert mpu.frequency.read() == 0.02
+
+
+def test_counters_over_two_frames_are_not_torn(mpu: Any, unit: CanUnit) -> None:
+    high_1, high_2 = unit.words(1, 0, 0, 1), unit.words(1, 0, 0, 2)
+    unit.waiting = [high_1, unit.words(2, 0xFFFF), high_2, unit.words(2, 0), high_2]
+    assert mpu.hours.read() == 2 << 16
+    mpu.take(high_1)
+    failure = error(mpu.hours.read)
+    assert (failure.status, type(failure.__cause__).__name__, failure.__cause__.status) == (
+        "timeout",
+        "TelegramError",
+        "torn",
+    )
+    assert isinstance(failure, TimeoutError)
+
+
+def test_frames_of_others_are_passed_on(mpu: Any, unit: CanUnit, can: Any) -> None:
+    unit.others = [
+        unit.words(0, 5000),
+        can.Frame(0x325, b"\xff\x05\x01\xfd\x00\x01\xff\x01"),  # for another parameter
+        can.Frame(0x326, b"\xff\x06\x01\xfc\x00\x01\xfe\xfb"),  # of another unit
+        can.Frame(0x325, b"\xff"),
+    ]
+    unit.parameters[508] = 3
+    assert mpu.transformer.read() == 3
+    assert mpu.frequency.read() == 50.0
+    assert not unit.waiting
+
+
+def test_failures_say_what_they_are(mpu: Any, package: Any, unit: CanUnit) -> None:
+    unit.silent = True
+    failure = error(mpu.transformer.read)
+    assert (failure.status, str(failure)) == ("timeout", "read_answer for 508 did not come")
+    assert isinstance(failure, TimeoutError)
+    unit.silent = False
+    unit.spoils = 1
+    failure = error(mpu.transformer.read)
+    assert (failure.status, failure.__cause__.status) == ("timeout", "wrong_check")
+    assert mpu.transformer.read() == 0  # and the device goes on
+    unit.most[508] = 9
+    assert error(mpu.transformer.write, 10).status == "echo_mismatch"
+    assert error(mpu.frequency.read).status == "timeout"
+    assert error(package.SampleCan(unit, 31).transformer.read).status == "bad_unit"
+    mpu.patience = -1.0
+    failure = error(mpu.transformer.read)
+    assert (failure.status, str(failure)) == ("timeout", "read_answer for 508 did not come within -1 s")
+
+
+def test_receiver(can: Any, package: Any, unit: CanUnit) -> None:
+    receiver = can.Receiver(package.SampleCan.PROFILE, "measurements", 5)
+    assert error(receiver.word, 0).status == "missing"
+    assert receiver.take(unit.words(0, 1, 2, 3))
+    assert [receiver.word(position) for position in (0, 1, 2)] == [1, 2, 3]
+    assert error(receiver.word, 11).status == "bad_address"
+    frame = unit.words(0, 9)
+    for wrong in (
+        can.Frame(frame.id ^ 1, frame.data),
+        can.Frame(frame.id, frame.data[:7]),
+        can.Frame(frame.id, b"\xdc" + frame.data[1:]),
+        unit.words(4, 9),
+    ):
+        assert not receiver.take(wrong)
+    assert receiver.word(0) == 1
+    assert error(can.Receiver, package.SampleCan.PROFILE, "nothing", 5).status == "no_access"
+
+
+def test_any_bytes_are_safe(can: Any, package: Any) -> None:
+    profile = package.SampleCan.PROFILE
+    for message in profile.messages:
+        for size in range(10):
+            for byte in (0x00, 0xDD, 0xEE, 0xFF):
+                frame = can.Frame(message.identifier(5), bytes((byte,)) * size)
+                if (message.name, size, byte) == ("measurements", 8, 0xDD):
+                    assert can.parse(message, 5, frame) == (0, 0)
+                else:
+                    failure = error(can.parse, message, 5, frame)
+                    assert failure.status in ("wrong_length", "wrong_constant", "wrong_unit", "wrong_check")
+
+
+def test_async_twin(package: Any, unit: CanUnit) -> None:
+    async def work() -> tuple[Any, ...]:
+        mpu = package.SampleCanAsync(AsyncCanUnit(unit), 5, voltage="100V")
+        await mpu.fault_text.write("Oil")
+        await mpu.controller.write_raw(3)
+        await mpu.write_at("parameter", 508, 4)
+        unit.others = [unit.words(0, 5000, 1, 0x0100)]
+        both = await asyncio.gather(mpu.transformer.read(), mpu.fault_text.read())
+        many = await mpu.read_many(["frequency", "power"])
+        unit.silent, unit.others = True, []
+        late: Any = (await asyncio.gather(mpu.transformer.read(), return_exceptions=True))[0]
+        return (*both, many, await mpu.frequency.read(), late.status)
+
+    assert asyncio.run(work()) == (4, "Oil", {"frequency": 50.0, "power": 10.0}, 50.0, "timeout")
+
+
+TYPED = """
+from collections.abc import Sequence
+from typing import assert_type
+from sample_can import Delay, SampleCan, SampleCanAsync, Switch
+from fieldscribe_runtime.can import CanTransport, Frame
+
+class Silent:
+    def send(self, frame: Frame) -> None: ...
+    def receive(self) -> Frame:
+        raise TimeoutError
+
+def use(transport: CanTransport) -> None:
+    mpu = SampleCan(transport, 5, voltage="400V")
+    assert_type(mpu.fault_text.read(), str)
+    mpu.fault_text.write("Oil")
+    assert_type(mpu.delays.read(), tuple[Delay | int, ...])
+    mpu.delays.write((1, Delay.STEP_2, 5, 0))
+    assert_type(mpu.level.read(), int)
+    assert_type(mpu.frequency.read(), float)
+    assert_type(mpu.take(Frame(0x325, bytes(8))), bool)
+    mpu.controller.write(Switch.ON)
+    mpu.frequency.write(5.0)  # E: attr-defined
+    mpu.fault_text.write(5)  # E: arg-type
+    mpu.fault_text.write("Oil", keep=True)  # E: call-arg
+    SampleCan(transport, 5, voltage="200V")  # E: arg-type
+    SampleCan(Silent(), 5)
+
+async def use_async(mpu: SampleCanAsync) -> None:
+    assert_type(await mpu.fault_text.read(), str)
+    assert_type(await mpu.level.read(), int)
+"""
+
+
+def test_types_are_strict_and_reject_misuse(folder: Path, tmp_path: Path) -> None:
+    assert typed_findings(TYPED, folder, "sample_can", tmp_path) == ""
+
+
+def test_over_a_bus_of_python_can(package: Any, can: Any) -> None:
+    """All that a transport over python-can takes; the virtual bus stands for the wire."""
+    python_can = pytest.importorskip("can")
+
+    class BusTransport:
+        def __init__(self, bus: Any) -> None:
+            self.bus = bus
+
+        def send(self, frame: Any) -> None:
+            self.bus.send(python_can.Message(arbitration_id=frame.id, data=frame.data, is_extended_id=False))
+
+        def receive(self) -> Any:
+            message = self.bus.recv(1.0)
+            if message is None:
+                raise TimeoutError("no frame within 1 s")
+            return can.Frame(message.arbitration_id, bytes(message.data))
+
+    unit = CanUnit(can.Frame, 5)
+    with (
+        python_can.Bus(interface="virtual", channel="fieldscribe") as master,
+        python_can.Bus(interface="virtual", channel="fieldscribe") as slave,
+    ):
+        far_end = BusTransport(slave)
+
+        def answer() -> None:
+            far_end.send(unit.words(0, 5000))
+            for _ in range(2):
+                unit.send(far_end.receive())
+                far_end.send(unit.receive())
+
+        thread = threading.Thread(target=answer)
+        thread.start()
+        mpu = package.SampleCan(BusTransport(master), 5)
+        mpu.transformer.write(7)
+        assert (mpu.transformer.read(), mpu.frequency.read()) == (7, 50.0)
+        thread.join()
+        assert error(package.SampleCan(BusTransport(master), 6).transformer.read).status == "timeout"

@@ -1,0 +1,293 @@
+"""Generated Python for USS devices: parameters in RAM and EEPROM, process data, and every way that can fail."""
+
+from __future__ import annotations
+
+import asyncio
+import struct
+import sys
+from typing import TYPE_CHECKING, Any
+
+import pytest
+from python_families import AsyncUssDrive, UssDrive, uss_device
+from python_package import error, imported, typed_findings, write_package
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return write_package(uss_device(), tmp_path_factory.mktemp("uss"))
+
+
+@pytest.fixture(scope="module")
+def package(folder: Path) -> Iterator[Any]:
+    yield from imported(folder, "sample_uss")
+
+
+@pytest.fixture
+def uss(package: Any) -> Any:
+    return sys.modules["fieldscribe_runtime.uss"]
+
+
+@pytest.fixture
+def line() -> UssDrive:
+    return UssDrive(pkw=4, pzd=2)
+
+
+@pytest.fixture
+def drive(package: Any, uss: Any, line: UssDrive) -> Any:
+    return package.SampleUss(line, 3, link=uss.Link(pkw=4, pzd=2))
+
+
+def f32(value: float) -> tuple[int, int]:
+    """The words of a binary32 number."""
+    pattern = struct.pack(">f", value)
+    return int.from_bytes(pattern[:2], "big"), int.from_bytes(pattern[2:], "big")
+
+
+def test_parameters(drive: Any, line: UssDrive) -> None:
+    line.ram[1082, 0] = f32(50.0)
+    assert drive.maximum_frequency.read() == 50.0
+    drive.maximum_frequency.write(40.0)
+    assert (line.ram[1082, 0], line.eeprom) == (f32(40.0), {})
+    drive.maximum_frequency.write(45.0, keep=True)
+    assert line.eeprom == {(1082, 0): f32(45.0)}
+    drive.command_source.write(5)
+    drive.command_source.write_raw(4, keep=True)
+    assert line.eeprom[700, 0] == (4,)
+    assert [frame[6:16] for frame in line.log] == [
+        "143a000000",
+        "343a000042",
+        "d43a000042",
+        "22bc000000",
+        "e2bc000000",
+    ]
+    assert line.log[0] == bytes((2, 14, 3, 0x14, 0x3A, *[0] * 10, 0x21)).hex()
+    assert all(frame[22:30] == "00000000" for frame in line.log)  # nothing is commanded meanwhile
+
+
+def test_arrays_and_pages(drive: Any, line: UssDrive) -> None:
+    drive.baud_rate.write(6)
+    drive.baud_rate.write(7, keep=True)
+    drive.answer_source.write(0x12345678)
+    drive.answer_source.write(5, keep=True)
+    assert line.ram == {(2010, 1): (7,), (2016, 3): (0, 5)}
+    assert line.eeprom == line.ram
+    assert [frame[6:14] for frame in line.log] == ["700a8001", "c00a8001", "80108003", "b0108003"]
+    assert drive.baud_rate.read() == 7
+    assert drive.answer_source.read_raw() == 5
+    assert drive.read_at("parameter", 2016, 3) == (0, 5)
+    drive.write_at("parameter", 2016, 1, 2, index=3)
+    assert line.ram[2016, 3] == (1, 2)
+
+
+def test_bits_and_kinds_of_memory(drive: Any, line: UssDrive) -> None:
+    line.ram[800, 0] = (0xA5A5,)
+    drive.mode.write(3)
+    assert line.ram[800, 0] == (0xA535,)
+    drive.mode.write(4, keep=True)
+    assert line.eeprom[800, 0] == (0xA545,)
+    assert error(drive.reaction.write, 5, keep=True).__class__ is TypeError  # the manual says that it is not kept
+    drive.unlock.write(5, keep=True)
+    assert not hasattr(drive.unlock, "read")
+
+
+def test_process_data(drive: Any, package: Any, line: UssDrive) -> None:
+    line.ram.update({(2000, 0): f32(50.0), (2009, 0): (0,)})
+    drive.main_setpoint.write(40.0)
+    assert line.task == (0x0400, 0x3333)  # the constant bit is there, and nothing else is on
+    drive.control_word.write(package.ControlWord.START)
+    assert line.task == (0x0401, 0x3333)
+    line.answer = (0x0401, 0x4000, 0, 0)
+    assert drive.status_word.read() == package.StatusWord.START | package.StatusWord.VALID
+    assert drive.main_actual_value.read() == 50.0
+    assert line.task == (0x0401, 0x3333)
+    assert error(drive.control_word.write_raw, 1).status == "out_of_range"
+    assert error(drive.energy.read).status == "bad_link"
+    assert error(drive.jog.write, 1).status == "bad_link"
+    assert line.task == (0x0401, 0x3333)
+
+
+def test_bits_of_process_data(package: Any, uss: Any) -> None:
+    line = UssDrive(pkw=127, pzd=4)
+    drive = package.SampleUss(line, 3, uss.Link(127, 4))
+    line.answer = (1, 2, 3, 4)
+    drive.jog.write(2)
+    assert line.task == (0x0400, 0, 2, 0)
+    assert drive.energy.read() == 3 << 16 | 4
+    line.log.clear()
+    line.ram.update({(2000, 0): f32(50.0), (2009, 0): (1,)})
+    values = drive.read_many(["status_word", "main_actual_value", "energy", "baud_rate"])
+    assert values == {"status_word": 1, "main_actual_value": 0.02, "energy": 3 << 16 | 4, "baud_rate": 0}
+    assert len(line.log) == 4  # one telegram for the process data
+
+
+def test_factors_that_are_numbers(drive: Any, package: Any, line: UssDrive) -> None:
+    setpoint = package.SampleUss.main_setpoint
+    fifty = struct.unpack(">I", struct.pack(">f", 50.0))[0]
+    raws = {"normalisation": 0, "reference_frequency": fifty}
+    assert setpoint.encode(50.0, raws) == setpoint.encode_count(500000, raws) == 0x4000
+    third = {**raws, "reference_frequency": struct.unpack(">I", struct.pack(">f", 1 / 3))[0]}
+    assert setpoint.encode_count(3333, third) == 16382
+    for wrong in (0, 0x80000000, 0x7F800000, 0x7FC00000):
+        for function in (setpoint.encode, setpoint.encode_count, package.SampleUss.main_actual_value.decode):
+            assert error(function, 1, {**raws, "reference_frequency": wrong}).status == "zero_factor"
+    assert error(setpoint.encode, 1e300, raws).status == "out_of_range"
+    assert error(setpoint.encode, 50.0, {**raws, "normalisation": 7}).status == "no_case"
+    line.ram.update({(2000, 0): f32(50.0), (2009, 0): (0,)})
+    drive.main_setpoint.write(25.0)
+    drive.main_setpoint.write(30.0)
+    assert len(line.log) == 4  # both factors were read once
+    drive.command_source.write(1)
+    drive.main_setpoint.write(30.0)
+    assert len(line.log) == 7  # the one that changes with it was read again
+
+
+def test_after_a_failure_the_old_command_stays(drive: Any, package: Any, line: UssDrive) -> None:
+    drive.control_word.write_raw(0x0400)
+    line.change = lambda reply: reply[:-1] + b"\xff"
+    assert error(drive.control_word.write, package.ControlWord.START).status == "wrong_check"
+    line.change = bytes
+    assert drive.drive_status.read() == 0
+    assert line.task == (0x0400, 0)
+
+
+def changed(at: int, bits: int) -> Any:
+    """A reply with some bits of a byte turned, and the right check."""
+
+    def change(reply: bytes) -> bytes:
+        data = bytearray(reply)
+        data[at] ^= bits
+        data[-1] ^= bits
+        return bytes(data)
+
+    return change
+
+
+@pytest.mark.parametrize(
+    ("change", "status"),
+    [
+        (lambda reply: b"", "wrong_start"),
+        (lambda reply: b"\x03" + reply[1:], "wrong_start"),
+        (lambda reply: reply[:-1], "wrong_length"),
+        (lambda reply: reply + b"\0", "wrong_length"),
+        (lambda reply: reply[:-1] + b"\xff", "wrong_check"),
+        (changed(2, 1), "wrong_unit"),
+        (changed(4, 1), "wrong_parameter"),
+        (changed(3, 0x08), "wrong_parameter"),
+        (changed(6, 1), "wrong_parameter"),
+        (changed(3, 0x10), "no_answer"),
+        (changed(3, 0x90), "no_rights"),
+        (changed(3, 0x20), "wrong_response"),
+    ],
+)
+def test_bad_replies(drive: Any, line: UssDrive, change: Any, status: str) -> None:
+    line.change = change
+    assert error(drive.command_source.read).status == status
+    line.change = bytes
+    assert drive.command_source.read() == 0
+
+
+def test_other_failures(drive: Any, package: Any, uss: Any, line: UssDrive) -> None:
+    line.refuses[700] = 17
+    failure = error(drive.command_source.write, 1)
+    assert (failure.status, failure.code, failure.name) == ("refused", 17, "not_now")
+    assert str(failure) == "the device refused the task: error 17 (not_now)"
+    line.ram[1082, 0] = (5,)
+    assert error(drive.maximum_frequency.read).status == "wrong_length"  # one word where two belong
+
+    def silent(reply: bytes) -> bytes:
+        raise TimeoutError("no reply within 1 s")
+
+    line.change = silent
+    failure = error(drive.drive_status.read)
+    assert (failure.status, str(failure)) == ("timeout", "unit 3 did not reply to task 1 for 52")
+    assert isinstance(failure, TimeoutError)
+    line.change = bytes
+    for unit, link, status in ((32, (4, 2), "bad_unit"), (3, (5, 2), "bad_link"), (3, (4, 5), "bad_link")):
+        other = package.SampleUss(line, unit, uss.Link(*link))
+        assert error(other.command_source.read).status == status
+    short = package.SampleUss(UssDrive(3, 0), 3, uss.Link(3, 0))
+    assert error(short.maximum_frequency.write, 1.0).status == "bad_value"
+    none = package.SampleUss(UssDrive(0, 2), 3, uss.Link(0, 2))
+    assert error(none.command_source.read).status == "bad_task"
+    assert none.status_word.read() == 0
+    assert error(drive.read_at, "holding", 1).status == "bad_space"
+    assert error(drive.write_at, "parameter", 1, 1, 2, 3).status == "bad_value"
+    assert error(drive.read_at, "parameter", 32000).status == "bad_parameter"
+    assert error(drive.read_at, "parameter", 1, 256).status == "bad_index"
+
+
+def test_printed_examples(package: Any, uss: Any) -> None:
+    """Whole telegrams as the MICROMASTER 4's manual prints their parts."""
+    profile = package.SampleUss.PROFILE
+    link = uss.Link(127, 2)
+    sent = uss.build(uss.Request(3, 1, 700, words=(0x047F, 0x3333)), profile, link)
+    assert sent.hex() == "020e0312bc000000000000047f3333da"
+    reply = uss.parse(uss.Request(3, 1, 700), bytes.fromhex("020c0312bc00000002fa3100006a"), profile, link)
+    assert (reply.response, reply.width, reply.value, reply.words) == (1, 1, 2, (0xFA31, 0))
+    all_units = uss.broadcast((6, 0xFFFF, 0, 0), (0x047F, 0x3333), profile, link)
+    assert all_units.hex() == "020e200006ffff00000000047f333351"
+    assert uss.reply_size(all_units[:2]) == len(all_units)
+    assert uss.reply_size(b"\x02") is None
+    assert error(uss.broadcast, (6, 0, 0), (1, 2), profile, link).status == "bad_link"
+    assert error(uss.broadcast, (6, 0, 0, 0), (1,), profile, link).status == "bad_link"
+    assert error(uss.broadcast, (6, 0, 0, 0x10000), (1, 2), profile, link).status == "bad_value"
+
+
+def test_single_words_first(package: Any, uss: Any) -> None:
+    profile, request = package.SampleUss.PROFILE, uss.Request(3, 2, 700, 0, 1, 5)
+    assert uss.build(request, profile, uss.Link(4, 0)).hex()[6:-2] == "22bc000000000005"
+    assert uss.build(request, profile, uss.Link(4, 0, single_first=True)).hex()[6:-2] == "22bc000000050000"
+    assert uss.build(request, profile, uss.Link(3, 0)).hex()[6:-2] == "22bc00000005"
+
+
+def test_async_twin(package: Any, uss: Any, line: UssDrive) -> None:
+    async def work() -> tuple[Any, ...]:
+        drive = package.SampleUssAsync(AsyncUssDrive(line), 3, uss.Link(4, 2))
+        await drive.maximum_frequency.write(40.0, keep=True)
+        await drive.unlock.write_raw(5, keep=True)
+        await drive.control_word.write_raw(0x0400)
+        await drive.write_at("parameter", 700, 3)
+        both = await asyncio.gather(drive.maximum_frequency.read(), drive.command_source.read())
+        line.refuses[52] = 0
+        refused: Any = (await asyncio.gather(drive.drive_status.read(), return_exceptions=True))[0]
+        return (*both, await drive.read_at("parameter", 700), refused.status)
+
+    assert asyncio.run(work()) == (40.0, 3, (3,), "refused")
+    assert line.eeprom == {(1082, 0): f32(40.0), (900, 0): (5,)}
+
+
+TYPED = """
+from typing import assert_type
+from sample_uss import ControlWord, SampleUss, SampleUssAsync, StatusWord
+from fieldscribe_runtime.uss import Link, Stored, UssTransport
+
+def use(transport: UssTransport) -> None:
+    drive = SampleUss(transport, 3, link=Link(pkw=4, pzd=2))
+    assert_type(SampleUss.maximum_frequency, Stored[float, float])
+    assert_type(drive.maximum_frequency.read(), float)
+    drive.maximum_frequency.write(40.0, keep=True)
+    drive.main_setpoint.write(40.0)
+    drive.control_word.write(ControlWord.START | ControlWord.VALID)
+    assert_type(drive.status_word.read(), StatusWord)
+    drive.unlock.write(5, keep=True)
+    drive.main_setpoint.write(40.0, keep=True)  # E: call-arg
+    drive.reaction.write(1, keep=True)  # E: call-arg
+    drive.maximum_frequency.write(40.0, True)  # E: call-arg
+    drive.control_word.read()  # E: attr-defined
+    drive.status_word.write(StatusWord.START)  # E: attr-defined
+    drive.maximum_frequency = 5  # E: assignment
+    SampleUss(transport, 3)  # E: call-arg
+
+async def use_async(drive: SampleUssAsync) -> None:
+    assert_type(await drive.maximum_frequency.read(), float)
+    await drive.maximum_frequency.write(40.0, keep=True)
+    await drive.main_setpoint.write(40.0)
+"""
+
+
+def test_types_are_strict_and_reject_misuse(folder: Path, tmp_path: Path) -> None:
+    assert typed_findings(TYPED, folder, "sample_uss", tmp_path) == ""
