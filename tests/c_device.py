@@ -171,11 +171,10 @@ def words_of_parts() -> tuple[Point, ...]:
     """Texts, digits, and words with constant bits."""
     digit = Enum("digit", titles("Digit"), (entry(0, "off"), entry(1, "a"), entry(2, "b"), entry(7, "c")), True)
     loud = Enum("loud", titles("Loud"), tuple(entry(number, f"n{number}") for number in range(10)), True)
-    latin = {"type": "text", "access": "rw", "references": {}}
     return (
-        replace(point("name", 100, order=range(107, 99, -1)), text=Text(16, "ascii"), **latin),
-        replace(point("note", 110, order=(110, 112, 111)), text=Text(6, "latin-1"), **latin),
-        replace(point("tag", 114, order=(114, 115)), text=Text(4, "ascii"), **{**latin, "access": "r"}),
+        point("name", 100, "text", order=range(107, 99, -1), text=Text(16, "ascii")),
+        point("note", 110, "text", order=(110, 112, 111), text=Text(6, "latin-1")),
+        point("tag", 114, "text", order=(114, 115), text=Text(4, "ascii"), access="r"),
         point("delays", 120, digits=Digits(4, digit)),
         point("delays_too", 121, digits=Digits(5, loud)),
         point("pairs", 122, digits=Digits(2, digit), access="w"),

@@ -136,7 +136,8 @@ class Runner:
             return bool(status == vector["status"] and vector["words"] == [])
         at = point.facts.write_at or point.facts.at
         by_address = dict(zip(sorted(at.addresses), point.to_words(raw), strict=True))
-        return status == vector["status"] and [by_address[address] for address in at.addresses] == vector["words"]
+        words = [by_address[address] for address in at.addresses]
+        return bool(status == vector["status"] and words == vector["words"])
 
     def _digits(self, vector: Vector) -> bool:
         return bool(list(self._point(vector).decode(vector["raw"])) == vector["digits"])

@@ -9,18 +9,20 @@ SETTLED there says why the description stays. A row that agrees now and differs 
 from __future__ import annotations
 
 import json
+import re
 from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import pytest
 from fieldscribe.diagnostics import Report
-from fieldscribe.pipeline import load_device
+from fieldscribe.pipeline import load_device, load_subject
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
 
     from fieldscribe.model import Device
+    from fieldscribe.resolve.drafts import Draft
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -30,13 +32,25 @@ Seen = dict[str, tuple[object, object]]
 """What the description and the reading say, by kind of fact."""
 
 
-@lru_cache
 def device(name: str) -> Device:
     """The described device."""
-    report = Report()
-    found = load_device(ROOT / "descriptions" / name / "device.yaml", report)
+    found, report = _loaded(name)
     assert found is not None, report.findings
     return found
+
+
+@lru_cache
+def _loaded(name: str) -> tuple[Device | None, Report]:
+    report = Report()
+    return load_device(ROOT / "descriptions" / name / "device.yaml", report), report
+
+
+@lru_cache
+def drafts(name: str) -> Mapping[str, Draft]:
+    """What the author wrote of each point, by its item: what is printed is no part of the model."""
+    subject = load_subject(ROOT / "descriptions" / name / "device.yaml", Report())
+    assert subject is not None
+    return {one.point.item: one.draft for one in subject.resolved}
 
 
 @lru_cache
@@ -69,3 +83,16 @@ def joined(pairs: Iterable[tuple[int, int]]) -> list[tuple[int, int]]:
         else:
             result.append((low, high))
     return result
+
+
+def numbered_findings(name: str) -> list[int]:
+    """The numbers of what the second reader found wrong in the manual."""
+    text = (ROOT / f"tests/readings/{name}_findings.md").read_text("utf-8")
+    return [int(number) for number in re.findall(r"(?m)^(\d+)\. ", text)]
+
+
+def assert_answered(name: str, answers: Mapping[int, tuple[str, ...] | str]) -> None:
+    """Each finding has its errata, or the reason why there is none; and the description has these errata."""
+    assert sorted(answers) == numbered_findings(name)
+    named = {one for answer in answers.values() if isinstance(answer, tuple) for one in answer}
+    assert named <= {one.id for one in device(name).errata}

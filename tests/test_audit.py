@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import json
 import os
+from fractions import Fraction
 from hashlib import sha256
 from typing import TYPE_CHECKING, Any
 
 import pytest
+from fieldscribe.audit.manual import Manual, tokens_of
 from fieldscribe.cli import main
+from fieldscribe.families.modbus import crc16
 from fieldscribe.resources import descriptions_dir
 
 if TYPE_CHECKING:
@@ -156,6 +159,108 @@ def test_errata_are_looked_for(manual: str, code: int, tmp_path: Path, capsys: p
     assert [one["erratum"] for one in found["errata_not_printed"]] == (["reset_title"] if code else [])
 
 
+USS_MANUAL = """Drive
+
+Words\tPZD1\tPZD2
+Bit 0\ton
+Bit13\tfault
+The part before the point stands in PWE1, that behind it in PWE2.
+
+10\tReserved\t-
+9 - 12\tNot used
+15\tText\t7
+Source 21, P0700 = 21.0
+"""
+
+USS_DEVICE = """fieldscribe: 1
+device: audited
+version: 1.0.0
+vendor: Nobody
+model: Drive
+title: A drive
+family: uss
+documents: {manual: {title: Manual, language: en, file: manual.txt, sha256: SHA}}
+bus:
+  units: 0..31
+  pkw: [127]
+  pzd: 0..2
+  functions:
+    1: {name: read_value, answers: [1, 2]}
+    15: {name: text, refusals: [7], line: 10, printed: {refusals: []}}
+  responses:
+    1: {name: word, answers: [1]}
+    2: {name: double_word, answers: [1]}
+    7: {name: refused, answers: [15]}
+    9: {name: unused_9, line: 9}
+    10: {name: unused_10, line: 9}
+    11: {name: unused_11, line: 9}
+    12: {name: unused_12, line: 9}
+telegrams:
+- {name: task, direction: request, words: 2}
+groups:
+- group: parameters
+  space: parameter
+  source: {document: manual, section: Words}
+  points:
+  - code: P0700
+    name: source
+    at: 700
+    type: u32
+    access: r
+    flags: {31..16: parameter, 15..0: bit}
+    line: 11
+    lines: {flags: 6..6}
+  - {code: r0021, name: frequency, at: 21, access: r, line: 11}
+- group: words
+  space: telegram
+  telegram: task
+  access: w
+  numbering: {pzd: wire + 1}
+  source: {document: manual, section: Words}
+  points:
+  - {name: control_word, at: 0, flags: {0: on, 13: fault}, line: 4, lines: {address: 3}}
+  - {name: setpoint, at: 1, line: 3, printed: {pzd: 2}}
+errata:
+- id: letter
+  point: frequency
+  line: 11
+  printed: No letter is printed.
+  taken: r0021
+  why: It cannot be written.
+  certainty: likely
+- id: refusal
+  function: 15
+  line: 10
+  printed: {refusals: []}
+  taken: {refusals: [7]}
+  why: The response list has it.
+  certainty: likely
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "missing"),
+    [
+        ("", "", []),
+        ("9 - 12", "9, 12", ["response 10", "response 11"]),
+        ("PZD2", "PZD3", ["setpoint", "setpoint"]),
+        ("Bit13", "Bit14", ["control_word"]),
+        ("PWE1", "PWE3", ["source", "source"]),
+        ("15\tText\t7", "15\tText\t-", []),
+    ],
+)
+def test_uss_manuals_are_read_as_they_write(
+    old: str, new: str, missing: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    folder = tmp_path / "audited"
+    folder.mkdir()
+    manual = USS_MANUAL.replace(old, new) if old else USS_MANUAL
+    (folder / "device.yaml").write_text(USS_DEVICE.replace("SHA", sha256(manual.encode()).hexdigest()), "utf-8")
+    (tmp_path / "manual.txt").write_text(manual, "utf-8")
+    main(["audit", str(folder), "--manual", str(tmp_path / "manual.txt"), "--report", "json"])
+    assert [one["subject"] for one in json.loads(capsys.readouterr().out)["missing"]] == missing
+
+
 @pytest.mark.parametrize("form", ["text", "html"])
 def test_other_reports_say_the_same(form: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     audit(tmp_path, capsys, MANUAL.replace("0-4000", "0-<b>5000"))
@@ -198,3 +303,171 @@ def test_the_five_descriptions_cite_their_manuals_truly(device: str, capsys: pyt
         pytest.skip("set FIELDSCRIBE_MANUALS to the folder with the manuals' texts")
     code = main(["audit", device, "--manual", manuals])
     assert code == 0, capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("text", "readings"),
+    [
+        ("dies entspricht 10A", [{Fraction(10), Fraction(0x10A)}]),
+        (r"$t \cdot \frac{1}{s} \cdot \frac{50}{s}$", [{Fraction(50), Fraction(0x50)}]),
+        ("von den Wandlern abhängig", []),
+        ("1 ....0,37 kW", [{Fraction(1)}, {Fraction(0), Fraction(37), Fraction(37, 100)}]),
+        (r"$1000011111\_00001_{\text{bin}}$", [{Fraction(0b100001111100001)}]),
+        ("4..20mA", [{Fraction(4)}, {Fraction(20), Fraction(0x20)}]),
+        ("Kapitel 4.2.10", [{Fraction(4), Fraction(2), Fraction(10)}]),
+    ],
+)
+def test_numbers_of_a_line(text: str, readings: list[set[Fraction]]) -> None:
+    assert [set(token.readings) for token in tokens_of(text, 1)] == readings
+
+
+def test_a_chapter_is_what_the_contents_list() -> None:
+    manual = Manual(
+        "1\tGeneral\t3\n2\tThe telegram.....\t4\n\n1 General\n\n1 reads\n2 writes\n\n2 The telegram\nNr\t69\n"
+    )
+    assert manual.headings == [4, 9]
+    assert manual.numbered == {"1": 4, "2": 9}
+    assert (manual.section_of(10).first, manual.section_of(10).last) == (9, 10)
+
+
+MORE = """
+4.3 Delay of inputs
+
+ID\t70
+Delay\t0000 to 2222
+0\t100 ms
+1\t200 ms
+2\t5 s
+
+4.4 Source
+
+ID\t71
+Highbyte: source, Bit 7 to Bit 3 are always zero, Bit 0 = 0 => off, Bit 0 = 1 => on
+
+4.5 Fault text 12
+
+16 characters: ID 90 and ID 91, ID 92, ID 93, ID 94, ID 95, ID 96, ID 97
+"""
+MORE_POINTS = """\
+  - {name: input_delay, at: 70, digits: {count: 4, enum: delay}, section: "4.3", line: 26, printed: {range: 0..2222}}
+  - {name: source, at: 71, bits: 15..8, fixed: {7..3: 0}, section: "4.4", line: 34}
+  - {name: source_logic, at: 71, bits: 0, flags: {0: {name: active, zero: "off", one: "on"}}, section: "4.4", line: 34}
+  - {name: fault_text, title: Fault text 12, at: 97..90, type: text, characters: 16, section: "4.5", line: 39}
+enums:
+  delay:
+    0: {name: ms_100, quantity: 100 ms}
+    1: {name: ms_200, quantity: 200 ms}
+    2: {name: s_5, quantity: 5 s}
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "missing"),
+    [
+        ("", "", []),
+        ("200 ms", "250 ms", ["enum 200 ms"]),
+        ("2\t5 s", "3\t5 s", ["enum 2"]),
+        ("Bit 3 are", "Bit 4 are", ["fixed bits 3"]),
+        ("always zero", "always one", []),  # the 0 of bit 0 stands there too
+        ("Bit 0 = 1 => on", "else on", ["flag values active 1"]),
+        ("16 characters", "18 characters", ["characters 16"]),
+        ("ID 94", "ID 99", ["address 94"]),
+    ],
+)
+def test_what_stands_in_words_and_lists_is_looked_for(
+    old: str, new: str, missing: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = MANUAL + MORE
+    assert old == "" or text.count(old) == 1
+    _, found = audit(tmp_path, capsys, text.replace(old, new) if old else text, DEVICE + MORE_POINTS)
+    assert [f"{one['fact']} {one['wanted']}" for one in found["missing"]] == missing
+    if not old:
+        assert [one["number"] for one in found["unused_numbers"] if int(str(one["line"])) > 25] == []
+
+
+SPLIT = """
+4.3 Rule
+
+Set P 601 first; Parameter 103 and P740[2] come later.
+Address: $1001\\_10_{\\text{bin}}$
+
+4.4 Lost table
+
+Its numbers are 9,
+10 and 12.
+
+4.5 Wiring
+
+Pin\t1\tshield
+Pin\t2\tplus
+"""
+SPLIT_POINTS = """\
+  - {code: P601, name: p601, at: 601, type: ~, section: "4.3", line: 27}
+  - {code: P103, name: p103, at: 103, type: ~, line: 27}
+  - {code: "P740[2]", name: p740_2, at: ~, type: ~, line: 27}
+  - {name: rule, at: 38, line: 28, printed: {wire: "0b100110"}}
+  - {name: later, at: 0009h, line: 32}
+looked_through:
+- {lines: 35..38, why: Wiring.}
+"""
+SPAN = """errata:
+- {id: lost, point: later, line: LINE, printed: The numbers are 9 and 12., taken: "9", why: First., certainty: likely}
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "missing"),
+    [
+        ("", "", []),
+        ("P 601", "Q 601", ["p601 code P601"]),
+        ("P 601", "P 6012", ["p601 code P601"]),
+        ("Parameter 103", "page 103", ["p103 code P103"]),
+        ("_10_", "_11_", ["rule address 0026h", "rule printed wire 38"]),
+    ],
+)
+def test_codes_and_split_numbers(
+    old: str, new: str, missing: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = MANUAL + SPLIT
+    assert old == "" or text.count(old) == 1
+    _, found = audit(tmp_path, capsys, text.replace(old, new) if old else text, DEVICE + SPLIT_POINTS)
+    assert [f"{one['subject']} {one['fact']} {one['wanted']}" for one in found["missing"]] == missing
+
+
+@pytest.mark.parametrize("moved", ["", "\n"])
+def test_what_was_looked_through_is_not_uncited(moved: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    text = (MANUAL + SPLIT).replace("## Parameters", f"{moved}## Parameters")
+    _, found = audit(tmp_path, capsys, text, DEVICE + SPLIT_POINTS)
+    assert [one for one in found["uncited"] if int(str(one["line"])) >= 35] == []
+    _, found = audit(tmp_path, capsys, text, DEVICE + SPLIT_POINTS.partition("looked_through")[0])
+    assert [one["line"] for one in found["uncited"]][-3:] == [line + len(moved) for line in (35, 37, 38)]
+
+
+@pytest.mark.parametrize(("line", "absent"), [("7", ["lost"]), ("32..33", []), ("7, lines: {printed: 32..33}", [])])
+def test_an_erratum_may_span_lines(
+    line: str, absent: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    errata = SPAN.replace("LINE", line)
+    _, found = audit(tmp_path, capsys, MANUAL + SPLIT, DEVICE + SPLIT_POINTS + errata)
+    assert [one["erratum"] for one in found["errata_not_printed"]] == absent
+
+
+FRAME = """
+frames:
+- name: write
+  direction: request
+  bytes: 01 06 10 01 01 90 CRC
+  says: {A001: 40.0}
+  line: 26
+  lines: {printed: 25..25}
+"""
+
+
+@pytest.mark.parametrize(("value", "missing"), [("40 Hz", []), ("41 Hz", ["frame write says 40"])])
+def test_what_a_frame_says_stands_where_it_is_cited(
+    value: str, missing: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    check = crc16(bytes.fromhex("01 06 10 01 01 90")).to_bytes(2, "little").hex(" ").upper()
+    text = f"{MANUAL}\nThe frequency of {value}\n01 06 10 01 01 90 {check}\n"
+    _, found = audit(tmp_path, capsys, text, DEVICE + FRAME.replace("CRC", check))
+    assert [f"{one['subject']} {one['fact']} {one['wanted']}" for one in found["missing"]] == missing

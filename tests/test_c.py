@@ -176,7 +176,8 @@ def test_headers_have_no_clang_warning_at_all(
     left_out = "padded declaration-after-statement unused-function c++98-compat c++98-compat-pedantic old-style-cast"
     flags = [*STANDARDS[language], "-Weverything", *(f"-Wno-{one}" for one in left_out.split()), *build, "-Werror"]
     source = tmp_path / "headers.c"
-    source.write_text("".join(f'#include "{frames_header(folders[device], device).name}"\n' for device in MADE), encoding="utf-8")
+    headers = [frames_header(folders[device], device).name for device in MADE]
+    source.write_text("".join(f'#include "{header}"\n' for header in headers), encoding="utf-8")
     places = [f"-I{folders[device]}/c" for device in MADE]
     succeed([tool("clang"), *flags, "-fsyntax-only", "-Wno-zero-as-null-pointer-constant", *places, source])
 

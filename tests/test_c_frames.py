@@ -56,7 +56,8 @@ int main(void)
         return 3;
     }
     frame.id = 0x325U;
-    if (kitchen_can_frequency_setpoint_write_answer(5U, &frame) != FIELDSCRIBE_CAN_OK ||
+    if (kitchen_can_frequency_setpoint_write_answer(5U, 0x2D00U, &frame) != FIELDSCRIBE_CAN_OK ||
+        kitchen_can_frequency_setpoint_write_answer(5U, 0x2D01U, &frame) != FIELDSCRIBE_CAN_ECHO_MISMATCH ||
         kitchen_can_frequency_setpoint_write_request(31U, 0x2D00U, &frame) != FIELDSCRIBE_CAN_BAD_UNIT) {
         return 4;
     }
@@ -64,6 +65,16 @@ int main(void)
     if (kitchen_can_slow_ramp_write_request(5U, 0xFFFFU, false, &frame) != FIELDSCRIBE_CAN_OK ||
         frame.data[4] != 0xFFU || frame.data[5] != 0x07U) {
         return 5;
+    }
+    frame.id = 0x325U;
+    if (kitchen_can_slow_ramp_write_answer(5U, 0xFFFFU, false, &frame) != FIELDSCRIBE_CAN_OK ||
+        kitchen_can_slow_ramp_write_answer(5U, 0xFFFFU, true, &frame) != FIELDSCRIBE_CAN_ECHO_MISMATCH) {
+        return 12;
+    }
+    frame.data[0] = 0xFFU;
+    frame.data[6] = (uint8_t)(frame.data[6] ^ 0x11U);
+    if (kitchen_can_slow_ramp_read_word(5U, &frame, &raw) != FIELDSCRIBE_CAN_OK || raw != 0xFF07U) {
+        return 13;
     }
     /* a text: a message for each word */
     if (kitchen_can_fault_text_1_encode("Hot", 3U, words) != KITCHEN_CAN_OK) {
@@ -73,8 +84,11 @@ int main(void)
         if (kitchen_can_fault_text_1_write_request(1U, at, words, &frame) != FIELDSCRIBE_CAN_OK) {
             return 7;
         }
-        words[at] = 0U;
         frame.id = 0x321U;
+        if (kitchen_can_fault_text_1_write_answer(1U, at, words, &frame) != FIELDSCRIBE_CAN_OK) {
+            return 14;
+        }
+        words[at] = 0U;
         frame.data[0] = 0xFFU;
         frame.data[6] = (uint8_t)(frame.data[6] ^ 0x11U);
         if (kitchen_can_fault_text_1_read_answer(1U, at, &frame, words) != FIELDSCRIBE_CAN_OK) {
@@ -146,15 +160,16 @@ int main(void)
     fieldscribe_uss_reply reply;
     fieldscribe_uss_request request = kitchen_uss_command_source_read_request(3U);
     kitchen_uss_telegram_task_start(words);
-    if (words[0] != 0x0400U || words[1] != 0U ||
+    if (words[0] != 0U || words[1] != 0U || /* no bit that makes the control word count: reading commands nothing */
         kitchen_uss_main_setpoint_encode_count(4000000, 0U, 0x42480000U, &raw) != KITCHEN_USS_OK || raw != 0x3333) {
         return 1;
     }
-    kitchen_uss_control_word_to_pzd(0x047FU, words);
+    kitchen_uss_control_word_to_pzd(0x007FU, words); /* the constant bit comes by itself */
     kitchen_uss_main_setpoint_to_pzd(raw, words);
     if (fieldscribe_uss_build(&kitchen_uss_uss_profile, &link, &request, words, 2U, frame, sizeof frame, &length) !=
             FIELDSCRIBE_USS_OK ||
-        length != 16U || memcmp(frame, "\\x02\\x0E\\x03\\x12\\xBC\\0\\0\\0\\0\\0\\0\\x04\\x7F\\x33\\x33\\xDA", 16U) != 0) {
+        length != 16U ||
+        memcmp(frame, "\\x02\\x0E\\x03\\x12\\xBC\\0\\0\\0\\0\\0\\0\\x04\\x7F\\x33\\x33\\xDA", 16U) != 0) {
         return 2;
     }
     if (fieldscribe_uss_build(&kitchen_uss_uss_profile, &link, &request, words, 2U, frame, 15U, &length) !=
@@ -176,7 +191,9 @@ int main(void)
     if (request.task != KITCHEN_USS_TASK_WRITE_DOUBLE_WORD ||
         fieldscribe_uss_parse(&kitchen_uss_uss_profile, &link, &request, refusal, sizeof refusal, words, 4U, &reply) !=
             FIELDSCRIBE_USS_REFUSED ||
-        reply.error != KITCHEN_USS_ERROR_NOT_NOW || strcmp(kitchen_uss_error_name(reply.error), "not_now") != 0) {
+        reply.error != KITCHEN_USS_ERROR_NOT_NOW ||
+        kitchen_uss_status_word_from_pzd(words) != 0xFA31U ||
+        strcmp(kitchen_uss_error_name(reply.error), "not_now") != 0) {
         return 6;
     }
     request = kitchen_uss_maximum_frequency_write_eeprom_request(3U, 0x42200000U);

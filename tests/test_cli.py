@@ -256,6 +256,74 @@ def test_encode_as_json(run: Callable[..., Result], small: Path) -> None:
     assert (data["raw"], data["hex"], data["frame"]) == (500, "1F4", "01 06 00 10 01 F4 88 18")
 
 
+CAN, USS = str(descriptions_dir() / "woodward_mpu2s"), str(descriptions_dir() / "siemens_mm4")
+
+
+@pytest.mark.parametrize(
+    ("words", "code", "said"),
+    [
+        (("decode", CAN, "321#DD00051E13880064"), 0, "321#DD00051E13880064\n  Frame  CAN 321h, unit 1, visualisation"),
+        (
+            ("decode", CAN, "DD", "00", "05", "1E", "13", "88", "00", "64", "--can-id", "321"),
+            0,
+            "generator_frequency = 50 Hz",
+        ),
+        (("decode", CAN, "321#DD00051E13880064", "--with", "PGNEXPO=3"), 0, "generator_active_power = 100000 W"),
+        (("decode", CAN, "33F#FF0101FB00000000"), 1, "Checksum  wrong: 00 00; these bytes give FE FA"),
+        (("decode", CAN, "321#DD00051E13880064", "--unit", "2"), 0, "no frame of that unit"),
+        (("decode", CAN, "DD00"), 2, "or give the identifier with --can-id 321"),
+        (("decode", CAN, "321#00", "--pkw", "0"), 2, "--pkw is for uss devices"),
+        (("decode", CAN, "321#00", "--framing", "rtu"), 2, "--framing is for modbus and uss devices"),
+        (("decode", L200, "00", "--can-id", "1"), 2, "--can-id is for can devices"),
+        (("decode", L200, "00", "--framing", "pkw"), 2, "it takes rtu, tcp"),
+        (
+            ("decode", USS, "020E01143A0000000000000000000023"),
+            0,
+            "USS, unit 1: request, task 1 read_value, parameter 1082",
+        ),
+        (("decode", USS, "143A", "0000", "0000", "0000", "--framing", "pkw"), 0, "parameter 1082"),
+        (
+            ("decode", USS, "143A 0000 0000", "243A 0000 4248", "--framing", "pkw", "--pkw", "9"),
+            2,
+            "it has 0, 3, 4, 127",
+        ),
+        (
+            ("decode", USS, "12BC 0000 0000 0005", "--framing", "pkw", "--pkw", "4", "--direction", "response"),
+            0,
+            "uss_rs485",
+        ),
+        (("encode", CAN, "fault_text_terminal_62", "OIL", "--frame"), 0, "33F#EE0102E3"),
+        (("encode", CAN, "relay_1_event_1", "5", "--with-word", "12FFh"), 0, "33F#EE01"),
+        (("encode", CAN, "relay_1_event_1", "5", "--frame"), 1, "say --with-word WORD"),
+        (("encode", CAN, "2", "500", "--keep"), 2, "--keep is for uss devices"),
+        (("encode", USS, "P1082", "40", "--framing", "pkw", "--keep"), 0, "D43A 0000 4220 0000\n"),
+        (("encode", USS, "P2010", "6", "--index", "1", "--framing", "pkw"), 0, "700A 8001 0006 0000\n"),
+        (("encode", USS, "HSW", "40"), 2, "give --with P2009=VALUE"),
+        (("encode", USS, "HSW", "40", "--with", "P2000=50", "--with", "P2009=0"), 0, "raw 13107 = 3333h"),
+        (("explain", CAN, "can:321"), 0, "can mean 3 things"),
+        (("explain", USS, "P2010[1]"), 0, "index 1"),
+        (("explain", USS, "error:17"), 0, "not_in_this_operating_state"),
+    ],
+)
+def test_the_other_families(run: Callable[..., Result], words: tuple[str, ...], code: int, said: str) -> None:
+    told = run(*words)
+    assert told.code == code, told.err
+    assert said in (told.out if told.out else told.err)
+
+
+def test_frames_from_standard_input(run: Callable[..., Result], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "stdin", StringIO("(1.5) can0 321#DD010302000007D0\n\n(1.6) can0 321#DD00051E13880064\n"))
+    data = json.loads(run("decode", CAN, "-", "--format", "json").out)
+    assert [one["time"] for one in data["frames"]] == ["1.5", "1.6"]
+    assert data["frames"][1]["items"][2]["value"] == "100000"
+
+
+def test_encoded_texts_as_json(run: Callable[..., Result]) -> None:
+    data = json.loads(run("encode", CAN, "fault_text_terminal_62", "OIL", "--frame", "--format", "json").out)
+    assert (data["raw"], data["frame"], len(data["frames"])) == (None, None, 8)
+    assert data["hex"].startswith("4F494C2020")
+
+
 def test_export(run: Callable[..., Result], small: Path) -> None:
     data = json.loads(run("export", "json", "small_drive").out)
     assert data["device"] == "small_drive"

@@ -173,7 +173,11 @@ def test_run_time_factors() -> None:
         ("frequency_source", 9, "9, a number without a name in the manual"),
         ("run_command", 1, "on"),
         ("status_word", 0b100001, "ready, fault (its bit is 0), mode = 2"),
-        ("status_word", 0b1111001, "ready, mode = run; not set: fault (its bit is 1); also bit 6, which the manual does not name"),
+        (
+            "status_word",
+            0b1111001,
+            "ready, mode = run; not set: fault (its bit is 1); also bit 6, which the manual does not name",
+        ),
         ("status_word", 0b1000, "mode = stop; not set: ready, fault (its bit is 1)"),
         ("float_setpoint", struct.unpack("<I", struct.pack("<f", 0.1))[0], "0.1 Hz"),
         ("float_setpoint", struct.unpack("<I", struct.pack("<f", 3.4028234e38))[0], "3.4028235e+38 Hz"),

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import pytest
-from fieldscribe.dialogue import Heard
 from fieldscribe.dialogue.refusals import RefusedError
 from fieldscribe.families.modbus import crc16
 from fieldscribe.families.modbus.listener import ModbusListener
@@ -13,6 +13,9 @@ from fieldscribe.families.modbus.words import raw_of, words_of, write_request
 from hypothesis import given
 from hypothesis import strategies as st
 from models import named, sample_device
+
+if TYPE_CHECKING:
+    from fieldscribe.dialogue import Heard
 
 DEVICE = sample_device()
 

@@ -293,4 +293,5 @@ def test_bus() -> None:
     assert [(one.name, one.address, one.value) for one in sink().commands] == [
         ("store", 0x700, None),
         ("restart", 0x40, 1),
+        ("switch_on", 0x1C11, 0x401),
     ]

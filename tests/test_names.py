@@ -3,37 +3,38 @@
 from __future__ import annotations
 
 import re
-from functools import lru_cache
 from typing import TYPE_CHECKING
 
+import pytest
 from fieldscribe.checks.identifiers import RUST_CONSTANTS, RUST_UNKNOWN
 from fieldscribe.checks.prefixes import C_TAILS, HEADER
 from fieldscribe.names import pascal
 from fieldscribe.pipeline import outputs
 from fieldscribe.resources import templates_dir
 from test_good import sink
+from test_good_families import kitchen
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-
-@lru_cache(maxsize=1)
-def headers() -> str:
-    """The C headers of the device that uses everything."""
-    return "\n".join(text for _, path, text in outputs(sink(), ["c"]) if path.endswith(".h") and "kitchen_sink" in path)
+    from fieldscribe.model import Device
 
 
-def c_identifiers() -> Iterator[str]:
-    """What the headers define, without the device's name, in small letters."""
-    text = headers()
-    yield from (name.lower() for name in re.findall(r"^#define KITCHEN_SINK_(\w+)", text, re.MULTILINE))
-    yield from (name.lower() for name in re.findall(r"^\s+KITCHEN_SINK_(\w+) =", text, re.MULTILINE))
-    yield from re.findall(r"^static \S.*?\bkitchen_sink_(\w+)\(", text, re.MULTILINE)
+KITCHENS = ("kitchen_sink", "kitchen_can", "kitchen_uss")
 
 
-def known() -> set[str]:
+def c_identifiers(device: Device) -> Iterator[str]:
+    """What the headers of a device define, without the device's name, in small letters."""
+    made = (text for _, path, text in outputs(device, ["c"]) if path.endswith(".h") and device.id in path)
+    text, upper = "\n".join(made), device.id.upper()
+    yield from (name.lower() for name in re.findall(rf"^#define {upper}_(\w+)", text, re.MULTILINE))
+    yield from (name.lower() for name in re.findall(rf"^\s+{upper}_(\w+) =", text, re.MULTILINE))
+    yield from (name.lower() for name in re.findall(rf"^static const .*\b(?i:{upper})_(\w+) =", text, re.MULTILINE))
+    yield from re.findall(rf"^static \S.*?\b{device.id}_(\w+)\(", text, re.MULTILINE)
+
+
+def known(device: Device) -> set[str]:
     """What the tables say that the headers define."""
-    device = sink()
     names = set(HEADER)
     for point in device.points:
         for item in (point.item, *(old + point.item[len(point.name) :] for old in point.was)):
@@ -43,21 +44,29 @@ def known() -> set[str]:
             for flag in point.flags:
                 ends = ("", "_mask", "_shift", *(f"_{value.name}" for value in flag.values))
                 names.update(f"{item}_{flag.name}{end}" for end in ends)
-        if point.enum is not None:
-            names.update(f"{point.enum.name}_{entry.name}" for entry in point.enum.entries)
-            names.add(f"{point.enum.name}_name")
+    for enum in device.enums:
+        names.update(f"{enum.name}_{entry.name}" for entry in enum.entries)
+        names.add(f"{enum.name}_name")
+    bus = device.bus
     names.update(f"command_{one.name}_{tail}" for one in device.commands for tail in ("address", "value", "request"))
-    names.update(f"exception_{one.name}" for one in device.bus.exceptions)
+    names.update(f"exception_{one.name}" for one in bus.exceptions)
+    for kind, codes in (("task", bus.functions), ("response", bus.responses), ("error", bus.exceptions)):
+        names.update((f"{kind}_name", *(f"{kind}_{one.name}" for one in codes)))
     names.update(f"space_{point.space}" for point in device.points)
-    names.update(f"{group.name}_{tail}" for group in device.groups for tail in ("blocks", "blocks_count"))
+    names.update(f"{one.name}_{tail}" for one in device.groups for tail in ("blocks", "blocks_count", "group_count"))
+    names.update(f"message_{one.name}" for one in device.messages)
+    for one in device.telegrams:
+        names.update(f"telegram_{one.name}{tail}" for tail in ("", "_words", "_slots", "_listen", "_start"))
     return names
 
 
-def test_c_table() -> None:
+@pytest.mark.parametrize("name", KITCHENS)
+def test_c_table(name: str) -> None:
     """Every identifier of the headers is one that the table foresees."""
-    found = set(c_identifiers())
-    assert len(found) > 800
-    assert found - known() == set()
+    device = kitchen(name)
+    found = set(c_identifiers(device))
+    assert len(found) > 10 * len(device.points)
+    assert found - known(device) == set()
 
 
 def test_rust_table() -> None:

@@ -14,6 +14,8 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from fieldscribe.model import Place
+from fieldscribe.resources import templates_dir
+from fieldscribe.targets import python as target
 from fieldscribe.targets.python.identifiers import DEVICE_MEMBERS, HELPERS, WORD_MEMBERS
 from models import STATUS_FLAGS, plain_points, point, sample_device, titles, trip_device
 from python_package import AsyncSlave, Slave, imported, typed_findings, write_package
@@ -315,6 +317,14 @@ def test_tables_of_taken_names_are_complete(package: Any) -> None:
         "fault",
         "mode",
     } <= WORD_MEMBERS
+
+
+def test_the_whole_runtime_is_copied() -> None:
+    copied = dict(target.runtime(sample_device()))
+    root = templates_dir() / "python/runtime"
+    files = {path.relative_to(templates_dir()).as_posix() for path in root.rglob("*") if path.is_file()}
+    assert {source for source in files if "__pycache__" not in source} == set(copied.values())
+    assert all(out == f"python/{source.removeprefix('python/runtime/')}" for out, source in copied.items())
 
 
 def test_hostile_text_stays_text(tmp_path: Path) -> None:

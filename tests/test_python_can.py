@@ -95,6 +95,10 @@ def test_texts(mpu: Any, unit: CanUnit) -> None:
     assert error(mpu.fault_text.write, 5).status == "out_of_range"
     assert error(mpu.fault_text.write_raw, 0).status == "out_of_range"
     assert type(mpu).fault_text.encode("") == 0x2020202020202020
+    mpu.fault_text.write_raw(0x4142434445464748)
+    assert mpu.fault_text.read() == "ABCDEFGH"
+    for raw in (-1, 1 << 64, 0x2020202020202020 | 1 << 64, 0x2020202020202000):
+        assert error(mpu.fault_text.check, raw).status == "out_of_range"
 
 
 def test_digits(mpu: Any, package: Any, unit: CanUnit) -> None:
@@ -111,6 +115,17 @@ def test_digits(mpu: Any, package: Any, unit: CanUnit) -> None:
     assert mpu.delays.name_of(5) == "step_5"
     unit.parameters[404] = 1
     assert mpu.read_many(["delays", "fault_text"]) == {"delays": (0, 0, 0, 1), "fault_text": "\0" * 8}
+
+
+def test_points_of_other_variants(package: Any, unit: CanUnit) -> None:
+    small = package.SampleCan(unit, 5, size="small")
+    assert str(error(getattr, small, "spare")) == "spare exists only for size large"
+    unit.parameters[507] = 100
+    assert "spare" not in small.read_many("main")
+    assert len(unit.log) == len(set(unit.log))  # a word that points share is read once
+    assert package.SampleCan(unit, 5, size="large").spare.read() == 0
+    assert package.SampleCan(unit, 5).spare.read() == 0
+    assert package.SampleCan.spare.facts.only_for == ("size", ("large",))
 
 
 def test_factors_are_kept_until_what_changes_them_is_written(mpu: Any, unit: CanUnit) -> None:
@@ -168,13 +183,14 @@ def test_counters_over_two_frames_are_not_torn(mpu: Any, unit: CanUnit) -> None:
 def test_frames_of_others_are_passed_on(mpu: Any, unit: CanUnit, can: Any) -> None:
     unit.others = [
         unit.words(0, 5000),
-        can.Frame(0x325, b"\xff\x05\x01\xfd\x00\x01\xff\x01"),  # for another parameter
+        can.Frame(0x325, b"\xff\x05\x01\xfd\x00\x01\xfe\xf9"),  # for another parameter
         can.Frame(0x326, b"\xff\x06\x01\xfc\x00\x01\xfe\xfb"),  # of another unit
         can.Frame(0x325, b"\xff"),
     ]
     unit.parameters[508] = 3
     assert mpu.transformer.read() == 3
     assert mpu.frequency.read() == 50.0
+    assert unit.log == ["33F#ff0501fc0000fef9"]
     assert not unit.waiting
 
 
@@ -213,6 +229,18 @@ def test_receiver(can: Any, package: Any, unit: CanUnit) -> None:
         assert not receiver.take(wrong)
     assert receiver.word(0) == 1
     assert error(can.Receiver, package.SampleCan.PROFILE, "nothing", 5).status == "no_access"
+    assert [receiver.take(unit.words(slot, 5, 6, 7)) for slot in (1, 2)] == [True, True]
+    assert receiver.words((2, 3, 4, 5, 6)) == (3, 5, 6, 7, 5)  # no counter
+
+
+def test_receiver_without_a_multiplexer(can: Any) -> None:
+    words = (can.Role("unit"), *(can.Role("word", number) for number in (1, 0)), *(can.Role("constant"),) * 5)
+    message = can.Message("beat", "cyclic", 0x700, words, adds_unit=True)
+    profile = can.Profile((0, 9), 11, (message,), (can.Telegram("beats", "cyclic", 1, "beat"),))
+    receiver = can.Receiver(profile, "beats", 5)
+    assert receiver.take(can.Frame(0x705, b"\x05\x34\x12\0\0\0\0\0"))
+    assert receiver.word(0) == 0x1234
+    assert not receiver.take(can.Frame(0x705, b"\x06\x34\x12\0\0\0\0\0"))
 
 
 def test_any_bytes_are_safe(can: Any, package: Any) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -39,6 +40,12 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return write_package(sample_device(), tmp_path_factory.mktemp("python"))
 
 
+def with_enums(device: Device) -> Device:
+    """The device with the enums that only digits name."""
+    enums = {one.name: one for one in (*device.enums, *(point.digits.enum for point in device.points if point.digits))}
+    return replace(device, enums=tuple(enums.values()))
+
+
 def shipped() -> list[Path]:
     """The descriptions that come with the compiler."""
     return find_devices([descriptions_dir()], Report())
@@ -57,7 +64,7 @@ def test_all_vectors_pass(folder: Path) -> None:
 
 @pytest.mark.parametrize(
     "device",
-    [rare_device(), odd_device(), kitchen_sink(), can_device(), uss_device()],
+    [with_enums(rare_device()), odd_device(), kitchen_sink(), can_device(), uss_device()],
     ids=lambda device: str(device.id),
 )
 def test_other_models_pass(device: Device, tmp_path: Path) -> None:
@@ -115,6 +122,13 @@ WRONG = (
         "values_out": [],
     },
 )
+
+
+@pytest.mark.parametrize("name", ["kitchen_can", "kitchen_uss"])
+def test_kitchens_pass(name: str, tmp_path: Path) -> None:
+    device = load_device(Path(__file__).parent / "devices" / name / "device.yaml", Report())
+    assert device is not None
+    every_vector_passes(device, write_package(device, tmp_path))
 
 
 def test_every_wrong_vector_fails(folder: Path) -> None:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import asyncio
+import random
 import struct
 import sys
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
 import pytest
@@ -115,7 +117,7 @@ def test_bits_of_process_data(package: Any, uss: Any) -> None:
     drive = package.SampleUss(line, 3, uss.Link(127, 4))
     line.answer = (1, 2, 3, 4)
     drive.jog.write(2)
-    assert line.task == (0x0400, 0, 2, 0)
+    assert line.task == (0x0400, 0, 4, 0)
     assert drive.energy.read() == 3 << 16 | 4
     line.log.clear()
     line.ram.update({(2000, 0): f32(50.0), (2009, 0): (1,)})
@@ -218,6 +220,23 @@ def test_other_failures(drive: Any, package: Any, uss: Any, line: UssDrive) -> N
     assert error(drive.write_at, "parameter", 1, 1, 2, 3).status == "bad_value"
     assert error(drive.read_at, "parameter", 32000).status == "bad_parameter"
     assert error(drive.read_at, "parameter", 1, 256).status == "bad_index"
+
+
+def test_any_bytes_are_safe(package: Any, uss: Any) -> None:
+    rng = random.Random(1)
+    profile = package.SampleUss.PROFILE
+    failure = sys.modules["fieldscribe_runtime"].FrameError
+    for _ in range(3000):
+        link = uss.Link(rng.choice((0, 3, 4, 127)), rng.randint(0, 4), rng.random() < 0.2)
+        request = uss.Request(3, rng.choice(list(profile.tasks)), rng.choice((0, 700, 2010)))
+        reply = bytearray(rng.randbytes(rng.randint(0, 24)))
+        if len(reply) > 3 and rng.random() < 0.9:
+            reply[:3] = (2, len(reply) - 2, 3)
+            reply[-1] = 0
+            for byte in bytes(reply[:-1]):
+                reply[-1] ^= byte
+        with suppress(failure):
+            uss.parse(request, bytes(reply), profile, link)
 
 
 def test_printed_examples(package: Any, uss: Any) -> None:

@@ -7,21 +7,25 @@ import re
 import shutil
 from collections import Counter
 from fractions import Fraction
+from functools import partial
 from math import floor
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
+from c_device import kitchen
+from fieldscribe.targets.rust.families import family_traits
 from fieldscribe.targets.rust.identifiers import identifiers
+from fieldscribe.targets.rust.layout import assignment, binding, short_array
 from fieldscribe.targets.rust.rules import count_path
 from fieldscribe.targets.rust.subjects import scope_of
 from models import kitchen_sink, linear, point, sample_device, trip_device
-from rust_crates import odd_device, rare_device, write_crate
+from rust_crates import can_device, odd_device, rare_device, uss_device, write_crate
 from toolchains import run, succeed, tool
 
 if TYPE_CHECKING:
     import subprocess
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
 
     from fieldscribe.model import Device, Linear
     from fieldscribe.targets.rust.subjects import Subject
@@ -30,12 +34,16 @@ ROOT = Path(__file__).resolve().parents[1]
 SHIPPED = sorted(path.parents[1].name for path in (ROOT / "generated/rust").glob("*/tests/conformance.rs"))
 PROGRAMS = Path(__file__).resolve().parent / "rust"
 FAILS = sorted(path.stem for path in (PROGRAMS / "fails").glob("*.rs"))
-MODELS = {
+MODELS: dict[str, Callable[[], Device]] = {
     "sample_drive": sample_device,
     "rare": rare_device,
     "odd": odd_device,
     "trips": trip_device,
     "kitchen_sink": kitchen_sink,
+    "kitchen_can": partial(kitchen, "kitchen_can"),
+    "kitchen_uss": partial(kitchen, "kitchen_uss"),
+    "odd_can": can_device,
+    "odd_uss": uss_device,
 }
 
 
@@ -113,6 +121,17 @@ def nearest(rule: Linear, value: Fraction) -> int:
     return floor(abs(exact) + Fraction(1, 2)) * (1 if exact > 0 else -1)
 
 
+def test_long_lines_break_as_rustfmt_breaks_them() -> None:
+    """The crates' own lines are held against rustfmt itself; these say which break is meant."""
+    name = "x" * 60
+    assert short_array(4, "const A: &[u16]", ["1", "2"]) == ("const A: &[u16] = &[1, 2];",)
+    many = short_array(4, "const A: &[u16]", [f"0x{number:04X}" for number in range(20)])
+    assert [len(line) for line in many] == [20, 91, 75, 2]
+    assert assignment(4, f"const {name}: A", ("A::new(", "    1,", ")"))[0].endswith("A::new(")
+    assert binding(4, f"const {name}: &'static str", '"abc"') == (f'const {name}: &\'static str = "abc";',)
+    assert assignment(4, f"const {name}: {name}", ("A::new(", "    1,", ")"))[0].endswith("=")
+
+
 def clashes(device: Device) -> list[str]:
     seen = Counter((namespace, name) for namespace, name, _ in identifiers(device))
     return [name for (_, name), count in seen.items() if count > 1]
@@ -176,7 +195,16 @@ def test_misuse_does_not_compile(libraries: Path, name: str, tmp_path: Path) -> 
     assert set(re.findall(r"error\[(E\d+)\]", done.stderr)) == {expected}, done.stderr
 
 
-@pytest.mark.parametrize(("source", "device"), [("client", "sample_drive"), ("trips", "trips")])
+@pytest.mark.parametrize(
+    ("source", "device"),
+    [
+        ("client", "sample_drive"),
+        ("texts", "rare"),
+        ("can_client", "odd_can"),
+        ("uss_client", "odd_uss"),
+        ("trips", "trips"),
+    ],
+)
 def test_programs_run(libraries: Path, source: str, device: str, tmp_path: Path) -> None:
     """Clients talk to canned replies; every raw number survives every kind of rule."""
     program = tmp_path / source
@@ -207,15 +235,59 @@ def test_nothing_can_panic(libraries: Path, device: str, tmp_path: Path) -> None
         assert b"panicking" not in (out / f"{name}.o").read_bytes(), name
 
 
+WITHOUT_COUNTS = ("float", "text", "digits")
+CLIENTS = {
+    "can": """use fieldscribe_runtime::can::{Client, Frame, Receiver, Transport};
+pub struct Line;
+impl Transport for Line {
+    type Error = ();
+    fn send(&mut self, _: &Frame) -> Result<(), ()> { Err(()) }
+    fn receive(&mut self) -> Result<Frame, ()> { Err(()) }
+}""",
+    "uss": """use fieldscribe_runtime::{client::Transport, uss::Client};
+pub struct Line;
+impl Transport for Line {
+    type Error = ();
+    fn exchange(&mut self, _: &[u8], _: &mut [u8]) -> Result<usize, ()> { Err(()) }
+}""",
+}
+"""What the probes of a family need beside the points."""
+
+
 def probe_source(device: str) -> str:
     """A crate that calls every function of every point."""
+    model = MODELS[device]()
     names = "BitGroup, CountReadable, CountWritable, Error, Point, Readable, Writable, runtime"
-    lines = ["#![no_std]", f"use {device}::{{{names}}};"]
-    for subject in scope_of(MODELS[device]()).subjects:
-        bodies = probes(subject, f"{device}::points::{subject.name}")
+    lines = ["#![no_std]", f"use {device}::{{{names}}};", CLIENTS.get(model.family, "")]
+    scope = scope_of(model)
+    for subject in scope.subjects:
+        name = f"{device}::points::{subject.name}"
+        traits = " ".join(line for lines in family_traits(subject, scope) for line in lines)
+        bodies = [*probes(subject, name), *client_probes(subject, name, traits)]
         item = subject.point.item
         lines += [f"#[inline(never)] pub fn {head.replace('(', f'_{item}(', 1)} {{ {body} }}" for head, body in bodies]
     return "\n".join(lines) + "\n"
+
+
+def client_probes(subject: Subject, name: str, traits: str) -> Iterator[tuple[str, str]]:
+    """Heads and bodies of functions that call what a client that blocks offers for a point."""
+    point, read, write = subject.point, f"<{name} as Readable>", f"<{name} as Writable>"
+    client, value = "client: &mut Client<Line>", f"<{name} as Point>::Value"
+    update = "update" if point.bits else "write_with"
+    with_head, with_body = ("", "") if point.bits else (f", with: {write}::With", ", with")
+    if "::Parameter" in traits and point.readable:
+        yield f"get({client}, with: {read}::Factors) -> bool", f"client.read_with::<{name}>(with).is_ok()"
+    if "::Parameter" in traits and point.writable and (not point.bits or point.readable):
+        head = f"put({client}, value: {value}{with_head}) -> bool"
+        yield head, f"client.{update}::<{name}>(value{with_body}).is_ok()"
+    if "uss::Sent" in traits and point.writable:
+        head = f"send({client}, value: {value}{with_head}) -> bool"
+        yield head, f"client.set{'_bits' if point.bits else '_with'}::<{name}>(value{with_body}).is_ok()"
+    if "uss::Received" in traits:
+        yield f"receive({client}, with: {read}::Factors) -> bool", f"client.receive_with::<{name}>(with).is_ok()"
+    if "can::Received" in traits:
+        receiver = f"Receiver<<{name} as runtime::can::Received>::Telegram>"
+        yield f"hear(all: &mut {receiver}, frame: &Frame) -> bool", f"all.take(frame) && all.raw::<{name}>().is_ok()"
 
 
 def probes(subject: Subject, name: str) -> Iterator[tuple[str, str]]:
@@ -232,12 +304,12 @@ def probes(subject: Subject, name: str) -> Iterator[tuple[str, str]]:
     if subject.point.readable:
         head = f"(raw: {raw}, with: {read}::Factors) -> {read}::Output"
         yield f"decode{head}<{value}>", f"{read}::decode_with(raw, with)"
-        if subject.form != "float":
+        if subject.form not in WITHOUT_COUNTS:
             count = f"<{name} as CountReadable>"
             yield f"decode_count{head}<{count}::Count>", f"{count}::decode_count_with(raw, with)"
     if subject.point.writable:
         tail = f", with: {write}::With) -> Result<{raw}, Error>"
         yield f"encode(value: {value}{tail}", f"{write}::encode_with(value, with)"
-        if subject.form != "float":
+        if subject.form not in WITHOUT_COUNTS:
             count = f"<{name} as CountWritable>"
             yield f"encode_count(count: {count}::Count{tail}", f"{count}::encode_count_with(count, with)"

@@ -36,6 +36,10 @@ def test_the_description_says_what_the_second_reading_says(row: Row) -> None:
     assert_same([facts(point, row) for point in points], row["line"], SETTLED)
 
 
+def test_what_is_settled_was_read() -> None:
+    assert {line for line, _ in SETTLED} <= {row["line"] for row in rows(NAME)}
+
+
 def test_every_point_was_read_twice() -> None:
     lines = {row["line"] for row in rows(NAME)}
     assert [point.name for point in device(NAME).points if point.source.line not in lines] == []

@@ -19,6 +19,8 @@ enum {
     FIELDSCRIBE_TEXT_MOST = 256,
     FIELDSCRIBE_WITH_MOST = 16,
     FIELDSCRIBE_VALUES_MOST = 2048,
+    FIELDSCRIBE_WORDS_MOST = 128,
+    FIELDSCRIBE_BYTES_MOST = 512,
     FIELDSCRIBE_CONSTANTS_MOST = 32,
     FIELDSCRIBE_SHOWN_FAILURES = 20
 };
@@ -41,12 +43,27 @@ typedef enum fieldscribe_kind {
     FIELDSCRIBE_KIND_PRINTED_BUILD,
     FIELDSCRIBE_KIND_PRINTED_REPLY,
     FIELDSCRIBE_KIND_BLOCK,
+    FIELDSCRIBE_KIND_PLACE,
+    FIELDSCRIBE_KIND_FIXED,
+    FIELDSCRIBE_KIND_TEXT_DECODE,
+    FIELDSCRIBE_KIND_TEXT_ENCODE,
+    FIELDSCRIBE_KIND_DIGITS,
+    FIELDSCRIBE_KIND_DIGITS_ENCODE,
+    FIELDSCRIBE_KIND_CAN_BUILD,
+    FIELDSCRIBE_KIND_CAN_PARSE,
+    FIELDSCRIBE_KIND_CAN_TELEGRAM,
+    FIELDSCRIBE_KIND_USS_BUILD,
+    FIELDSCRIBE_KIND_USS_BROADCAST,
+    FIELDSCRIBE_KIND_USS_REPLY,
+    FIELDSCRIBE_KIND_USS_PRINTED_BUILD,
+    FIELDSCRIBE_KIND_USS_PRINTED_REPLY,
     FIELDSCRIBE_KINDS
 } fieldscribe_kind;
 
 static const char *const fieldscribe_kind_names[FIELDSCRIBE_KINDS] = {"decode", "encode", "decode_count", "encode_count",
     "check", "name", "special", "flag", "flag_name", "bits", "words", "address", "build", "reply", "printed_build", "printed_reply",
-    "block"};
+    "block", "place", "fixed", "text_decode", "text_encode", "digits", "digits_encode", "can_build", "can_parse", "can_telegram",
+    "uss_build", "uss_broadcast", "uss_reply", "uss_printed_build", "uss_printed_reply"};
 
 /* An integer of any width and sign: its two's complement pattern in 64 bits, and whether it was written with a minus. */
 typedef struct fieldscribe_number {
@@ -66,6 +83,10 @@ typedef struct fieldscribe_vector {
     fieldscribe_number replaced;
     double value;
     fieldscribe_number with[FIELDSCRIBE_WITH_MOST];
+    uint16_t words[FIELDSCRIBE_WORDS_MOST]; /* of a text, or digits */
+    uint8_t bytes[FIELDSCRIBE_BYTES_MOST]; /* of a text */
+    size_t byte_count;
+    const void *receiver; /* of a telegram, as its family has it */
 } fieldscribe_vector;
 
 /* A constant of a point beside its address: a number, or a text. */
@@ -79,14 +100,17 @@ typedef struct fieldscribe_constant {
 typedef struct fieldscribe_outcome {
     bool answered;
     int status; /* a status of the device; 0 is ok */
+    const char *status_text; /* the name of the status, where it is none of the device */
     bool untouched; /* nothing was stored although the status is not ok */
     uint64_t raw;
     uint64_t number; /* a count, a flag's number, the result of an insertion, the low end of a special, an address */
     uint64_t other; /* the high end of a special, the number of words, a space */
     double value;
     const char *text; /* a name, a code */
-    uint16_t words[8];
+    uint16_t words[FIELDSCRIBE_WORDS_MOST];
     size_t word_count;
+    char bytes[FIELDSCRIBE_BYTES_MOST];
+    size_t byte_count;
     fieldscribe_constant constants[FIELDSCRIBE_CONSTANTS_MOST];
     size_t constant_count;
 } fieldscribe_outcome;
@@ -110,15 +134,34 @@ typedef struct fieldscribe_blocks {
 } fieldscribe_blocks;
 #endif
 
+#if defined(FIELDSCRIBE_CAN_H)
+typedef struct fieldscribe_named_message {
+    const char *name;
+    const fieldscribe_can_message *message;
+} fieldscribe_named_message;
+
+typedef struct fieldscribe_named_telegram {
+    const char *name;
+    const fieldscribe_can_telegram *telegram;
+} fieldscribe_named_telegram;
+#endif
+
 typedef struct fieldscribe_suite {
     const char *device;
     const char *digest;
     const char *const *spaces;
     const fieldscribe_status_name *statuses;
     const fieldscribe_adapter *adapters;
+    const char *const *telegrams;
 #if defined(FIELDSCRIBE_MODBUS_H)
     const fieldscribe_modbus_profile *profile;
     const fieldscribe_blocks *blocks;
+#elif defined(FIELDSCRIBE_CAN_H)
+    const fieldscribe_can_profile *profile;
+    const fieldscribe_named_message *messages;
+    const fieldscribe_named_telegram *cyclic;
+#elif defined(FIELDSCRIBE_USS_H)
+    const fieldscribe_uss_profile *profile;
 #endif
 } fieldscribe_suite;
 
@@ -249,6 +292,89 @@ typedef struct fieldscribe_suite {
 #define FIELDSCRIBE_REFERENCE(macro, name, key) fieldscribe_keep(out, key, (uint64_t)(macro##_##name), NULL);
 #define FIELDSCRIBE_REFERENCE_TEXT(macro, name, key) fieldscribe_keep(out, key, 0U, macro##_##name);
 
+/* The words of a point in order, and what stands beside them. */
+#define FIELDSCRIBE_PLACED(macro, offset) fieldscribe_put_word(out, (uint16_t)(macro##_ADDRESS + offset));
+#define FIELDSCRIBE_INDEX(macro) fieldscribe_keep(out, "index", (uint64_t)(macro##_INDEX), NULL);
+#define FIELDSCRIBE_TELEGRAM(macro) fieldscribe_keep(out, "telegram", (uint64_t)(macro##_TELEGRAM), NULL);
+#define FIELDSCRIBE_PLACE(addresses, others)             \
+    case FIELDSCRIBE_KIND_PLACE:                         \
+        addresses                                        \
+        others                                           \
+        out->answered = true;                            \
+        break;
+#define FIELDSCRIBE_PLACE_OF_TEXT(macro, function, others)                             \
+    case FIELDSCRIBE_KIND_PLACE: {                                                     \
+        size_t at;                                                                     \
+        for (at = 0U; at < sizeof function##_addresses / sizeof(uint16_t); ++at) {     \
+            fieldscribe_put_word(out, function##_addresses[at]);                       \
+        }                                                                              \
+        others                                                                         \
+        out->answered = true;                                                          \
+        break;                                                                         \
+    }
+
+#define FIELDSCRIBE_FIXED(macro)                         \
+    case FIELDSCRIBE_KIND_FIXED:                         \
+        out->number = (uint64_t)(macro##_FIXED_MASK);    \
+        out->other = (uint64_t)(macro##_FIXED_BITS);     \
+        out->answered = true;                            \
+        break;
+
+#define FIELDSCRIBE_TEXT_DECODE(function, macro)                             \
+    case FIELDSCRIBE_KIND_TEXT_DECODE:                                       \
+        out->byte_count = function##_decode(v->words, out->bytes);           \
+        out->answered = out->bytes[out->byte_count] == '\0';                 \
+        break;
+
+#define FIELDSCRIBE_TEXT_ENCODE(function, macro)                                                         \
+    case FIELDSCRIBE_KIND_TEXT_ENCODE:                                                                   \
+        out->status = (int)function##_encode((const char *)v->bytes, v->byte_count, out->words);         \
+        out->untouched = out->words[0] == 0U;                                                            \
+        out->word_count = macro##_WORDS;                                                                 \
+        out->answered = true;                                                                            \
+        break;
+
+#define FIELDSCRIBE_DIGITS(function, digit_type, macro)                  \
+    case FIELDSCRIBE_KIND_DIGITS: {                                      \
+        digit_type digits[macro##_DIGITS];                               \
+        size_t at;                                                       \
+        function##_decode((uint16_t)v->raw.bits, digits);                \
+        for (at = 0U; at < macro##_DIGITS; ++at) {                       \
+            fieldscribe_put_word(out, digits[at]);                       \
+        }                                                                \
+        out->answered = true;                                            \
+        break;                                                           \
+    }
+
+#define FIELDSCRIBE_DIGITS_ENCODE(function, digit_type, macro)           \
+    case FIELDSCRIBE_KIND_DIGITS_ENCODE: {                               \
+        digit_type digits[macro##_DIGITS];                               \
+        uint16_t raw = 1U;                                               \
+        size_t at;                                                       \
+        for (at = 0U; at < macro##_DIGITS; ++at) {                       \
+            digits[at] = (digit_type)v->words[at];                       \
+        }                                                                \
+        out->status = (int)function##_encode(digits, &raw);              \
+        out->untouched = raw == 1U;                                      \
+        out->raw = raw;                                                  \
+        out->answered = true;                                            \
+        break;                                                           \
+    }
+
+/* A point of a telegram, out of what was received. */
+#define FIELDSCRIBE_RECEIVED(function, raw_type)                                                         \
+    case FIELDSCRIBE_KIND_CAN_TELEGRAM: {                                                                \
+        raw_type raw = (raw_type)1;                                                                      \
+        const fieldscribe_can_status status =                                                            \
+            function##_received((const fieldscribe_can_receiver *)v->receiver, &raw);                    \
+        out->status = (int)status;                                                                       \
+        out->status_text = fieldscribe_can_status_text(status);                                          \
+        out->untouched = raw == (raw_type)1;                                                             \
+        out->raw = (uint64_t)raw;                                                                        \
+        out->answered = true;                                                                            \
+        break;                                                                                           \
+    }
+
 #define FIELDSCRIBE_FLAG(flag, bits)              \
     if (strcmp(v->name, flag) == 0) {             \
         out->number = (uint64_t)(bits);           \
@@ -267,6 +393,23 @@ typedef struct fieldscribe_suite {
         out->other = (uint64_t)(last);            \
         out->answered = true;                     \
     }
+
+static inline void fieldscribe_put_word(fieldscribe_outcome *out, uint16_t word)
+{
+    if (out->word_count < (size_t)FIELDSCRIBE_WORDS_MOST) {
+        out->words[out->word_count] = word;
+    }
+    ++out->word_count;
+}
+
+#if defined(FIELDSCRIBE_CAN_H)
+static inline const char *fieldscribe_can_status_text(fieldscribe_can_status status)
+{
+    static const char *const names[] = {"ok", "bad_unit", "bad_address", "bad_value", "wrong_id", "wrong_length",
+        "wrong_constant", "wrong_unit", "wrong_check", "wrong_address", "echo_mismatch", "missing", "torn"};
+    return names[(size_t)status];
+}
+#endif
 
 /* One more constant; more than there is room for agree with no line. */
 static inline void fieldscribe_keep(fieldscribe_outcome *out, const char *key, uint64_t number, const char *text)
@@ -442,6 +585,35 @@ static size_t fieldscribe_array(const char *value, uint16_t *numbers, size_t mos
     return count;
 }
 
+static int fieldscribe_digit(char digit)
+{
+    if (digit >= '0' && digit <= '9') {
+        return digit - '0';
+    }
+    return digit >= 'a' && digit <= 'f' ? digit - 'a' + 10 : digit >= 'A' && digit <= 'F' ? digit - 'A' + 10 : -1;
+}
+
+/* Bytes from hexadecimal text; returns how many. */
+static size_t fieldscribe_bytes(const char *value, uint8_t *bytes, size_t most)
+{
+    size_t count = 0U;
+    if (value == NULL || *value != '"') {
+        return 0U;
+    }
+    ++value;
+    while (count < most) {
+        const int high = fieldscribe_digit(value[0]);
+        const int low = high < 0 ? -1 : fieldscribe_digit(value[1]);
+        if (low < 0) {
+            break;
+        }
+        bytes[count] = (uint8_t)(high * 16 + low);
+        ++count;
+        value += 2;
+    }
+    return count;
+}
+
 static bool fieldscribe_same_text(const char *value, const char *text)
 {
     char expected[FIELDSCRIBE_TEXT_MOST];
@@ -480,6 +652,12 @@ static void fieldscribe_read_vector(const char *line, const fieldscribe_adapter 
     v->replaced = fieldscribe_integer(fieldscribe_member(line, "replaced"));
     v->value = fieldscribe_real(fieldscribe_member(line, "float"));
     fieldscribe_text(flag != NULL ? flag : fieldscribe_member(line, "special"), v->name, sizeof v->name);
+    if (v->kind == FIELDSCRIBE_KIND_TEXT_DECODE || v->kind == FIELDSCRIBE_KIND_DIGITS_ENCODE) {
+        const char *const parts = v->kind == FIELDSCRIBE_KIND_TEXT_DECODE ? "words" : "digits";
+        (void)fieldscribe_array(fieldscribe_member(line, parts), v->words, FIELDSCRIBE_WORDS_MOST);
+    } else if (v->kind == FIELDSCRIBE_KIND_TEXT_ENCODE) {
+        v->byte_count = fieldscribe_bytes(fieldscribe_member(line, "text"), v->bytes, sizeof v->bytes);
+    }
     for (at = 0U; at < FIELDSCRIBE_WITH_MOST && adapter->arguments[at] != NULL; ++at) {
         v->with[at] = fieldscribe_integer(with != NULL ? fieldscribe_member(with, adapter->arguments[at]) : NULL);
     }
@@ -504,13 +682,54 @@ static bool fieldscribe_same_constants(const char *line, const fieldscribe_outco
     return fieldscribe_same_text(fieldscribe_member(line, "code"), out->text);
 }
 
+/* Whether the words are those that the line gives under a key. */
+static bool fieldscribe_same_words(const char *line, const char *key, const fieldscribe_outcome *out)
+{
+    uint16_t words[FIELDSCRIBE_WORDS_MOST];
+    const size_t count = fieldscribe_array(fieldscribe_member(line, key), words, FIELDSCRIBE_WORDS_MOST);
+    return count == out->word_count && count <= (size_t)FIELDSCRIBE_WORDS_MOST &&
+        memcmp(words, out->words, count * sizeof words[0]) == 0;
+}
+
+static bool fieldscribe_same_bytes(const char *line, const char *key, const void *bytes, size_t length)
+{
+    uint8_t expected[FIELDSCRIBE_BYTES_MOST];
+    const size_t count = fieldscribe_bytes(fieldscribe_member(line, key), expected, sizeof expected);
+    return count == length && memcmp(expected, bytes, count) == 0;
+}
+
+/* Whether the index and the telegram of a point are those of the line, where `null` stands for none. */
+static bool fieldscribe_same_place(const fieldscribe_suite *suite, const char *line, const fieldscribe_outcome *out)
+{
+    const char *const index = fieldscribe_member(line, "index");
+    const char *const telegram = fieldscribe_member(line, "telegram");
+    size_t expected = 0U;
+    size_t at;
+    if (index == NULL || telegram == NULL) {
+        return false;
+    }
+    expected += *index != 'n' ? 1U : 0U;
+    expected += *telegram != 'n' ? 1U : 0U;
+    for (at = 0U; at < out->constant_count; ++at) {
+        const fieldscribe_constant *const one = &out->constants[at];
+        const bool same = strcmp(one->key, "index") == 0
+            ? *index != 'n' && fieldscribe_integer(index).bits == one->number
+            : fieldscribe_same_text(telegram, suite->telegrams[one->number]);
+        if (!same) {
+            return false;
+        }
+    }
+    return out->constant_count == expected && fieldscribe_same_words(line, "addresses", out);
+}
+
 /* Whether the answer is the one that the line gives. */
 static bool fieldscribe_agrees(const fieldscribe_suite *suite, const fieldscribe_vector *v, const fieldscribe_outcome *out)
 {
     const char *const line = v->line;
     const char *const status = fieldscribe_member(line, "status");
-    uint16_t words[8] = {0U};
-    if (status != NULL && !fieldscribe_same_text(status, fieldscribe_status_text(suite->statuses, out->status))) {
+    const char *const answered =
+        out->status_text != NULL ? out->status_text : fieldscribe_status_text(suite->statuses, out->status);
+    if (status != NULL && !fieldscribe_same_text(status, answered)) {
         return false;
     }
     if (out->status != 0) {
@@ -537,8 +756,20 @@ static bool fieldscribe_agrees(const fieldscribe_suite *suite, const fieldscribe
     case FIELDSCRIBE_KIND_BITS:
         return fieldscribe_same_integer(line, "raw", out->raw) && fieldscribe_same_integer(line, "result", out->number);
     case FIELDSCRIBE_KIND_WORDS:
-        return fieldscribe_array(fieldscribe_member(line, "words"), words, 8U) == out->word_count &&
-            memcmp(words, out->words, sizeof words) == 0 && fieldscribe_same_integer(line, "raw", out->raw);
+        return fieldscribe_same_words(line, "words", out) && fieldscribe_same_integer(line, "raw", out->raw);
+    case FIELDSCRIBE_KIND_PLACE:
+        return fieldscribe_same_place(suite, line, out);
+    case FIELDSCRIBE_KIND_FIXED:
+        return fieldscribe_same_integer(line, "mask", out->number) && fieldscribe_same_integer(line, "bits", out->other);
+    case FIELDSCRIBE_KIND_TEXT_DECODE:
+        return fieldscribe_same_bytes(line, "text", out->bytes, out->byte_count);
+    case FIELDSCRIBE_KIND_TEXT_ENCODE:
+        return fieldscribe_same_words(line, "words", out);
+    case FIELDSCRIBE_KIND_DIGITS:
+        return fieldscribe_same_words(line, "digits", out);
+    case FIELDSCRIBE_KIND_DIGITS_ENCODE:
+    case FIELDSCRIBE_KIND_CAN_TELEGRAM:
+        return fieldscribe_same_integer(line, "raw", out->raw);
     case FIELDSCRIBE_KIND_ADDRESS:
         return fieldscribe_same_integer(line, "address", out->number) &&
             fieldscribe_same_integer(line, "words", out->other) &&
@@ -580,35 +811,6 @@ static const char *fieldscribe_modbus_status_text(fieldscribe_modbus_status stat
         "buffer_too_small", "short_frame", "long_frame", "bad_crc", "bad_protocol", "wrong_transaction", "wrong_unit", "wrong_function",
         "exception", "bad_byte_count", "echo_mismatch"};
     return names[(size_t)status];
-}
-
-static int fieldscribe_digit(char digit)
-{
-    if (digit >= '0' && digit <= '9') {
-        return digit - '0';
-    }
-    return digit >= 'a' && digit <= 'f' ? digit - 'a' + 10 : digit >= 'A' && digit <= 'F' ? digit - 'A' + 10 : -1;
-}
-
-/* Bytes from hexadecimal text; returns how many. */
-static size_t fieldscribe_bytes(const char *value, uint8_t *bytes, size_t most)
-{
-    size_t count = 0U;
-    if (value == NULL || *value != '"') {
-        return 0U;
-    }
-    ++value;
-    while (count < most) {
-        const int high = fieldscribe_digit(value[0]);
-        const int low = high < 0 ? -1 : fieldscribe_digit(value[1]);
-        if (low < 0) {
-            break;
-        }
-        bytes[count] = (uint8_t)(high * 16 + low);
-        ++count;
-        value += 2;
-    }
-    return count;
 }
 
 static fieldscribe_modbus_framing fieldscribe_read_request(
@@ -687,6 +889,198 @@ static bool fieldscribe_run_block(const fieldscribe_suite *suite, const char *li
 }
 #endif
 
+#if defined(FIELDSCRIBE_CAN_H) || defined(FIELDSCRIBE_USS_H)
+/* A number from 0 on, or `most` for one that is larger. */
+static uint32_t fieldscribe_at_most(const char *line, const char *key, uint32_t most)
+{
+    const fieldscribe_number number = fieldscribe_integer(fieldscribe_member(line, key));
+    return number.negative || number.bits > most ? most : (uint32_t)number.bits;
+}
+#endif
+
+#if defined(FIELDSCRIBE_CAN_H)
+static const fieldscribe_can_message *fieldscribe_find_message(const fieldscribe_suite *suite, const char *line)
+{
+    const fieldscribe_named_message *one = suite->messages;
+    while (one->name != NULL && !fieldscribe_same_text(fieldscribe_member(line, "message"), one->name)) {
+        ++one;
+    }
+    return one->message;
+}
+
+static fieldscribe_can_frame fieldscribe_read_frame(uint64_t id, const char *data)
+{
+    uint8_t bytes[FIELDSCRIBE_BYTES_MOST] = {0U};
+    fieldscribe_can_frame frame;
+    frame.id = (uint32_t)id;
+    frame.length = (uint8_t)fieldscribe_bytes(data, bytes, 255U);
+    memcpy(frame.data, bytes, sizeof frame.data);
+    return frame;
+}
+
+static bool fieldscribe_run_can_build(const fieldscribe_suite *suite, const char *line)
+{
+    const fieldscribe_can_message *const message = fieldscribe_find_message(suite, line);
+    const uint32_t unit = fieldscribe_at_most(line, "unit", UINT32_MAX);
+    const uint32_t address = fieldscribe_at_most(line, "address", UINT32_MAX);
+    const uint32_t raw = fieldscribe_at_most(line, "raw", UINT32_MAX);
+    fieldscribe_can_frame frame;
+    fieldscribe_can_status status;
+    memset(&frame, 0, sizeof frame);
+    if (message == NULL) {
+        return false;
+    }
+    status = fieldscribe_can_build(suite->profile, message, unit, address, raw, &frame);
+    return fieldscribe_same_text(fieldscribe_member(line, "status"), fieldscribe_can_status_text(status)) &&
+        fieldscribe_same_integer(line, "id", frame.id) && fieldscribe_same_bytes(line, "bytes", frame.data, frame.length);
+}
+
+static bool fieldscribe_run_can_parse(const fieldscribe_suite *suite, const char *line)
+{
+    const fieldscribe_can_message *const message = fieldscribe_find_message(suite, line);
+    const fieldscribe_can_frame frame = fieldscribe_read_frame(
+        fieldscribe_integer(fieldscribe_member(line, "id")).bits, fieldscribe_member(line, "bytes"));
+    uint16_t address = 1U;
+    uint16_t raw = 1U;
+    fieldscribe_can_status status;
+    if (message == NULL) {
+        return false;
+    }
+    status = fieldscribe_can_parse(message, (uint8_t)fieldscribe_at_most(line, "unit", 255U), &frame, &address, &raw);
+    return fieldscribe_same_text(fieldscribe_member(line, "status"), fieldscribe_can_status_text(status)) &&
+        fieldscribe_same_integer(line, "address", address) && fieldscribe_same_integer(line, "raw", raw);
+}
+
+/* Feeds the frames of a line to a receiver; false when it takes others than it should. */
+static bool fieldscribe_feed(const char *line, fieldscribe_can_receiver *receiver)
+{
+    uint16_t taken[FIELDSCRIBE_WORDS_MOST] = {0U};
+    const size_t count = fieldscribe_array(fieldscribe_member(line, "taken"), taken, FIELDSCRIBE_WORDS_MOST);
+    const char *at = fieldscribe_member(line, "frames");
+    size_t fed = 0U;
+    if (at == NULL || *at != '[' || count > (size_t)FIELDSCRIBE_WORDS_MOST) {
+        return false;
+    }
+    ++at;
+    while (*at == '[' || *at == ' ' || *at == ',') {
+        if (*at == '[') {
+            const char *const data = strchr(at, '"');
+            const fieldscribe_can_frame frame = fieldscribe_read_frame(fieldscribe_integer(at + 1).bits, data);
+            if (fed == count || fieldscribe_can_take(receiver, &frame) != (taken[fed] != 0U)) {
+                return false;
+            }
+            ++fed;
+            at = fieldscribe_skip_value(at);
+        } else {
+            ++at;
+        }
+    }
+    return fed == count;
+}
+
+static bool fieldscribe_run_can_telegram(const fieldscribe_suite *suite, const char *line, fieldscribe_vector *v)
+{
+    static fieldscribe_can_slot slots[256];
+    const fieldscribe_named_telegram *one = suite->cyclic;
+    fieldscribe_can_receiver receiver;
+    while (one->name != NULL && !fieldscribe_same_text(fieldscribe_member(line, "telegram"), one->name)) {
+        ++one;
+    }
+    if (one->name == NULL || fieldscribe_can_slots(one->telegram) > 256U) {
+        return false;
+    }
+    memset(slots, 0x5A, sizeof slots);
+    receiver = fieldscribe_can_listen(one->telegram, (uint8_t)fieldscribe_at_most(line, "unit", 255U), slots);
+    v->receiver = &receiver;
+    return fieldscribe_feed(line, &receiver) && fieldscribe_run_point(suite, line, v);
+}
+#endif
+
+#if defined(FIELDSCRIBE_USS_H)
+static const char *fieldscribe_uss_status_text(fieldscribe_uss_status status)
+{
+    static const char *const names[] = {"ok", "bad_link", "bad_unit", "bad_task", "bad_parameter", "bad_index",
+        "bad_value", "buffer_too_small", "wrong_start", "wrong_length", "wrong_check", "wrong_unit", "wrong_parameter",
+        "no_answer", "refused", "no_rights", "wrong_response"};
+    return names[(size_t)status];
+}
+
+static fieldscribe_uss_link fieldscribe_read_link(const char *line)
+{
+    const char *const single_first = fieldscribe_member(line, "single_first");
+    fieldscribe_uss_link link;
+    link.pkw = (uint8_t)fieldscribe_at_most(line, "pkw", 255U);
+    link.pzd = (uint8_t)fieldscribe_at_most(line, "pzd", 255U);
+    link.single_first = single_first != NULL && *single_first == 't';
+    return link;
+}
+
+static fieldscribe_uss_request fieldscribe_read_task(const char *line)
+{
+    fieldscribe_uss_request request;
+    request.unit = (uint8_t)fieldscribe_at_most(line, "unit", 255U);
+    request.task = (uint8_t)fieldscribe_at_most(line, "task", 255U);
+    request.parameter = (uint16_t)fieldscribe_at_most(line, "parameter", 65535U);
+    request.index = (uint16_t)fieldscribe_at_most(line, "index", 65535U);
+    request.width = (uint8_t)fieldscribe_at_most(line, "width", 255U);
+    request.value = fieldscribe_at_most(line, "value", UINT32_MAX);
+    return request;
+}
+
+static bool fieldscribe_run_uss_build(const fieldscribe_suite *suite, const char *line)
+{
+    uint16_t words[FIELDSCRIBE_WORDS_MOST] = {0U};
+    uint8_t built[FIELDSCRIBE_USS_MOST];
+    size_t length = 0U;
+    const fieldscribe_uss_link link = fieldscribe_read_link(line);
+    const fieldscribe_uss_request request = fieldscribe_read_task(line);
+    const size_t count = fieldscribe_array(fieldscribe_member(line, "words"), words, FIELDSCRIBE_WORDS_MOST);
+    fieldscribe_uss_status status =
+        fieldscribe_uss_build(suite->profile, &link, &request, words, count, built, sizeof built, &length);
+    if (status == FIELDSCRIBE_USS_OK && !fieldscribe_same_integer(line, "value", request.value)) {
+        status = FIELDSCRIBE_USS_BAD_VALUE; /* the argument's type alone refuses it */
+        length = 0U;
+    }
+    return fieldscribe_same_text(fieldscribe_member(line, "status"), fieldscribe_uss_status_text(status)) &&
+        fieldscribe_same_bytes(line, "bytes", built, length);
+}
+
+static bool fieldscribe_run_uss_broadcast(const fieldscribe_suite *suite, const char *line)
+{
+    uint16_t mask[4] = {0U};
+    uint16_t words[FIELDSCRIBE_WORDS_MOST] = {0U};
+    uint8_t built[FIELDSCRIBE_USS_MOST];
+    size_t length = 0U;
+    const fieldscribe_uss_link link = fieldscribe_read_link(line);
+    const size_t masks = fieldscribe_array(fieldscribe_member(line, "mask"), mask, 4U);
+    const size_t count = fieldscribe_array(fieldscribe_member(line, "words"), words, FIELDSCRIBE_WORDS_MOST);
+    const fieldscribe_uss_status status =
+        fieldscribe_uss_build_broadcast(suite->profile, &link, mask, words, count, built, sizeof built, &length);
+    return masks == 4U &&
+        fieldscribe_same_text(fieldscribe_member(line, "status"), fieldscribe_uss_status_text(status)) &&
+        fieldscribe_same_bytes(line, "bytes", built, length);
+}
+
+static bool fieldscribe_run_uss_reply(const fieldscribe_suite *suite, const char *line)
+{
+    uint16_t words[FIELDSCRIBE_WORDS_MOST] = {0U};
+    uint16_t wanted[FIELDSCRIBE_WORDS_MOST];
+    uint8_t bytes[FIELDSCRIBE_BYTES_MOST];
+    fieldscribe_uss_reply reply;
+    const fieldscribe_uss_link link = fieldscribe_read_link(line);
+    const fieldscribe_uss_request request = fieldscribe_read_task(line);
+    const size_t length = fieldscribe_bytes(fieldscribe_member(line, "bytes"), bytes, sizeof bytes);
+    const fieldscribe_uss_status status = fieldscribe_uss_parse(
+        suite->profile, &link, &request, bytes, length, words, FIELDSCRIBE_WORDS_MOST, &reply);
+    const size_t count = fieldscribe_array(fieldscribe_member(line, "words"), wanted, FIELDSCRIBE_WORDS_MOST);
+    return fieldscribe_same_text(fieldscribe_member(line, "status"), fieldscribe_uss_status_text(status)) &&
+        fieldscribe_same_integer(line, "response", reply.response) &&
+        fieldscribe_same_integer(line, "width", reply.width) && fieldscribe_same_integer(line, "value", reply.value) &&
+        fieldscribe_same_integer(line, "error", reply.error) && count == (status == FIELDSCRIBE_USS_OK ? link.pzd : 0U) &&
+        memcmp(words, wanted, count * sizeof words[0]) == 0;
+}
+#endif
+
 /* ---- The run ---- */
 
 static int fieldscribe_kind_of(const char *line)
@@ -720,6 +1114,26 @@ static bool fieldscribe_run_line(const fieldscribe_suite *suite, const char *lin
     }
     if (v->kind == FIELDSCRIBE_KIND_BLOCK) {
         return fieldscribe_run_block(suite, line);
+    }
+#elif defined(FIELDSCRIBE_CAN_H)
+    if (v->kind == FIELDSCRIBE_KIND_CAN_BUILD) {
+        return fieldscribe_run_can_build(suite, line);
+    }
+    if (v->kind == FIELDSCRIBE_KIND_CAN_PARSE) {
+        return fieldscribe_run_can_parse(suite, line);
+    }
+    if (v->kind == FIELDSCRIBE_KIND_CAN_TELEGRAM) {
+        return fieldscribe_run_can_telegram(suite, line, v);
+    }
+#elif defined(FIELDSCRIBE_USS_H)
+    if (v->kind == FIELDSCRIBE_KIND_USS_BUILD || v->kind == FIELDSCRIBE_KIND_USS_PRINTED_BUILD) {
+        return fieldscribe_run_uss_build(suite, line);
+    }
+    if (v->kind == FIELDSCRIBE_KIND_USS_BROADCAST) {
+        return fieldscribe_run_uss_broadcast(suite, line);
+    }
+    if (v->kind == FIELDSCRIBE_KIND_USS_REPLY || v->kind == FIELDSCRIBE_KIND_USS_PRINTED_REPLY) {
+        return fieldscribe_run_uss_reply(suite, line);
     }
 #endif
     return fieldscribe_run_point(suite, line, v);

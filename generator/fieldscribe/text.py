@@ -88,6 +88,13 @@ def rust_string(text: str) -> str:
 
 
 @lru_cache(maxsize=65536)
+def dbc_string(text: str) -> str:
+    """A string of a CAN database with its quotes: Latin-1, without what would end it or be read as an escape."""
+    cleaned = line(text).replace("\\", "/").replace('"', "'")
+    return '"' + cleaned.encode("latin-1", "replace").decode("latin-1") + '"'
+
+
+@lru_cache(maxsize=65536)
 def markdown(text: str) -> str:
     """Text for a Markdown paragraph or table cell: no markup, no HTML, no link, no cell border."""
     cleaned = line(text).replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")

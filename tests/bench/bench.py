@@ -85,8 +85,10 @@ def main() -> None:
     row("--help", None, measure([*FIELDSCRIBE, "--help"], arguments.runs, environment=dict(os.environ)))
     with tempfile.TemporaryDirectory() as folder:
         scratch = Path(folder)
-        for description in sorted(ROOT.glob("descriptions/*/device.yaml")):
-            bench_device(description.parent.name, description.parent, _points(description), arguments.runs, scratch)
+        counts = {one.parent: _points(one) for one in sorted(ROOT.glob("descriptions/*/device.yaml"))}
+        for description, points in counts.items():
+            bench_device(description.name, description, points, arguments.runs, scratch)
+        bench_device("all devices", ROOT / "descriptions", sum(counts.values()), arguments.runs, scratch)
         for size in map(int, arguments.sizes.split(",")):
             bench_device(f"synthetic_{size}", write_device(scratch, size), size, arguments.runs, scratch)
 

@@ -3551,6 +3551,10 @@ static const fieldscribe_adapter adapters[] = {
     {NULL, {NULL}, NULL}
 };
 
+static const char *const telegrams[] = {
+    NULL
+};
+
 static const fieldscribe_blocks blocks[] = {
     {"coils", hitachi_l200_coils_blocks, HITACHI_L200_COILS_BLOCKS_COUNT},
     {"status", hitachi_l200_status_blocks, HITACHI_L200_STATUS_BLOCKS_COUNT},
@@ -3571,6 +3575,7 @@ int main(int argc, char **argv)
     suite.spaces = spaces;
     suite.statuses = statuses;
     suite.adapters = adapters;
+    suite.telegrams = telegrams;
     suite.profile = &hitachi_l200_modbus_profile;
     suite.blocks = blocks;
     return fieldscribe_run(&suite, argc, argv);

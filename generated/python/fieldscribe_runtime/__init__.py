@@ -1,9 +1,13 @@
 # SPDX-License-Identifier: 0BSD
-"""What generated devices are made of: points, forms, frames and devices. It needs nothing but Python 3.11."""
+"""What generated devices are made of: points, forms and devices. It needs nothing but Python 3.11.
+
+Each bus family is a package of its own (`modbus`, `can`, `uss`) with its frames, its session and its devices; what
+stands beside these packages knows no bus. The names of Modbus are here too.
+"""
 
 from .commands import Command
 from .descriptors import ByVariant, ReadOnly, ReadWrite, WriteOnly, renamed
-from .device import AsyncDevice, AsyncTransport, Device, Transport
+from .device import AnyAsyncDevice, AnyDevice
 from .errors import (
     AccessError,
     CodecError,
@@ -12,16 +16,28 @@ from .errors import (
     FrameError,
     MissingRawError,
     NoCaseError,
+    NoReplyError,
     NotANumberError,
     NoValueError,
     RangeError,
+    RefusedError,
     RequestError,
     ResultOverflowError,
+    TelegramError,
     UnknownValueError,
     WrongLengthError,
     ZeroFactorError,
 )
-from .facts import Place, coil, discrete, holding, input_register
+from .facts import (
+    Place,
+    Telegram,
+    coil,
+    discrete,
+    holding,
+    input_register,
+    parameter,
+    telegram,
+)
 from .forms import (
     BIT,
     F32,
@@ -39,13 +55,24 @@ from .forms import (
     Integer,
     Named,
 )
-from .modbus import Profile
-from .planner import Block
+from .modbus import (
+    AsyncModbusDevice,
+    AsyncTransport,
+    Block,
+    ModbusDevice,
+    Profile,
+    Transport,
+)
 from .points import Point
-from .quantities import Floating, OrNone, Scaled
+from .quantities import Floating, Scaled
 from .rules import Case, Factor, Limit, Rule
 from .session import PointTable, Value
+from .texts import Digits, Text
 from .words import Field, Flag
+from .wrappers import OrNone
+
+Device = ModbusDevice
+AsyncDevice = AsyncModbusDevice
 
 __all__ = [
     "BIT",
@@ -60,7 +87,10 @@ __all__ = [
     "U32",
     "U64",
     "AccessError",
+    "AnyAsyncDevice",
+    "AnyDevice",
     "AsyncDevice",
+    "AsyncModbusDevice",
     "AsyncTransport",
     "Bit",
     "Block",
@@ -69,6 +99,7 @@ __all__ = [
     "CodecError",
     "Command",
     "Device",
+    "Digits",
     "ExceptionReplyError",
     "Factor",
     "Field",
@@ -80,8 +111,10 @@ __all__ = [
     "Integer",
     "Limit",
     "MissingRawError",
+    "ModbusDevice",
     "Named",
     "NoCaseError",
+    "NoReplyError",
     "NoValueError",
     "NotANumberError",
     "OrNone",
@@ -92,10 +125,14 @@ __all__ = [
     "RangeError",
     "ReadOnly",
     "ReadWrite",
+    "RefusedError",
     "RequestError",
     "ResultOverflowError",
     "Rule",
     "Scaled",
+    "Telegram",
+    "TelegramError",
+    "Text",
     "Transport",
     "UnknownValueError",
     "Value",
@@ -106,5 +143,7 @@ __all__ = [
     "discrete",
     "holding",
     "input_register",
+    "parameter",
     "renamed",
+    "telegram",
 ]

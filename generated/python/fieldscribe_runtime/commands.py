@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, overload
 from .errors import AccessError
 
 if TYPE_CHECKING:
-    from .device import AsyncDevice, Device
+    from .device import AnyAsyncDevice, AnyDevice
     from .facts import Place
     from .session import Session, Steps
 
@@ -27,10 +27,10 @@ class Command:
     @overload
     def __get__(self, device: None, owner: object) -> Command: ...
     @overload
-    def __get__(self, device: Device, owner: object) -> CommandHandle: ...
+    def __get__(self, device: AnyDevice, owner: object) -> CommandHandle: ...
     @overload
-    def __get__(self, device: AsyncDevice, owner: object) -> AsyncCommandHandle: ...
-    def __get__(self, device: Device | AsyncDevice | None, owner: object) -> object:
+    def __get__(self, device: AnyAsyncDevice, owner: object) -> AsyncCommandHandle: ...
+    def __get__(self, device: AnyDevice | AnyAsyncDevice | None, owner: object) -> object:
         return self if device is None else device.command(self)
 
     def __set__(self, device: object, value: object) -> None:
@@ -47,7 +47,7 @@ class Command:
 class CommandHandle:
     """A command of a device."""
 
-    def __init__(self, command: Command, device: Device) -> None:
+    def __init__(self, command: Command, device: AnyDevice) -> None:
         self._command = command
         self._device = device
 
@@ -59,7 +59,7 @@ class CommandHandle:
 class AsyncCommandHandle:
     """A command of an async device."""
 
-    def __init__(self, command: Command, device: AsyncDevice) -> None:
+    def __init__(self, command: Command, device: AnyAsyncDevice) -> None:
         self._command = command
         self._device = device
 

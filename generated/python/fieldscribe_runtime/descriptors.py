@@ -5,31 +5,46 @@ from __future__ import annotations
 
 import copy
 import warnings
-from typing import TYPE_CHECKING, Any, Generic, Never, TypeVar, Unpack, overload
+from typing import (
+    TYPE_CHECKING,
+    Any,
+    ClassVar,
+    Generic,
+    Never,
+    Self,
+    TypeVar,
+    Unpack,
+    overload,
+)
 
 from .errors import AccessError
 from .facts import FactArguments, Facts
+from .handles import (
+    AsyncHandle,
+    AsyncReadHandle,
+    AsyncReadWriteHandle,
+    AsyncWriteHandle,
+    Handle,
+    ReadHandle,
+    ReadWriteHandle,
+    WriteHandle,
+)
 from .points import Decoding, Encoding, Point
+from .wrappers import FixedBits
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from .device import AsyncDevice, Device
+    from .device import AnyAsyncDevice, AnyDevice
     from .forms import Decodes, Encodes, Form
-    from .handles import (
-        AsyncReadHandle,
-        AsyncReadWriteHandle,
-        AsyncWriteHandle,
-        ReadHandle,
-        ReadWriteHandle,
-        WriteHandle,
-    )
 
-R = TypeVar("R")
-W = TypeVar("W")
 R_co = TypeVar("R_co", covariant=True)
 W_contra = TypeVar("W_contra", contravariant=True)
-P_co = TypeVar("P_co", bound=Point, covariant=True)
+P_co = TypeVar("P_co", bound="PointAttribute[Any, Any]", covariant=True)
+H = TypeVar("H")
+A = TypeVar("A")
+H_co = TypeVar("H_co", covariant=True)
+A_co = TypeVar("A_co", covariant=True)
 
 
 class _Attribute:
@@ -46,12 +61,16 @@ class _Attribute:
             warnings.warn(f"{self.old_name} is now called {self.new_name}", DeprecationWarning, stacklevel=3)
 
 
-class PointAttribute(_Attribute, Point):
-    """A point as the attribute of a table of points."""
+class PointAttribute(_Attribute, Point, Generic[H_co, A_co]):
+    """A point as the attribute of a table of points: on a device it is a handle, H of a blocking one, A of an async."""
+
+    handle: ClassVar[type[Handle]]
+    async_handle: ClassVar[type[AsyncHandle]]
 
     def __init__(self, form: Any, **facts: Unpack[FactArguments]) -> None:
-        self._form = form
         self.facts = Facts(**facts)
+        whole_word = self.facts.bits is None
+        self._form = FixedBits(form, *self.facts.fixed) if self.facts.fixed and whole_word else form
 
     def __set_name__(self, owner: type, name: str) -> None:
         if self.new_name is not None:
@@ -60,56 +79,49 @@ class PointAttribute(_Attribute, Point):
             self.facts.item = name.rstrip("_")
             self.facts.name = self.facts.name or self.facts.item
 
+    @overload
+    def __get__(self, device: None, owner: object) -> Self: ...
+    @overload
+    def __get__(self, device: AnyDevice, owner: object) -> H_co: ...
+    @overload
+    def __get__(self, device: AnyAsyncDevice, owner: object) -> A_co: ...
+    def __get__(self, device: AnyDevice | AnyAsyncDevice | None, owner: object) -> object:
+        self._warn()
+        return self if device is None else device.handle(self)
 
-class ReadOnly(PointAttribute, Decoding[R_co]):
+
+class ReadOnly(PointAttribute[ReadHandle[R_co], AsyncReadHandle[R_co]], Decoding[R_co]):
     """A point that can only be read."""
+
+    handle = ReadHandle
+    async_handle = AsyncReadHandle
 
     def __init__(self, form: Decodes[R_co], **facts: Unpack[FactArguments]) -> None:
         super().__init__(form, **facts)
 
-    @overload
-    def __get__(self, device: None, owner: object) -> ReadOnly[R_co]: ...
-    @overload
-    def __get__(self, device: Device, owner: object) -> ReadHandle[R_co]: ...
-    @overload
-    def __get__(self, device: AsyncDevice, owner: object) -> AsyncReadHandle[R_co]: ...
-    def __get__(self, device: Device | AsyncDevice | None, owner: object) -> object:
-        self._warn()
-        return self if device is None else device.handle(self)
 
-
-class WriteOnly(PointAttribute, Encoding[W_contra]):
+class WriteOnly(PointAttribute[WriteHandle[W_contra], AsyncWriteHandle[W_contra]], Encoding[W_contra]):
     """A point that can only be written."""
+
+    handle = WriteHandle
+    async_handle = AsyncWriteHandle
 
     def __init__(self, form: Encodes[W_contra], **facts: Unpack[FactArguments]) -> None:
         super().__init__(form, **facts)
 
-    @overload
-    def __get__(self, device: None, owner: object) -> WriteOnly[W_contra]: ...
-    @overload
-    def __get__(self, device: Device, owner: object) -> WriteHandle[W_contra]: ...
-    @overload
-    def __get__(self, device: AsyncDevice, owner: object) -> AsyncWriteHandle[W_contra]: ...
-    def __get__(self, device: Device | AsyncDevice | None, owner: object) -> object:
-        self._warn()
-        return self if device is None else device.handle(self)
 
-
-class ReadWrite(PointAttribute, Decoding[R_co], Encoding[W_contra]):
+class ReadWrite(
+    PointAttribute[ReadWriteHandle[R_co, W_contra], AsyncReadWriteHandle[R_co, W_contra]],
+    Decoding[R_co],
+    Encoding[W_contra],
+):
     """A point that can be read and written."""
+
+    handle = ReadWriteHandle
+    async_handle = AsyncReadWriteHandle
 
     def __init__(self, form: Form[R_co, W_contra], **facts: Unpack[FactArguments]) -> None:
         super().__init__(form, **facts)
-
-    @overload
-    def __get__(self, device: None, owner: object) -> ReadWrite[R_co, W_contra]: ...
-    @overload
-    def __get__(self, device: Device, owner: object) -> ReadWriteHandle[R_co, W_contra]: ...
-    @overload
-    def __get__(self, device: AsyncDevice, owner: object) -> AsyncReadWriteHandle[R_co, W_contra]: ...
-    def __get__(self, device: Device | AsyncDevice | None, owner: object) -> object:
-        self._warn()
-        return self if device is None else device.handle(self)
 
 
 class ByVariant(_Attribute, Generic[P_co]):
@@ -125,18 +137,10 @@ class ByVariant(_Attribute, Generic[P_co]):
     @overload
     def __get__(self, device: None, owner: object) -> ByVariant[P_co]: ...
     @overload
-    def __get__(self: ByVariant[ReadWrite[R, W]], device: Device, owner: object) -> ReadWriteHandle[R, W]: ...
+    def __get__(self: ByVariant[PointAttribute[H, A]], device: AnyDevice, owner: object) -> H: ...
     @overload
-    def __get__(self: ByVariant[ReadWrite[R, W]], device: AsyncDevice, owner: object) -> AsyncReadWriteHandle[R, W]: ...
-    @overload
-    def __get__(self: ByVariant[ReadOnly[R]], device: Device, owner: object) -> ReadHandle[R]: ...
-    @overload
-    def __get__(self: ByVariant[ReadOnly[R]], device: AsyncDevice, owner: object) -> AsyncReadHandle[R]: ...
-    @overload
-    def __get__(self: ByVariant[WriteOnly[W]], device: Device, owner: object) -> WriteHandle[W]: ...
-    @overload
-    def __get__(self: ByVariant[WriteOnly[W]], device: AsyncDevice, owner: object) -> AsyncWriteHandle[W]: ...
-    def __get__(self, device: Device | AsyncDevice | None, owner: object) -> object:
+    def __get__(self: ByVariant[PointAttribute[H, A]], device: AnyAsyncDevice, owner: object) -> A: ...
+    def __get__(self, device: AnyDevice | AnyAsyncDevice | None, owner: object) -> object:
         self._warn()
         if device is None:
             return self

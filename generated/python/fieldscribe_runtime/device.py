@@ -5,66 +5,37 @@ from __future__ import annotations
 
 import asyncio
 import threading
-from typing import TYPE_CHECKING, Protocol, TypeVar
+from abc import abstractmethod
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from .commands import AsyncCommandHandle, Command, CommandHandle
-from .descriptors import ReadOnly, ReadWrite
-from .facts import Place
-from .handles import (
-    AsyncReadHandle,
-    AsyncReadWriteHandle,
-    AsyncWriteHandle,
-    ReadHandle,
-    ReadWriteHandle,
-    WriteHandle,
-)
-from .planner import read_function
-from .session import Session, Steps, Value
+from .session import Session, Steps
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
+    from .descriptors import PointAttribute
+    from .handles import AsyncHandle, Handle
     from .points import Point
 
 T = TypeVar("T")
 
 
-class Transport(Protocol):
-    """Carries one request to the bus and one reply back."""
+class AnyDevice(Session):
+    """A device of any family. One thread at a time talks to it; a transport that devices share has to do the same."""
 
-    @property
-    def framing(self) -> str:
-        """`rtu` or `tcp`: what the frames look like."""
-
-    def exchange(self, request: bytes) -> bytes:
-        """Send a frame and return the whole reply; for a broadcast (nobody answers) return no bytes."""
-
-
-class AsyncTransport(Protocol):
-    """Carries one request to the bus and one reply back, asynchronously."""
-
-    @property
-    def framing(self) -> str:
-        """`rtu` or `tcp`: what the frames look like."""
-
-    async def exchange(self, request: bytes) -> bytes:
-        """Send a frame and return the whole reply; for a broadcast (nobody answers) return no bytes."""
-
-
-class Device(Session):
-    """A device on a bus. One thread at a time talks to it; a transport that devices share has to do the same."""
-
-    def __init__(self, transport: Transport, unit: int, variants: Mapping[str, str | None] | None = None) -> None:
-        super().__init__(transport.framing, unit, variants or {})
-        self.transport = transport
+    def __init__(self, unit: int, variants: Mapping[str, str | None]) -> None:
+        super().__init__(unit, variants)
         self._lock = threading.Lock()
 
-    def handle(self, point: Point) -> Point:
+    @abstractmethod
+    def _carry(self, request: Any) -> Any:
+        """Do what one step asks of the transport."""
+
+    def handle(self, point: PointAttribute[Any, Any]) -> Handle:
         """The point, bound to this device."""
         self.require(point)
-        if isinstance(point, ReadWrite):
-            return ReadWriteHandle(point, self)
-        return ReadHandle(point, self) if isinstance(point, ReadOnly) else WriteHandle(point, self)
+        return point.handle(point, self)
 
     def command(self, command: Command) -> CommandHandle:
         """The command, bound to this device."""
@@ -76,38 +47,38 @@ class Device(Session):
             try:
                 request = next(steps)
                 while True:
-                    request = steps.send(self.transport.exchange(request))
+                    try:
+                        reply = self._carry(request)
+                    except TimeoutError as error:
+                        request = steps.throw(error)
+                    else:
+                        request = steps.send(reply)
             except StopIteration as done:
                 result: T = done.value
                 return result
+            finally:
+                steps.close()
 
-    def read_many(self, what: str | Iterable[str | Point]) -> dict[str, Value]:
+    def read_many(self, what: str | Iterable[str | Point]) -> dict[str, Any]:
         """Read a group by its name, or several points, with few requests; values by point name."""
         return self.run(self.read_many_steps(what))
 
-    def read_at(self, space: str, address: int, count: int = 1) -> tuple[int, ...]:
-        """Read words or bits by address, without any meaning."""
-        return self.run(self.ask(read_function(Place(space, (address,))), address, count))
 
-    def write_at(self, space: str, address: int, *values: int) -> None:
-        """Write words or bits by address. Nothing is checked: this can set what no point allows."""
-        self.run(self.put_steps(Place(space, tuple(range(address, address + len(values)))), values))
+class AnyAsyncDevice(Session):
+    """A device of any family, asynchronously. One task at a time talks to it; see `AnyDevice` for shared transports."""
 
-
-class AsyncDevice(Session):
-    """A device on a bus, asynchronously. One task at a time talks to it; see `Device` for shared transports."""
-
-    def __init__(self, transport: AsyncTransport, unit: int, variants: Mapping[str, str | None] | None = None) -> None:
-        super().__init__(transport.framing, unit, variants or {})
-        self.transport = transport
+    def __init__(self, unit: int, variants: Mapping[str, str | None]) -> None:
+        super().__init__(unit, variants)
         self._lock = asyncio.Lock()
 
-    def handle(self, point: Point) -> Point:
+    @abstractmethod
+    async def _carry(self, request: Any) -> Any:
+        """Do what one step asks of the transport."""
+
+    def handle(self, point: PointAttribute[Any, Any]) -> AsyncHandle:
         """The point, bound to this device."""
         self.require(point)
-        if isinstance(point, ReadWrite):
-            return AsyncReadWriteHandle(point, self)
-        return AsyncReadHandle(point, self) if isinstance(point, ReadOnly) else AsyncWriteHandle(point, self)
+        return point.async_handle(point, self)
 
     def command(self, command: Command) -> AsyncCommandHandle:
         """The command, bound to this device."""
@@ -119,19 +90,18 @@ class AsyncDevice(Session):
             try:
                 request = next(steps)
                 while True:
-                    request = steps.send(await self.transport.exchange(request))
+                    try:
+                        reply = await self._carry(request)
+                    except TimeoutError as error:
+                        request = steps.throw(error)
+                    else:
+                        request = steps.send(reply)
             except StopIteration as done:
                 result: T = done.value
                 return result
+            finally:
+                steps.close()
 
-    async def read_many(self, what: str | Iterable[str | Point]) -> dict[str, Value]:
+    async def read_many(self, what: str | Iterable[str | Point]) -> dict[str, Any]:
         """Read a group by its name, or several points, with few requests; values by point name."""
         return await self.run(self.read_many_steps(what))
-
-    async def read_at(self, space: str, address: int, count: int = 1) -> tuple[int, ...]:
-        """Read words or bits by address, without any meaning."""
-        return await self.run(self.ask(read_function(Place(space, (address,))), address, count))
-
-    async def write_at(self, space: str, address: int, *values: int) -> None:
-        """Write words or bits by address. Nothing is checked: this can set what no point allows."""
-        await self.run(self.put_steps(Place(space, tuple(range(address, address + len(values)))), values))

@@ -103,3 +103,26 @@ class ExceptionReplyError(FrameError):
         super().__init__("exception", f"the device answered exception {code:02X}h" + (f" ({name})" if name else ""))
         self.code = code
         self.name = name
+
+
+class RefusedError(FrameError):
+    """The device refused the task with an error number `code`; `name` is the manual's name for it, where known."""
+
+    def __init__(self, code: int, name: str | None = None) -> None:
+        super().__init__("refused", f"the device refused the task: error {code}" + (f" ({name})" if name else ""))
+        self.code = code
+        self.name = name
+
+
+class TelegramError(FieldscribeError):
+    """Words of a telegram cannot be told; `status` is `missing` (not all came yet) or `torn` (they do not agree)."""
+
+    def __init__(self, status: str, message: str) -> None:
+        super().__init__(message)
+        self.status = status
+
+
+class NoReplyError(FieldscribeError, TimeoutError):
+    """Nothing came that answers, in time; what was heard last, if it tells why, is the `__cause__`."""
+
+    status = "timeout"

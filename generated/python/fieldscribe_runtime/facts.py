@@ -14,11 +14,16 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """Where a point is: its space, its addresses (the high part first), and a function if it is not the usual one."""
+    """Where a point is: its space, its addresses (the high part first), and a function if it is not the usual one.
+
+    An element of an array has its `index`, words of a telegram the name of that `telegram`.
+    """
 
     space: str
     addresses: tuple[int, ...]
     function: int | None = None
+    index: int | None = None
+    telegram: str | None = None
 
     @property
     def address(self) -> int:
@@ -30,25 +35,54 @@ class Place:
         """How many words or bits a request for it covers."""
         return max(self.addresses) - min(self.addresses) + 1
 
+    def overlaps(self, other: Place) -> bool:
+        """Whether some word or bit belongs to both."""
+        same = (self.space, self.telegram) == (other.space, other.telegram)
+        same_element = self.index == other.index or None in (self.index, other.index)
+        return same and same_element and not set(self.addresses).isdisjoint(other.addresses)
 
-def coil(*addresses: int, function: int | None = None) -> Place:
+
+@dataclass(frozen=True, slots=True)
+class Telegram:
+    """A layout of words that travel together: `request` to the device, `response` or `cyclic` from it.
+
+    `message` names the message whose frames carry it, where frames of their own do.
+    """
+
+    name: str
+    direction: str
+    words: int
+    message: str | None = None
+
+
+def coil(*addresses: int, function: int | None = None, index: int | None = None) -> Place:
     """A bit that can be read and written."""
-    return Place("coil", addresses, function)
+    return Place("coil", addresses, function, index)
 
 
-def discrete(*addresses: int, function: int | None = None) -> Place:
+def discrete(*addresses: int, function: int | None = None, index: int | None = None) -> Place:
     """A bit that can be read."""
-    return Place("discrete", addresses, function)
+    return Place("discrete", addresses, function, index)
 
 
-def holding(*addresses: int, function: int | None = None) -> Place:
+def holding(*addresses: int, function: int | None = None, index: int | None = None) -> Place:
     """Registers that can be read and written."""
-    return Place("holding", addresses, function)
+    return Place("holding", addresses, function, index)
 
 
-def input_register(*addresses: int, function: int | None = None) -> Place:
+def input_register(*addresses: int, function: int | None = None, index: int | None = None) -> Place:
     """Registers that can be read."""
-    return Place("input", addresses, function)
+    return Place("input", addresses, function, index)
+
+
+def parameter(*addresses: int, function: int | None = None, index: int | None = None) -> Place:
+    """A parameter by its number, or an element of one; a text lies in several."""
+    return Place("parameter", addresses, function, index)
+
+
+def telegram(name: str, *addresses: int) -> Place:
+    """Words of a telegram, counted from 0."""
+    return Place("telegram", addresses, telegram=name)
 
 
 class FactArguments(TypedDict):
@@ -64,8 +98,11 @@ class FactArguments(TypedDict):
     allowed: NotRequired[Allowed]
     default: NotRequired[float]
     specials: NotRequired[Mapping[str, tuple[int, int]]]
+    fixed: NotRequired[tuple[int, int]]
     changes: NotRequired[str]
+    changes_with: NotRequired[tuple[str, ...]]
     variant: NotRequired[tuple[str, str]]
+    only_for: NotRequired[tuple[str, tuple[str, ...]]]
     name: NotRequired[str]
 
 
@@ -73,7 +110,9 @@ class FactArguments(TypedDict):
 class Facts:
     """What a description says of a point. `item` is what the attribute is called, `name` leaves out the variant.
 
-    `references` are the manual's other numberings of the point, `allowed` the raw numbers that it allows.
+    `references` are the manual's other numberings of the point, `allowed` the raw numbers that it allows. `fixed` is a
+    mask and the bits that the word always has there when it is written. `changes_with` names points that change it.
+    `only_for` says for which values of which axis of variants the point exists.
     """
 
     at: Place
@@ -86,7 +125,10 @@ class Facts:
     allowed: Allowed | None = None
     default: float | None = None
     specials: Mapping[str, tuple[int, int]] = field(default_factory=dict)
+    fixed: tuple[int, int] | None = None
     changes: str | None = None
+    changes_with: tuple[str, ...] = ()
     variant: tuple[str, str] | None = None
+    only_for: tuple[str, tuple[str, ...]] | None = None
     name: str = ""
     item: str = ""

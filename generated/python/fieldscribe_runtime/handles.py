@@ -8,27 +8,31 @@ from typing import TYPE_CHECKING, Generic, TypeVar
 from .points import Decoding, Encoding, Point
 
 if TYPE_CHECKING:
-    from .device import AsyncDevice, Device
+    from .device import AnyAsyncDevice, AnyDevice
 
 R_co = TypeVar("R_co", covariant=True)
 W_contra = TypeVar("W_contra", contravariant=True)
 
 
-class _Handle(Point):
-    def __init__(self, point: Point, device: Device) -> None:
+class Handle(Point):
+    """A point of a device."""
+
+    def __init__(self, point: Point, device: AnyDevice) -> None:
         self._form = point._form
         self.facts = point.facts
         self._device = device
 
 
-class _AsyncHandle(Point):
-    def __init__(self, point: Point, device: AsyncDevice) -> None:
+class AsyncHandle(Point):
+    """A point of an async device."""
+
+    def __init__(self, point: Point, device: AnyAsyncDevice) -> None:
         self._form = point._form
         self.facts = point.facts
         self._device = device
 
 
-class ReadHandle(_Handle, Decoding[R_co]):
+class ReadHandle(Handle, Decoding[R_co]):
     """A point of a device, to be read."""
 
     def read(self) -> R_co:
@@ -40,7 +44,7 @@ class ReadHandle(_Handle, Decoding[R_co]):
         return self._device.run(self._device.read_raw_steps(self))
 
 
-class WriteHandle(_Handle, Encoding[W_contra]):
+class WriteHandle(Handle, Encoding[W_contra]):
     """A point of a device, to be written."""
 
     def write(self, value: W_contra) -> None:
@@ -56,7 +60,7 @@ class ReadWriteHandle(ReadHandle[R_co], WriteHandle[W_contra], Generic[R_co, W_c
     """A point of a device, to be read and written."""
 
 
-class AsyncReadHandle(_AsyncHandle, Decoding[R_co]):
+class AsyncReadHandle(AsyncHandle, Decoding[R_co]):
     """A point of an async device, to be read."""
 
     async def read(self) -> R_co:
@@ -68,7 +72,7 @@ class AsyncReadHandle(_AsyncHandle, Decoding[R_co]):
         return await self._device.run(self._device.read_raw_steps(self))
 
 
-class AsyncWriteHandle(_AsyncHandle, Encoding[W_contra]):
+class AsyncWriteHandle(AsyncHandle, Encoding[W_contra]):
     """A point of an async device, to be written."""
 
     async def write(self, value: W_contra) -> None:

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     import enum
     from collections.abc import Mapping, Sequence
 
-    from .facts import Facts
+    from .facts import Facts, Place
     from .forms import Allowed, Form, Type
 
 R_co = TypeVar("R_co", covariant=True)
@@ -48,6 +48,11 @@ class Point:
     def width(self) -> int:
         """How many bits the raw number has."""
         return self.wire.bits if self.facts.bits is None else self.facts.bits[0] - self.facts.bits[1] + 1
+
+    @property
+    def size(self) -> int:
+        """How many words (or single bits) the point takes."""
+        return 1 if self.facts.bits is not None else max(1, self.wire.bits // 16)
 
     @property
     def names(self) -> type[enum.IntEnum | enum.IntFlag] | None:
@@ -99,34 +104,42 @@ class Point:
 
         Raises WrongLengthError, and RangeError for what is no word.
         """
-        addresses = self.facts.at.addresses
-        if len(words) != len(addresses):
-            raise self._named(WrongLengthError(f"takes {len(addresses)} words, not {len(words)}"))
+        if len(words) != self.size:
+            raise self._named(WrongLengthError(f"takes {self.size} words, not {len(words)}"))
         for word in words:
             self._within(word, 0, 0xFFFF)
         if self.facts.bits is not None:
             return self.extract(words[0])
-        by_address = dict(zip(sorted(addresses), words, strict=True))
         pattern = 0
-        for address in addresses:
-            pattern = pattern << 16 | by_address[address]
+        for place in self._from_high(self.facts.at):
+            pattern = pattern << 16 | words[place]
         return self.wire.number(pattern, self.wire.bits)
 
     def to_words(self, raw: int) -> tuple[int, ...]:
         """The unsigned words of a raw number in ascending order of address; raises RangeError."""
         self._within(raw, *self.wire.limits(self.width))
-        addresses = (self.facts.write_at or self.facts.at).addresses
-        by_address = {address: raw >> 16 * part & 0xFFFF for part, address in enumerate(reversed(addresses))}
-        return tuple(by_address[address] for address in sorted(addresses))
+        words = [0] * self.size
+        for part, place in enumerate(reversed(self._from_high(self.facts.write_at or self.facts.at))):
+            words[place] = raw >> 16 * part & 0xFFFF
+        return tuple(words)
+
+    def _from_high(self, place: Place) -> Sequence[int]:
+        """Where the words of the number stand among those in ascending order of address, the high one first."""
+        if len(place.addresses) == 1:  # it holds all words, which travel with the high one first
+            return range(self.size)
+        ascending = sorted(place.addresses)
+        return [ascending.index(address) for address in place.addresses]
 
     def extract(self, word: int) -> int:
         """The raw number of a bit group, from its whole word."""
         return self.wire.number(word >> self._lowest_bit, self.width)
 
     def insert(self, word: int, raw: int) -> int:
-        """The whole word with this bit group replaced."""
+        """The whole word with this bit group replaced, and with the bits that are always written as a constant."""
         mask = (1 << self.width) - 1
-        return word & ~(mask << self._lowest_bit) | (raw & mask) << self._lowest_bit
+        result = word & ~(mask << self._lowest_bit) | (raw & mask) << self._lowest_bit
+        fixed, bits = self.facts.fixed or (0, 0)
+        return result & ~fixed | bits
 
     def _within(self, number: int, low: int, high: int) -> None:
         try:

@@ -1,24 +1,19 @@
 # SPDX-License-Identifier: 0BSD
-"""Forms whose raw number is not the value: scaled quantities, IEEE 754 numbers, and codes for "there is no value"."""
+"""Forms whose raw number is not the value: scaled quantities and IEEE 754 numbers."""
 
 from __future__ import annotations
 
 import math
 import struct
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING
 
-from .errors import NotANumberError, NoValueError
+from .errors import NotANumberError
 from .forms import Form, whole
 from .rules import Case, Rule, chosen
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     from .forms import Allowed, Type
     from .rules import Raws
-
-R = TypeVar("R")
-W = TypeVar("W")
 
 
 class Scaled(Form[float, float]):
@@ -128,57 +123,3 @@ class Floating(Form[float, float]):
     def choices(self) -> str | None:
         """The limits in the unit."""
         return "outside " + " or ".join(f"{low:.12g}..{high:.12g}" for low, high in self.units) if self.units else None
-
-
-class OrNone(Form[R | None, W]):
-    """Another form in which some raw numbers, by name, mean "there is no value"; those decode to None."""
-
-    def __init__(self, form: Form[R, W], no_value: Mapping[str, tuple[int, int]]) -> None:
-        self.form = form
-        self.no_value = no_value
-        self.wire = form.wire
-        self.needs = form.needs
-        self.decimals = form.decimals
-        self.names = form.names
-        self.refused = form.refused
-
-    def _missing(self, raw: int) -> bool:
-        return any(low <= raw <= high for low, high in self.no_value.values())
-
-    def decode(self, raw: int, raws: Raws) -> R | None:
-        """None for the codes, else as in the form."""
-        return None if self._missing(raw) else self.form.decode(raw, raws)
-
-    def decode_count(self, raw: int, raws: Raws) -> int:
-        """As in the form; raises NoValueError, because a count has no room for "no value"."""
-        if self._missing(raw):
-            raise NoValueError(f"raw {raw} means that there is no value")
-        return self.form.decode_count(raw, raws)
-
-    def encode(self, value: W, allowed: Allowed, raws: Raws) -> int | None:
-        """As in the form."""
-        return self.form.encode(value, allowed, raws)
-
-    def encode_count(self, count: int, allowed: Allowed, raws: Raws) -> int | None:
-        """As in the form."""
-        return self.form.encode_count(count, allowed, raws)
-
-    def checked(self, raw: int, allowed: Allowed, raws: Raws) -> int | None:
-        """As in the form."""
-        return self.form.checked(raw, allowed, raws)
-
-    def limits(self, width: int) -> tuple[int, int]:
-        """As in the form."""
-        return self.form.limits(width)
-
-    def shown(self, raw: int, raws: Raws) -> str:
-        """As in the form."""
-        return self.form.shown(raw, raws)
-
-    def choices(self) -> str | None:
-        """As in the form."""
-        return self.form.choices()
-
-    def name_of(self, raw: int) -> str | None:
-        """As in the form."""
-        return self.form.name_of(raw)

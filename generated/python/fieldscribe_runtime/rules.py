@@ -4,8 +4,10 @@
 from __future__ import annotations
 
 import math
+import struct
 from collections.abc import Mapping
 from dataclasses import dataclass
+from fractions import Fraction
 
 from .errors import MissingRawError, NoCaseError, ResultOverflowError, ZeroFactorError
 
@@ -36,11 +38,18 @@ def raw_of(point: str, raws: Raws) -> int:
         raise MissingRawError(f"needs the raw number of {point}: pass raws={{{point!r}: ...}}") from None
 
 
+def _binary32(pattern: int) -> Fraction:
+    """The number that the bits are; 0 for infinities and NaN."""
+    value: float = struct.unpack("<f", struct.pack("<I", pattern & 0xFFFF_FFFF))[0]
+    return Fraction(value) if math.isfinite(value) else Fraction(0)
+
+
 @dataclass(frozen=True, slots=True)
 class Factor:
     """raw * slope + intercept of another point, to the power of 1 or -1.
 
-    With `ten_to` it is ten to that number, and the pair says between which raw numbers of the point this holds.
+    With `ten_to` it is ten to that number, and the pair says between which raw numbers of the point this holds. With
+    `f32` the raw number is the pattern of a binary32 number, and that number is taken for it (0 for what is none).
     """
 
     point: str
@@ -48,10 +57,12 @@ class Factor:
     intercept: int = 0
     power: int = 1
     ten_to: tuple[int, int] | None = None
+    f32: bool = False
 
-    def number(self, raws: Raws) -> int:
-        """The factor (or exponent) before `power`."""
-        return raw_of(self.point, raws) * self.slope + self.intercept
+    def number(self, raws: Raws) -> int | Fraction:
+        """The factor (or exponent) before `power`, exactly."""
+        raw = raw_of(self.point, raws)
+        return (_binary32(raw) if self.f32 else raw) * self.slope + self.intercept
 
     def exponent_fits(self, raws: Raws) -> bool:
         """Whether the raw number is one for which ten to it is defined."""
@@ -78,13 +89,14 @@ class Rule:
         numbers = [(factor, factor.number(raws)) for factor in self.factors]
         for factor, number in numbers:
             if number == 0 and factor.ten_to is None and not (zero_allowed and factor.power > 0):
-                raise ZeroFactorError(f"{factor.point} is zero")
+                raise ZeroFactorError(f"{factor.point} is {'no number or ' if factor.f32 else ''}zero")
         for factor, number in numbers:
             if not factor.exponent_fits(raws):
                 raise ResultOverflowError(f"10 ** {number} is too far: {factor.point} is outside {factor.ten_to}")
-            power = factor.power if factor.ten_to is None else factor.power * number
-            size = number if factor.ten_to is None else 10 ** abs(number)
-            num, den = (num * size, den) if power >= 0 else (num, den * size)
+            power, over, under = factor.power, number.numerator, number.denominator
+            if factor.ten_to is not None:
+                power, over = power * over, 10 ** abs(over)
+            num, den = (num * over, den * under) if power >= 0 else (num * under, den * over)
         return num, den
 
     def encode(self, value: float, raws: Raws) -> int | None:

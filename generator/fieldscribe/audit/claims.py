@@ -18,14 +18,22 @@ if TYPE_CHECKING:
     from fieldscribe.resolve.drafts import Draft
 
 _LITERAL = re.compile(
-    r"(?<![\w.'])(?:0[xX][0-9A-Fa-f]+|[Hh]'[0-9A-Fa-f]+|[0-9][0-9A-Fa-f]*[hH]\b|0b[01]+|[0-9]+(?:\.[0-9]+)?)(?!\w)"
+    r"(?<![\w.'])(?:0[xX][0-9A-Fa-f]+|[Hh]'[0-9A-Fa-f]+|(?:[0-9][0-9A-Fa-f]*[hH]|[A-F][0-9A-F]*h)\b|0b[01]+|[0-9]+(?:\.[0-9]+)?)(?!\w)"
 )
 _LINES = re.compile(r"\blines?\s+[0-9]+(?:(?:,|\s+and|\s+to|\.\.)\s*[0-9]+)*(?:\s+and\s+[0-9]+)?")
 _QUOTED = re.compile('["\u201e\u201c]([^"\u201c\u201d]+)["\u201c\u201d]')
 _ELEMENT = re.compile(r"\[.*|\(.*")
+_CODE = re.compile("([A-Za-z]+)([0-9]+)")
+_SPELT = {"P": ("Parameter",)}
+"""Letters of codes, and the words that manuals write in their place."""
 _HALVES = {(15, 8): ("Highbyte", "High-Byte", "High Byte"), (7, 0): ("Lowbyte", "Low-Byte", "Low Byte")}
 """How manuals name the halves of a word."""
-_OWN_PRINTED = frozenset({"range", "range_in_units", "resolution", "choices"})
+_WORDS = {(31, 16): ("PWE1", "High-Word", "High word"), (15, 0): ("PWE2", "Low-Word", "Low word")}
+"""How manuals name the words of a double word."""
+_LINES_OF = {"range_in_units": "range", "pairs": "printed"}
+"""The key of `lines` for what is printed, where it is another."""
+_ZERO = ("Null", "zero")
+_OWN_PRINTED = frozenset({"range", "range_in_units", "resolution", "choices", "pairs"})
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,6 +55,15 @@ class Claim:
     between: frozenset[Fraction] = frozenset()
     point: str = ""
     """As errata name the subject: a point without its variant, `frame:NAME`, `function:NUMBER`."""
+    optional: bool = False
+    """What the manual need not say, such as a title in the author's own words: where it does stand, it is used."""
+
+    @property
+    def is_address(self) -> bool:
+        """Whether it says where the point's first word is, in some numbering."""
+        printed = self.fact.removeprefix("printed ")
+        numbering = printed != self.fact and printed not in _OWN_PRINTED and not printed.startswith("low_")
+        return self.fact == "address" or numbering
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,12 +74,15 @@ class PrintedErratum:
     shown: str
     numbers: tuple[Fraction, ...]
     texts: tuple[str, ...]
-    lines: tuple[int, ...]
+    cited: tuple[tuple[int, int], ...]
+    """Lines (first, last); last is 0 where the line opens a row or section."""
     subjects: tuple[str, ...]
     taken: frozenset[Fraction]
     """What the description has instead: facts that the manual does not print."""
     told: bool
     """Whether it is told in a sentence, which may speak of what stands around the line too."""
+    taken_text: str = ""
+    """`taken` as it is written: codes that the manual does not print stand there."""
 
 
 def claims_of(subject: Subject) -> Iterator[Claim]:
@@ -78,6 +98,7 @@ def claims_of(subject: Subject) -> Iterator[Claim]:
         yield from _of_frames(file)
         bus = file.get("bus")
         if isinstance(bus, Map):
+            yield from _of_line(bus)
             for key in ("functions", "responses", "exceptions"):
                 yield from _of_codes(key, bus.get(key))
 
@@ -89,18 +110,33 @@ def errata_of(subject: Subject) -> Iterator[PrintedErratum]:
         if erratum.source.line is None:
             continue
         printed = one.raw.get("printed")
-        line = erratum.source.line
+        lines = one.raw.get("lines")
+        others = [place for value in lines.values() for place in _lines(value)] if isinstance(lines, Map) else []
+        cited = (*_lines(one.raw["line"]), *others)
         taken = frozenset(abs(number) for number in _numbers(one.raw.get("taken")))
         about = (one.subjects, taken)
         if isinstance(printed, Map):
             numbers = [number for key, value in printed.items() for number in _printed_numbers(key, value)]
-            yield PrintedErratum(erratum.id, erratum.printed, tuple(numbers), (), (line,), *about, told=False)
+            yield PrintedErratum(
+                erratum.id, erratum.printed, tuple(numbers), (), cited, *about, told=False, taken_text=erratum.taken
+            )
             continue
         said = str(printed)
-        named = [int(number) for lines in _LINES.findall(said) for number in re.findall("[0-9]+", lines)]
+        named = [(int(number), 0) for places in _LINES.findall(said) for number in re.findall("[0-9]+", places)]
         quoted = tuple(text for text in _QUOTED.findall(said) if len(text) > 1)
         numbers = _numbers(_LINES.sub("", said))
-        yield PrintedErratum(erratum.id, erratum.printed, tuple(numbers), quoted, (line, *named), *about, told=True)
+        cited = (*cited, *named)
+        yield PrintedErratum(
+            erratum.id, erratum.printed, tuple(numbers), quoted, cited, *about, told=True, taken_text=erratum.taken
+        )
+
+
+def looked_through_of(subject: Subject) -> set[int]:
+    """The lines that the description says hold nothing for it."""
+    spans = [
+        span for file in subject.scope.files for one in file.get("looked_through", ()) for span in _lines(one["lines"])
+    ]
+    return {line for first, last in spans for line in range(first, max(first, last) + 1)}
 
 
 class _Citing:
@@ -122,33 +158,50 @@ class _Citing:
         anchor: bool = False,
         between: frozenset[Fraction] = frozenset(),
         words: tuple[str, ...] = (),
+        optional: bool = False,
     ) -> Iterator[Claim]:
         cited = self.others.get(kind or fact, self.usual)
         wanted = frozenset(abs(number) for number in numbers)
+        first = anchor and cited == self.usual
         if cited and wanted:
-            yield Claim(
-                self.subject, fact, shown, wanted, words, cited, anchor and cited == self.usual, between, self.point
-            )
+            yield Claim(self.subject, fact, shown, wanted, words, cited, first, between, self.point, optional)
+
+    def title(self, titles: Mapping[str, str], kind: str = "") -> Iterator[Claim]:
+        """The titles, where they stand as they are given."""
+        words = tuple(text for text in titles.values() if any(char.isdigit() for char in text))
+        cited = self.others.get(kind, self.usual)
+        if words and cited:
+            yield Claim(self.subject, "title", words[0], frozenset(), words, cited, optional=True)
 
     def words(self, fact: str, *words: str) -> Iterator[Claim]:
         cited = self.others.get(fact, self.usual)
         if cited:
-            yield Claim(self.subject, fact, words[0], frozenset(), words, cited, anchor=cited == self.usual)
+            anchor = cited == self.usual
+            yield Claim(self.subject, fact, words[0], frozenset(), words, cited, anchor=anchor, point=self.point)
 
 
 def _of_point(point: Point, draft: Draft, enums: Mapping[str, Map]) -> Iterator[Claim]:
     citing = _Citing(point.item, point.source.line, draft.get("lines"), point.name)
     code = None if point.code is None else _ELEMENT.sub("", point.code).strip()
     if code:
-        yield from citing.words("code", code)
-    own_section = draft.own.get("section")
-    if own_section is not None:
-        yield from citing.words("section", str(own_section))
+        yield from citing.words("code", *_codes_of(code), str(point.code))
+    if _says(draft, "section"):
+        yield from citing.words("section", str(draft.get("section")))
     yield from _address(citing, point, draft, code or "")
+    yield from citing.title({**point.title, "": (point.variant or "").partition("=")[2]})
     yield from _numbers_of(citing, point, draft)
     yield from _enum_of(citing, point, draft, enums)
     yield from _flags(citing, point)
     yield from _printed(citing, draft)
+
+
+def _codes_of(code: str) -> tuple[str, ...]:
+    """How a manual writes a code: `P601`, `P 601`, `Parameter 601`."""
+    found = _CODE.fullmatch(code)
+    if found is None:
+        return (code,)
+    letters, digits = found.groups()
+    return (code, f"{letters} {digits}", *(f"{word} {digits}" for word in _SPELT.get(letters, ())))
 
 
 def _numbers_of(citing: _Citing, point: Point, draft: Draft) -> Iterator[Claim]:
@@ -159,25 +212,49 @@ def _numbers_of(citing: _Citing, point: Point, draft: Draft) -> Iterator[Claim]:
                 yield from citing.numbers(
                     "range", str(number), _either(point, number, in_units=key == "range_in_units")
                 )
+    yield from _bits_of(citing, point, draft)
+    if point.text is not None and _says(draft, "characters"):
+        yield from citing.numbers("characters", str(point.text.characters), (Fraction(point.text.characters),), "range")
     if _says(draft, "scale"):
         for number in _scale_numbers(draft.get("scale")):
             yield from citing.numbers("scale", str(number), (number, 1 / number))
+
+
+def _bits_of(citing: _Citing, point: Point, draft: Draft) -> Iterator[Claim]:
+    """The bits that the point takes, and those beside it that are always the same."""
     if point.bits is not None:
         words = _HALVES.get(point.bits, ())
-        for bit in dict.fromkeys(point.bits):
-            yield from citing.numbers("bits", str(bit), (Fraction(bit), Fraction(1 << bit)), words=words)
+        for place in range(point.bits[1], point.bits[0] + 1):
+            inner = place not in point.bits
+            yield from citing.numbers(
+                "bits", str(place), (Fraction(place), Fraction(1 << place)), words=words, optional=inner
+            )
+    fixed = draft.get("fixed") if _says(draft, "fixed") else None
+    for bits, constant in fixed.items() if isinstance(fixed, Map) else ():
+        for bit in _numbers(bits):
+            yield from citing.numbers("fixed bits", str(bit), (bit, Fraction(1 << int(bit))), "bits")
+        for number in _numbers(constant):
+            yield from citing.numbers(
+                "fixed bits", f"= {number}", (number,), "bits", words=_ZERO if number == 0 else ()
+            )
 
 
 def _enum_of(citing: _Citing, point: Point, draft: Draft, enums: Mapping[str, Map]) -> Iterator[Claim]:
     """The numbers of the point's enum; those of a shared one that name a line of their own are looked for there."""
-    if not _says(draft, "enum") or point.enum is None:
+    key = "digits" if point.digits else "enum"
+    enum = point.digits.enum if point.digits else point.enum
+    if not _says(draft, key) or enum is None:
         return
-    said = draft.get("enum")
+    said = draft.get(key)
+    said = said["enum"] if point.digits else said
     entries = enums.get(said, {}) if isinstance(said, str) else said
     own = {number for key, one in entries.items() if isinstance(one, Map) and "line" in one for number in _numbers(key)}
-    for entry in point.enum.entries:
+    for entry in enum.entries:
         if entry.raw not in own or entries is said:
             yield from citing.numbers("enum", str(entry.raw), (Fraction(entry.raw),))
+            yield from citing.title(entry.title, "enum")
+            for number in _numbers(entry.quantity):
+                yield from citing.numbers("enum", str(entry.quantity), (number,))
 
 
 def _of_enum(name: str, entries: Map) -> Iterator[Claim]:
@@ -185,6 +262,7 @@ def _of_enum(name: str, entries: Map) -> Iterator[Claim]:
         if isinstance(one, Map) and "line" in one:
             citing = _Citing(f"enum {name}", one["line"], None)
             yield from citing.numbers("enum", str(key), _numbers(key), anchor=True)
+            yield from citing.title({name: str(text) for name, text in one.items() if len(name) == 2})
 
 
 def _says(draft: Draft, key: str) -> bool:
@@ -199,15 +277,28 @@ def _address(citing: _Citing, point: Point, draft: Draft, code: str) -> Iterator
     references = [Fraction(number) for number in point.references.values() if isinstance(number, int)]
     at = draft.get("at")
     rule = [Fraction(int(str(at["number"]), 0))] if isinstance(at, Map) and str(at.get("number", "")).isdigit() else []
+    for number in (*rule, *map(Fraction, filter(None, (point.set, point.index)))):
+        yield from citing.numbers("number", str(number), (number,), "code", optional=True)
     if code and any(str(number) in code for number in (point.address, *map(int, rule))):
         return  # the code is the number
     if point.text is not None:
-        for address in (point.addresses[0], point.addresses[-1]):
-            yield from citing.numbers("address", str(address), (Fraction(address),), anchor=True)
+        ends = frozenset(map(Fraction, (point.addresses[0], point.addresses[-1])))
+        for address in map(Fraction, point.addresses):
+            inner = ends if address not in ends else frozenset()
+            yield from citing.numbers("address", str(address), (address,), anchor=not inner, between=inner)
         return
     yield from citing.numbers(
-        "address", f"{point.address:04X}h", (Fraction(point.address), *references, *rule), anchor=True
+        "address",
+        f"{point.address:04X}h",
+        (Fraction(point.address), *references, *rule),
+        anchor=True,
+        words=tuple(word for name, number in point.references.items() for word in _joined(name, number)),
     )
+
+
+def _joined(numbering: str, number: object) -> tuple[str, ...]:
+    """How a manual writes a number that is part of a name: `PZD2`, `Bit13`."""
+    return tuple(f"{name}{number}" for name in (numbering, numbering.capitalize(), numbering.upper()))
 
 
 def _either(point: Point, number: Fraction, *, in_units: bool) -> list[Fraction]:
@@ -237,8 +328,11 @@ def _flags(citing: _Citing, point: Point) -> Iterator[Claim]:
             )
             run = _run(point, bit)
             between = frozenset(Fraction(end + above) for end in run) if bit not in run else frozenset()
-            yield from citing.numbers("flags", f"bit {bit + above}", numbers, between=between)
-        for entry in flag.values if flag.width > 1 else ():
+            whole = _WORDS.get((flag.low + flag.width - 1, flag.low), ()) if point.width == 32 else ()
+            words = (*whole, *_joined("bit", bit + above))
+            yield from citing.numbers("flags", f"bit {bit + above}", numbers, between=between, words=words)
+        yield from citing.title(flag.title, "flags")
+        for entry in flag.values:
             yield from citing.numbers("flag values", f"{flag.name} {entry.raw}", (Fraction(entry.raw),), "flags")
 
 
@@ -256,29 +350,57 @@ def _run(point: Point, bit: int) -> tuple[int, int]:
 def _printed(citing: _Citing, draft: Draft) -> Iterator[Claim]:
     printed = draft.get("printed")
     for key, value in printed.items() if isinstance(printed, Map) else ():
-        for number in _numbers(value):
+        told = [*value.keys(), *value.values()] if key == "pairs" else value
+        for number in _numbers(told):
             if key == "resolution" and number == 1:
                 continue  # a unit alone says it
-            kind = "range" if key in ("range", "range_in_units") else "address" if key not in _OWN_PRINTED else key
-            yield from citing.numbers(f"printed {key}", str(number), (number,), kind)
+            kind = _LINES_OF.get(key, key if key in _OWN_PRINTED else "address")
+            words = _joined(key, number) if kind == "address" else ()
+            yield from citing.numbers(f"printed {key}", str(number), (number,), kind, words=words)
 
 
 def _of_entry(kind: str, one: Map) -> Iterator[Claim]:
     citing = _Citing(f"{kind} {one['name']}", one.get("line"), one.get("lines"))
-    for key in ("at", "can_id", "words", "wears"):
+    for key in ("at", "can_id", "value", "words", "wears"):
         for number in _numbers(one.get(key)):
             yield from citing.numbers(key, str(number), (number,))
+    layout = one.get("layout")
+    for place, carried in layout.items() if isinstance(layout, Map) else ():
+        for number in (*_numbers(place), *_numbers(carried)):
+            yield from citing.numbers("layout", str(number), (number,), "bytes")
+        first, *last = map(int, _numbers(place))
+        for byte in range(first + 1, max(last, default=first)):
+            yield from citing.numbers("layout", str(byte), (Fraction(byte),), "bytes", optional=True)
+    title = one.get("title")
+    yield from citing.title({"en": title} if isinstance(title, str) else title or {})
+
+
+def _of_line(bus: Map) -> Iterator[Claim]:
+    """How fast the line is, which manuals give in kBaud, and how long its identifiers are."""
+    citing = _Citing("bus", bus.get("line"), None)
+    for key, unit in (("bitrate", 1000), ("identifier_bits", 1)):
+        for number in _numbers(bus.get(key)):
+            yield from citing.numbers(key, str(number), (number, number / unit))
 
 
 def _of_codes(kind: str, codes: Any) -> Iterator[Claim]:
+    rows: dict[int, list[Fraction]] = {}
+    for key, one in codes.items() if isinstance(codes, Map) else ():
+        if isinstance(one, Map) and "line" in one:
+            rows.setdefault(one["line"], []).extend(_numbers(key))
     for key, one in codes.items() if isinstance(codes, Map) else ():
         if isinstance(one, Map):
-            citing = _Citing(f"{kind.removesuffix('s')} {key}", one.get("line"), one.get("lines"))
+            name = kind.removesuffix("s")
+            citing = _Citing(f"{name} {key}", one.get("line"), one.get("lines"), f"{name}:{key}")
+            row = rows.get(one.get("line", 0), [])
+            ends = frozenset((min(row), max(row))) if len(row) > 2 else frozenset()  # "9 - 12" is one row
             for number in _numbers(key):
-                yield from citing.numbers("number", str(key), (number,), anchor=True)
+                yield from citing.numbers("number", str(key), (number,), anchor=True, between=ends)
             for fact in ("max", "answers", "refusals"):
                 for number in _numbers(one.get(fact)):
                     yield from citing.numbers(fact, str(number), (number,))
+            for number in _numbers(one.get("printed", {}).get("bytes")):
+                yield from citing.numbers("printed bytes", str(number), (number,))
 
 
 def _of_frames(file: Map) -> Iterator[Claim]:
@@ -287,6 +409,9 @@ def _of_frames(file: Map) -> Iterator[Claim]:
         digits = "".join(str(one["bytes"]).split()).upper()
         if citing.usual:
             yield Claim(citing.subject, "bytes", digits, frozenset(), (), citing.others.get("bytes", citing.usual))
+        for number in _numbers(one.get("says")):  # beside the bytes, or not at all
+            told = "printed" in citing.others
+            yield from citing.numbers("says", str(number), (number,), "printed", optional=not told)
 
 
 def _printed_numbers(key: str, value: Any) -> list[Fraction]:

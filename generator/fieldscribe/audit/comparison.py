@@ -6,13 +6,13 @@ import re
 from bisect import bisect_right
 from typing import TYPE_CHECKING
 
-from fieldscribe.audit.claims import Claim, PrintedErratum, claims_of, errata_of
-from fieldscribe.audit.manual import Extent, Manual, Token, tokens_of
+from fieldscribe.audit.claims import Claim, PrintedErratum, claims_of, errata_of, looked_through_of
+from fieldscribe.audit.manual import Extent, Manual, Token, has_word, places_in, tokens_of
 from fieldscribe.audit.outcome import Audit, Missing, Moved, Uncited, Unprinted, Unused
+from fieldscribe.audit.placement import placement
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
-    from fractions import Fraction
 
     from fieldscribe.checks.subject import Subject
 
@@ -20,8 +20,6 @@ _SHORT = 100
 """So many characters of a line are shown."""
 _RUN = re.compile(r"\bbis\b|\bto\b|\.\.|\u2026|[0-9]\s*[-\u2013]\s*[0-9]")
 """What says that the numbers between two stand there too."""
-_WEIGHTS = {"section": 4, "code": 2}
-"""What tells a place better than an address, which may stand in many lines."""
 _FAR = 400
 """A place that moved farther is looked for no more."""
 
@@ -30,24 +28,33 @@ def audit(subject: Subject, device: str, manual_name: str, text: str, *, same_te
     """Everything that does not agree. `same_text`: whether it is the text that was transcribed, None if unknown."""
     manual = Manual(text)
     claims, errata = list(claims_of(subject)), list(errata_of(subject))
-    return _Comparison(manual, claims, errata, Audit(device, manual_name, same_text, len(manual))).run()
+    found = Audit(device, manual_name, same_text, len(manual))
+    return _Comparison(manual, claims, errata, looked_through_of(subject), found).run()
 
 
 class _Comparison:
     """The state of one audit: where cited lines stand now, and which numbers were used."""
 
-    def __init__(self, manual: Manual, claims: list[Claim], errata: list[PrintedErratum], found: Audit) -> None:
+    def __init__(
+        self,
+        manual: Manual,
+        claims: list[Claim],
+        errata: list[PrintedErratum],
+        looked_through: set[int],
+        found: Audit,
+    ) -> None:
         self.manual, self.claims, self.errata, self.found = manual, claims, errata, found
         self.used: set[tuple[int, int]] = set()
-        self.taken: dict[str, list[frozenset[Fraction]]] = {}
+        self.taken: dict[str, list[PrintedErratum]] = {}
         for erratum in errata:
             for name in erratum.subjects:
-                self.taken.setdefault(name, []).append(erratum.taken)
+                self.taken.setdefault(name, []).append(erratum)
         self.codes = {word for claim in claims if claim.fact == "code" for word in claim.words}
         self.subjects: dict[Extent, dict[str, None]] = {}
         cited = sorted({first for claim in claims for first, _ in claim.cited})
         self.now = {line: line for line in cited} if found.same_text else self._moved(cited)
         self.starts = sorted(set(self.now.values()))
+        self.empty = {self._now(line) for line in looked_through}
         self._extents: dict[tuple[int, int], Extent] = {}
 
     def run(self) -> Audit:
@@ -58,8 +65,14 @@ class _Comparison:
             self._check_erratum(erratum)
         self._unused()
         self._uncited()
-        self.found.facts, self.found.errata = len(self.claims), len(self.errata)
+        self.found.facts = sum(not claim.optional for claim in self.claims)
+        self.found.errata = len(self.errata)
         return self.found
+
+    def _now(self, line: int) -> int:
+        """Where a line stands that nothing cites: it moved as the cited line above it did."""
+        above = max((one for one in self.now if one <= line), default=None)
+        return line if above is None else line + self.now[above] - above
 
     def _extent(self, first: int, last: int) -> Extent:
         key = (first, last)
@@ -90,29 +103,45 @@ class _Comparison:
         for extent in extents:
             self.subjects.setdefault(extent, {})[claim.subject] = None
         stands = [self._stands(claim, extent) for extent in extents]  # in all of them: each marks what it uses
-        if not any(stands) and not self._is_taken(claim):
+        if not any(stands) and not claim.optional and not self._is_taken(claim):
             nearest = self._nearest(claim, extents[0].first)
             missing = Missing(claim.subject, claim.fact, claim.shown, extents[0].first, extents[0].last, nearest)
             self.found.missing.append(missing)
 
     def _is_taken(self, claim: Claim) -> bool:
         """Whether an erratum says that the description has this instead of what is printed."""
-        return any(claim.numbers & taken for taken in self.taken.get(claim.point, ()))
+        codes = claim.words if claim.fact == "code" else ()
+        for erratum in self.taken.get(claim.point, ()):
+            if claim.numbers & erratum.taken or any(has_word(erratum.taken_text, code) for code in codes):
+                return True
+        return False
 
     def _stands(self, claim: Claim, extent: Extent) -> bool:
-        if claim.words and any(_has_word(self._text(extent), word) for word in claim.words):
+        there = [self._has(word, extent) for word in claim.words]  # each marks the numbers in it
+        if any(there):
             return True
         if claim.fact == "section":
             return self._lies_in(claim.words[0], extent.first)
         if claim.fact == "bytes":
             return self._has_bytes(claim.shown, extent)
+        if claim.is_address and extent.kind == "row" and self.manual.line(extent.first).startswith("|"):
+            extent = Extent(extent.first, extent.first, "row")  # the rows below are of the other words
         tokens = self._tokens(extent)
         hits = [token for token in tokens if token.readings & claim.numbers]
         self.used.update((token.line, token.column) for token in hits)
         if hits or not claim.between:
             return bool(hits)
-        there = {reading for token in tokens for reading in token.readings}
-        return there.issuperset(claim.between) and _RUN.search(self._text(extent)) is not None
+        readings = {reading for token in tokens for reading in token.readings}
+        return readings.issuperset(claim.between) and _RUN.search(self._text(extent)) is not None
+
+    def _has(self, word: str, extent: Extent) -> bool:
+        """Whether a word stands there; the numbers in it are used then."""
+        for line in range(extent.first, extent.last + 1):
+            for at in places_in(self.manual.line(line), word):
+                self.used.update(
+                    (line, token.column) for token in self._of_line(line) if at < token.column <= at + len(word)
+                )
+        return has_word(self._text(extent), word)
 
     def _has_bytes(self, digits: str, extent: Extent) -> bool:
         """Whether the bytes stand there in one piece, or each of them as a number of its own, in any notation."""
@@ -135,55 +164,45 @@ class _Comparison:
         if claim.numbers:
             places = [place for number in claim.numbers for place in self.manual.lines_of.get(number, ())]
         elif claim.words:
-            places = self._places_of_word(claim.words[0])
+            places = self.manual.lines_with(claim.words[0])
         return min(places, key=lambda place: (abs(place - line), place), default=None)
-
-    def _places_of_word(self, word: str) -> list[int]:
-        if word in self.manual.numbered:
-            return [self.manual.numbered[word]]
-        first = "".join(char if char.isalnum() else " " for char in word).split()
-        lines = self.manual.words.get(first[0].lower(), []) if first else []
-        return [line for line in lines if _has_word(self.manual.line(line), word)]
 
     def _check_erratum(self, erratum: PrintedErratum) -> None:
         if not erratum.numbers and not erratum.texts:
             self.found.uncheckable += 1
             return
-        extents = [self._extent(line, 0) for line in erratum.lines]
-        if erratum.told:  # a sentence may speak of what stands around
+        cited = [self._extent(*one) for one in erratum.cited]
+        extents = cited
+        if erratum.told:  # a sentence may speak of what stands around, which does not make that used
             sections = [self.manual.section_of(extent.first) for extent in extents]
             extents = [
                 Extent(min(one.first, two.first), max(one.last, two.last), "section")
-                for one, two in zip(extents, sections, strict=True)
+                for one, two in zip(cited, sections, strict=True)
             ]
         tokens = [token for extent in extents for token in self._tokens(extent)]
         absent = False
         for number in erratum.numbers:
             hits = [token for token in tokens if abs(number) in token.readings]
-            self.used.update((token.line, token.column) for token in hits)
+            near = (token for token in hits if any(token.line in extent for extent in cited))
+            self.used.update((token.line, token.column) for token in near)
             absent = absent or not hits
         text = " ".join(" ".join(self._text(extent) for extent in extents).split())
         if absent or any(" ".join(one.split()) not in text for one in erratum.texts):
             first = extents[0].first
             places = [place for number in erratum.numbers for place in self.manual.lines_of.get(abs(number), ())]
             nearest = min(places, key=lambda place: (abs(place - first), place), default=None)
-            self.found.unprinted.append(Unprinted(erratum.id, erratum.shown, erratum.lines[0], nearest))
+            self.found.unprinted.append(Unprinted(erratum.id, erratum.shown, erratum.cited[0][0], nearest))
 
     def _lies_in(self, section: str, line: int) -> bool:
         """Whether a line lies in a section: below its heading, and above the next that does not belong to it."""
         start = self.manual.numbered.get(section)
         if start is None:
-            return any(_has_word(self.manual.line(above), section) for above in range(max(1, line - _FAR), line))
-        following = [
-            place
-            for number, place in self.manual.numbered.items()
-            if place > start and not number.startswith(f"{section}.")
-        ]
-        return start <= line < min(following, default=len(self.manual) + 1)
+            return any(has_word(self.manual.line(above), section) for above in range(max(1, line - _FAR), line))
+        return start <= line <= self.manual.end_of_section(section)
 
     def _unused(self) -> None:
         for extent, subjects in self.subjects.items():
-            for line in range(extent.first, extent.last + 1):
+            for line in (one for one in range(extent.first, extent.last + 1) if one not in self.empty):
                 for token in self._of_line(line):
                     if (token.line, token.column) not in self.used and token.text not in self.codes:
                         self.used.add((token.line, token.column))
@@ -193,7 +212,9 @@ class _Comparison:
 
     def _uncited(self) -> None:
         covered = {line for extent in self.subjects for line in range(extent.first, extent.last + 1)}
-        covered |= {self.now.get(line, line) for erratum in self.errata for line in erratum.lines}
+        cited = [self._extent(first, last or first) for erratum in self.errata for first, last in erratum.cited]
+        covered |= {line for extent in cited for line in range(extent.first, extent.last + 1)}
+        covered |= self.empty
         manual = self.manual
         for line in manual.headings:
             section = manual.section_of(line)
@@ -205,47 +226,14 @@ class _Comparison:
         self.found.uncited.sort(key=lambda one: one.line)
 
     def _moved(self, cited: list[int]) -> dict[int, int]:
-        """Where each cited line stands in a manual that changed: where most of what tells its subjects apart stands."""
+        """Where each cited line stands in a manual that changed; what moved is noted."""
         anchors: dict[int, list[Claim]] = {}
         for claim in self.claims:
             if claim.anchor:
                 for first, _ in claim.cited:
                     anchors.setdefault(first, []).append(claim)
-        now: dict[int, int] = {}
-        shift = 0
-        for line in cited:
-            place = self._place_of(anchors.get(line, []), line + shift)
-            if place is not None:
-                shift = place - line
-            now[line] = line + shift
-            if shift:
-                for name in dict.fromkeys(claim.subject for claim in anchors.get(line, [])):
-                    self.found.moved.append(Moved(name, line, line + shift))
+        now = placement(self.manual, cited, anchors)
+        for line in [line for line in cited if now[line] != line]:
+            for name in dict.fromkeys(claim.subject for claim in anchors.get(line, [])):
+                self.found.moved.append(Moved(name, line, now[line]))
         return now
-
-    def _place_of(self, anchors: list[Claim], expected: int) -> int | None:
-        scores: dict[int, int] = {}
-        for claim in anchors:
-            for place in set(self._places(claim)):
-                scores[place] = scores.get(place, 0) + _WEIGHTS.get(claim.fact, 1)
-        most = max(scores.values(), default=0)
-        if most == 0 or scores.get(expected, 0) == most:
-            return expected if most else None
-        near = [place for place, score in scores.items() if score == most and abs(place - expected) <= _FAR]
-        return min(near, key=lambda place: (abs(place - expected), place), default=None)
-
-    def _places(self, claim: Claim) -> list[int]:
-        if claim.words:
-            return self._places_of_word(claim.words[0])
-        return [place for number in claim.numbers for place in self.manual.lines_of.get(number, ())]
-
-
-def _has_word(text: str, word: str) -> bool:
-    """Whether a word stands in a text by itself: `4.2.1` is not in `4.2.10`, nor `A02` in `A020`."""
-    at = text.find(word)
-    while at >= 0:
-        before, after = text[at - 1 : at], text[at + len(word) : at + len(word) + 1]
-        if not before.isalnum() and not after.isalnum():
-            return True
-        at = text.find(word, at + 1)
-    return False

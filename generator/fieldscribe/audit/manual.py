@@ -7,15 +7,19 @@ from bisect import bisect_right
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
 _NUMBER = re.compile(
-    r"""(?<![A-Za-z0-9_.,'])(?:
+    r"""(?<![\w,'])(?<![^.]\.)(?:
         0[xX](?P<long>[0-9A-Fa-f]{4})
       | (?:0[xX]|[Hh]'|[Hh]ex[ ])(?P<marked>[0-9A-Fa-f]+)
-      | (?P<parted>[01]+(?:\\?_[01]+)+)(?![A-Za-z0-9_])
-      | (?P<spaced>[0-9A-F](?:[ ][0-9A-F]){1,3})[ ]h(?![A-Za-z0-9_])
-      | (?P<tailed>[0-9A-Fa-f]+)[hH](?![A-Za-z0-9_])
-      | (?P<bare>[0-9A-F]*[0-9][0-9A-F]*[A-F][0-9A-F]*|[A-F][0-9A-F]*[0-9][0-9A-F]*|[A-F]{2}|[A-F]{4})(?![A-Za-z0-9_])
+      | (?P<parted>[01]+(?:\\?_[01]+)+)(?![A-Za-z0-9]|_[A-Za-z0-9])
+      | (?P<spaced>[0-9A-F](?:[ ][0-9A-F]){1,3})[ ]h(?!\w)
+      | (?P<tailed>[0-9A-Fa-f]+)[hH](?!\w)
+      | (?P<bare>[0-9A-F]*[0-9][0-9A-F]*[A-F][0-9A-F]*|[A-F][0-9A-F]*[0-9][0-9A-F]*|[A-F]{2}|[A-F]{4})(?!\w)
       | (?P<decimal>[0-9]+(?:[.,][0-9]+)*)
     )""",
     re.VERBOSE,
@@ -23,6 +27,9 @@ _NUMBER = re.compile(
 _HEADING = re.compile(r"#{1,6}\s+\S|[0-9]+(?:\.[0-9]+)+\.?[ \t]*[^\W\d]")
 _NUMBERED = re.compile(r"(?:#{1,6}\s+)?([0-9]+(?:\.[0-9]+)+)\.?(?=[ \t]*[^\W\d])")
 _RULE = re.compile(r"[|\s:-]+")
+_CHAPTER = re.compile(r"([0-9]{1,2})\.?[ \t]+([^\W\d].*?)[.\s|]*([0-9]*)\s*")
+"""A chapter has one number, as many other lines have: only what the table of contents lists, with a page, is one."""
+_ONE_OVER = "\\frac{"
 _CONTENTS = re.compile(r"\.{4,}[\s|]*[0-9]+[\s|]*$|\t[0-9]+\s*$")
 _WORD = re.compile(r"[^\W_]+")
 _LONG_ROW = 40
@@ -70,15 +77,23 @@ class Manual:
         return [
             number
             for number, text in enumerate(self.lines, 1)
-            if _HEADING.match(text) and not _CONTENTS.search(text) and "|" not in text
+            if (_HEADING.match(text) or _chapter(text) in self._chapters)
+            and not _CONTENTS.search(text)
+            and "|" not in text
         ]
+
+    @cached_property
+    def _chapters(self) -> set[tuple[str, str]]:
+        """The number and title of each chapter in the table of contents."""
+        return {found for text in self.lines if _CONTENTS.search(text) and (found := _chapter(text)) is not None}
 
     @cached_property
     def numbered(self) -> dict[str, int]:
         """The line of each numbered section."""
         found: dict[str, int] = {}
         for number in self.headings:
-            match = _NUMBERED.match(self.line(number))
+            text = self.line(number)
+            match = _NUMBERED.match(text) or _CHAPTER.match(text)
             if match:
                 found.setdefault(match[1], number)
         return found
@@ -105,6 +120,26 @@ class Manual:
             for word in {match[0].lower() for match in _WORD.finditer(text)}:
                 found.setdefault(word, []).append(number)
         return found
+
+    def lines_with(self, word: str) -> list[int]:
+        """The lines that have a word, of a numbered section its heading alone."""
+        if word in self.numbered:
+            return [self.numbered[word]]
+        first = "".join(char if char.isalnum() else " " for char in word).split()
+        lines = self.words.get(first[0].lower(), []) if first else []
+        return [line for line in lines if has_word(self.line(line), word)]
+
+    def end_of_section(self, number: str) -> int:
+        """The last line of a numbered section, with the sections below it."""
+        start = self.numbered[number]
+        following = (
+            place for other, place in self.numbered.items() if place > start and not other.startswith(f"{number}.")
+        )
+        return min(following, default=len(self.lines) + 1) - 1
+
+    def is_merged(self, number: int) -> bool:
+        """Whether the first cell of a table's row is empty: merged with the one above it."""
+        return self.line(number).startswith("|") and not self.line(number).split("|")[1].strip()
 
     def is_row(self, number: int) -> bool:
         """Whether a line is a row of a table with contents."""
@@ -156,8 +191,17 @@ class Manual:
 
 
 def tokens_of(text: str, number: int) -> list[Token]:
-    """The numbers in a piece of text of a line."""
-    return [Token(match[0], number, match.start() + 1, frozenset(_readings(match))) for match in _NUMBER.finditer(text)]
+    """The numbers in a piece of text of a line; the 1 of a fraction says nothing by itself."""
+    return [
+        Token(match[0], number, match.start() + 1, frozenset(_readings(match)))
+        for match in _NUMBER.finditer(text)
+        if match[0] != "1" or not text.endswith(_ONE_OVER, 0, match.start())
+    ]
+
+
+def _chapter(text: str) -> tuple[str, str] | None:
+    match = _CHAPTER.fullmatch(text)
+    return None if match is None else (match[1], match[2])
 
 
 def _readings(match: re.Match[str]) -> set[Fraction]:
@@ -168,7 +212,8 @@ def _readings(match: re.Match[str]) -> set[Fraction]:
     if spaced := match["spaced"]:
         return {Fraction(int(spaced.replace(" ", ""), 16))}
     if bare := match["bare"]:
-        return {Fraction(int(bare, 16))}
+        amount = {Fraction(int(bare[:-1]))} if bare[:-1].isdigit() else set()
+        return {Fraction(int(bare, 16)), *amount}  # 10A may be ten ampere
     text = match["decimal"]
     found = set(_decimals(text))
     if text.isdigit() and len(text) in (2, 4, 8):
@@ -189,3 +234,18 @@ def _decimals(text: str) -> set[Fraction]:
     if all(len(part) == 3 for part in parts[1:]):
         found.add(Fraction(int("".join(parts))))
     return found
+
+
+def has_word(text: str, word: str) -> bool:
+    """Whether a word stands in a text by itself: `4.2.1` is not in `4.2.10`, nor `A02` in `A020`."""
+    return next(places_in(text, word), None) is not None
+
+
+def places_in(text: str, word: str) -> Iterator[int]:
+    """Where a word stands in a text by itself."""
+    at = text.find(word)
+    while at >= 0:
+        before, after = text[at - 1 : at], text[at + len(word) : at + len(word) + 1]
+        if not before.isalnum() and not after.isalnum():
+            yield at
+        at = text.find(word, at + 1)

@@ -23,6 +23,8 @@ def check(subject: Subject) -> None:
     """Overlapping points, points in gaps, commands on points or in gaps."""
     taken: Taken = {}
     for resolved in subject.resolved:
+        if subject.report.full:
+            return
         if "space" in resolved.draft.failed:
             continue
         for address in resolved.point.addresses:

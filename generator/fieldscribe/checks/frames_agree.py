@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
+from fieldscribe import wording
 from fieldscribe.checks.subject import Printed, Subject
 from fieldscribe.language.nodes import Map
 
@@ -40,10 +41,13 @@ def check(subject: Subject) -> None:
     read = _reader(str(subject.scope.header["family"]))
     seen: dict[str, Seen] = {}
     points = {resolved.point.item: resolved.point for resolved in subject.resolved}
+    fixed = [point for point in points.values() if point.fixed is not None and point.generated]
     for one in subject.open_frames:
         found = read(subject, one, seen)
         if found.carries is not None:
             _meaning(subject, one, found.carries, points)
+            if one.frame.direction == "request":
+                _fixed(subject, one, found.carries, fixed)
         ids = tuple(erratum.erratum.id for erratum in subject.cited.get(f"frame:{one.frame.name}", ()))
         seen[one.frame.name] = found
         subject.frames.append(replace(found.frame, errata=ids))
@@ -73,6 +77,17 @@ def _meaning(subject: Subject, one: OpenFrame, carries: Carries, points: dict[st
             shown = "does not carry it" if found is None else f"carries raw {found}"
             message = f"`{word}` is said to be raw {wanted}, the frame {shown}"
             subject.disagrees(Printed(f"frame:{one.frame.name}", "says", says[word], None, says.span(word), message))
+
+
+def _fixed(subject: Subject, one: OpenFrame, carries: Carries, points: list[Point]) -> None:
+    """What a request writes has the bits that are always written as a constant."""
+    for point in points:
+        word = carries(replace(point, type="u16", bits=None)) if point.bits is not None else carries(point)
+        if word is None or point.fixed is None or word & point.fixed.mask == point.fixed.bits:
+            continue
+        message = f"the word of `{point.name}` is {word & 0xFFFF:04X}h, {wording.fixed_text(point)}"
+        printed = f"{word & 0xFFFF:04X}h"
+        subject.disagrees(Printed(f"frame:{one.frame.name}", "fixed", printed, None, one.raw.span("bytes"), message))
 
 
 def no_frame(subject: Subject, one: OpenFrame, message: str) -> Seen:

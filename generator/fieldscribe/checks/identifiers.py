@@ -54,7 +54,7 @@ def claims(subject: Subject) -> Iterator[Claim]:
         yield from _point(subject, resolved)
         if not resolved.point.generated:
             continue
-        for key, enum in _enums(resolved.point):
+        for key, enum in enums_of(resolved.point):
             if (enum.name, id(resolved.draft.layer(key))) not in seen:
                 seen.add((enum.name, id(resolved.draft.layer(key))))
                 yield from _enum(subject, resolved.draft, enum, key)
@@ -67,7 +67,7 @@ def claims(subject: Subject) -> Iterator[Claim]:
                 yield Claim(space, name, f"the code `{special.name}`", resolved.draft, "special")
 
 
-def _enums(point: Point) -> Iterator[tuple[str, Enum]]:
+def enums_of(point: Point) -> Iterator[tuple[str, Enum]]:
     """The enums of a point, with the key that says them."""
     if point.enum is not None:
         yield "enum", point.enum

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.checks.identifiers import Claim
+from fieldscribe.checks.identifiers import Claim, enums_of
 from fieldscribe.resolve.drafts import groups
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator, Mapping
 
     from fieldscribe.checks.subject import Subject
     from fieldscribe.model import Point
@@ -25,7 +25,8 @@ HEADER = frozenset(
     | {"raw_from_count", "count_from_raw", "times", "times_wide", "round", "round_wide", "copy", "f32_of_bits"}
     | {"bits_of_f32", "f64_of_bits", "bits_of_f64", "is_nan", "raw_from_value", "value_from_raw"}
     | {"f32_order", "f64_order"}
-    | {"modbus_functions", "modbus_profile"}
+    | {"modbus_functions", "modbus_profile", "can_h", "can_bitrate", "can_profile", "uss_h", "uss_profile"}
+    | {"split_f32", "twice_ratio", "shifted_ratio", "apply_shifted", "two_to"}
 )
 """What the header defines behind the device's name."""
 
@@ -36,7 +37,21 @@ _FUNCTIONS = frozenset(
 )
 _BITS = frozenset({"shift", "mask"})
 
-C_TAILS = _ALWAYS | _FUNCTIONS | _BITS
+_SOMETIMES: Mapping[str, Callable[[Point], bool]] = {
+    "index": lambda point: point.index is not None,
+    "characters": lambda point: point.text is not None,
+    "digits": lambda point: point.digits is not None,
+    **dict.fromkeys(("fixed_mask", "fixed_bits"), lambda point: point.fixed is not None),
+    "active_low_mask": lambda point: any(flag.active == 0 for flag in point.flags),
+    **dict.fromkeys(("telegram", "received", "from_pzd", "to_pzd"), lambda point: point.telegram is not None),
+    **dict.fromkeys(
+        ("read_answer", "write_answer", "read_word", "from_reply", "write_eeprom_request"),
+        lambda point: point.space == "parameter",
+    ),
+}
+"""What only points of some forms, spaces and families have."""
+
+C_TAILS = _ALWAYS | _FUNCTIONS | _BITS | _SOMETIMES.keys()
 """What every point may have behind its name."""
 
 Tails = dict[str, Claim]
@@ -73,6 +88,8 @@ def _meets(
 def _has(point: Point, tail: str) -> bool:
     if tail in _BITS:
         return point.bits is not None
+    if tail in _SOMETIMES:
+        return _SOMETIMES[tail](point)
     return tail in _ALWAYS or tail in _FUNCTIONS or tail in point.references
 
 
@@ -91,11 +108,22 @@ def _given(subject: Subject, fixed: dict[str, Resolved]) -> dict[str, Tails]:
 
 
 def _of_device(subject: Subject) -> Iterator[str]:
-    """What the header defines for the spaces, exceptions and groups of the device."""
+    """What the header defines for the spaces, codes, groups, messages and telegrams of the device."""
     yield from (f"space_{space}" for space in subject.scope.family.spaces)
     yield from (f"exception_{code.name}" for code in subject.bus.exceptions)
     for group in groups(subject.scope):
-        yield from (f"{group['group']}_blocks", f"{group['group']}_blocks_count")
+        yield from (f"{group['group']}_{tail}" for tail in ("blocks", "blocks_count", "group_count"))
+    yield from (f"message_{raw['name']}" for raw in subject.scope.listed("messages"))
+    for raw in subject.scope.listed("telegrams"):
+        yield from (f"telegram_{raw['name']}{tail}" for tail in ("", "_words", "_slots", "_listen", "_start"))
+    if subject.scope.header["family"] == "uss":
+        kinds = (
+            ("task", subject.bus.functions),
+            ("response", subject.bus.responses),
+            ("error", subject.bus.exceptions),
+        )
+        for kind, codes in kinds:
+            yield from (f"{kind}_name", *(f"{kind}_{code.name}" for code in codes))
 
 
 def _named(item: str, point: Point) -> Iterator[tuple[str, str, str, str]]:
@@ -108,6 +136,6 @@ def _named(item: str, point: Point) -> Iterator[tuple[str, str, str, str]]:
         more = ("_shift", *(f"_{value.name}" for value in flag.values)) if flag.width > 1 else ()
         for end in ("", "_mask", *more):
             yield item, flag.name + end, f"the flag `{flag.name}` of `{item}`", "flags"
-    if point.enum is not None:
-        for tail in ("name", *(entry.name for entry in point.enum.entries)):
-            yield point.enum.name, tail, f"`{tail}` of the enum `{point.enum.name}`", "enum"
+    for key, enum in enums_of(point):
+        for tail in ("name", *(entry.name for entry in enum.entries)):
+            yield enum.name, tail, f"`{tail}` of the enum `{enum.name}`", key

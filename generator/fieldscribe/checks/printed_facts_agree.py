@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from fieldscribe.resolve.points import Resolved
 
 _LOW = "low_"
+_FLAG_WORDS = {"mask": "mask", "bit": "bit", "active": "active value"}
 _NEEDS = {
     "range": {"range", "type"},
     "range_in_units": {"range", "type", "scale"},
@@ -223,15 +224,19 @@ def _flags(subject: Subject, resolved: Resolved) -> None:
         low = flag.low + first
         mask = ((1 << flag.width) - 1) << low
         with_fixed = mask | (point.fixed.bits if point.fixed is not None else 0)
-        for key, right, others in (("mask", mask, {with_fixed}), ("bit", low, {low + flag.width - 1})):
+        for key, right, other in (
+            ("mask", mask, with_fixed),
+            ("bit", low, low + flag.width - 1),
+            ("active", flag.active, flag.active),
+        ):
             if key not in printed:
                 continue
             span = printed.span(key)
             given = integer(printed[key], span, subject.report)
-            if given is not None and given != right and given not in others:
-                shown = f"{right:04X}h" if key == "mask" else str(right)
-                message = f"the {key} {printed[key]} is printed for `{flag.name}`, its bits say {shown}"
-                subject.disagrees(Printed(point.name, key, printed[key], right, span, message, flag=flag.name))
+            if given not in (None, right, other):
+                said, shown = (f"{one:04X}h" if key == "mask" else str(one) for one in (given, right))
+                message = f"the {_FLAG_WORDS[key]} {said} is printed for `{flag.name}`, taken is {shown}"
+                subject.disagrees(Printed(point.name, key, said, shown, span, message, flag=flag.name))
 
 
 def _choices(subject: Subject, resolved: Resolved, value: int, span: Span) -> None:

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 COMMANDS = {
     "check": "validate descriptions; say everything that is wrong, and where",
     "generate": "compile descriptions into C, Python, Rust, documentation and vectors",
-    "export": "print the resolved model of a device as JSON",
+    "export": "print a device for other tools: the resolved model as JSON, or a CAN database (DBC)",
     "explain": "say everything about one address, code or name",
     "decode": "say what frames from the line mean",
     "encode": "turn a value into its raw number, or into the whole request frame",

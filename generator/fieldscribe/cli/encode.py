@@ -19,7 +19,7 @@ EXAMPLE = """examples:
   fieldscribe encode woodward_mpu2s fault_text_terminal_62 "OIL PRESSURE" --frame
   fieldscribe encode woodward_mpu2s power_measurement_phases three_phase --with-word 0400h --frame
   fieldscribe encode siemens_mm4 P1082 40 --unit 3 --pkw 4 --keep --frame
-  fieldscribe encode siemens_mm4 HSW 40 --with P2000=50 --with P2009=0 --with STW.raw=047Fh --frame
+  fieldscribe encode siemens_mm4 HSW 40 --with P2000=50 --with P2009=0 --with STW=047Fh --frame
 
 With --frame only the frames go to stdout, one a line; what they mean goes to stderr."""
 

@@ -14,7 +14,11 @@ HELP = "say everything about one address, code or name"
 EXAMPLE = """examples:
   fieldscribe explain hitachi_l200 A020
   fieldscribe explain hitachi_l200 0x1028
-  fieldscribe explain hitachi_l200 modicon:4137 --as-documented"""
+  fieldscribe explain hitachi_l200 modicon:4137 --as-documented
+  fieldscribe explain woodward_mpu2s nr:2
+  fieldscribe explain woodward_mpu2s can:321
+  fieldscribe explain siemens_mm4 "P2010[1]"
+  fieldscribe explain siemens_mm4 error:17"""
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -25,7 +29,8 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         "what",
         metavar="WHAT",
-        help="a code, a name, or an address (4136, 0x1028, 1028h); wire:, modicon:, code: or name: force one reading",
+        help="a code, a name, or an address (4136, 0x1028, 1028h), [1] behind it for one element of an array; "
+        "wire:, modicon:, code: or name: force one reading; can:, task:, response:, error:, function: ask for frames",
     )
     parser.add_argument(
         "--as-documented", action="store_true", help="show what the manual alone would say, without errata"

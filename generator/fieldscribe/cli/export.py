@@ -1,4 +1,4 @@
-"""`fieldscribe export`: the resolved model for other tools."""
+"""`fieldscribe export`: a device for other tools."""
 
 from __future__ import annotations
 
@@ -6,31 +6,54 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
+    from collections.abc import Mapping
 
-HELP = "print the resolved model of a device as JSON"
+HELP = "print a device for other tools: the resolved model as JSON, or a CAN database (DBC)"
 EXAMPLE = """examples:
   fieldscribe export json hitachi_l200
-  fieldscribe export json hitachi_l200 | jq '.points[] | select(.code == "A020")'"""
+  fieldscribe export json hitachi_l200 | jq '.points[] | select(.code == "A020")'
+  fieldscribe export dbc woodward_mpu2s --unit 3 > mpu2s_3.dbc"""
+
+_FORMS: Mapping[str, tuple[str, ...]] = {"json": (), "dbc": ("unit", "variant")}
+"""The forms, with the options that each takes."""
 
 
 def add_arguments(parser: ArgumentParser) -> None:
     """The command's arguments."""
     from fieldscribe.cli.common import add_device
 
-    parser.add_argument("form", choices=("json",), metavar="json", help="the form: json")
-    add_device(parser, variants=False)
+    parser.add_argument("form", choices=tuple(_FORMS), metavar="FORM", help=f"the form: {' or '.join(_FORMS)}")
+    add_device(parser)
+    parser.add_argument("--unit", type=int, metavar="N", help="dbc: the unit that sends (default: 1 or the lowest)")
 
 
 def run(arguments: Namespace) -> int:
-    """Print the model; the exit code."""
+    """Print it; the exit code."""
     from fieldscribe.cli import FINE
     from fieldscribe.cli.common import StopError, open_device, print_json
-    from fieldscribe.export import export_model
     from fieldscribe.export.rules import ExportError
 
+    for option, value in (("unit", arguments.unit), ("variant", arguments.variant or None)):
+        if value is not None and option not in _FORMS[arguments.form]:
+            raise StopError(f"--{option} is not for the form {arguments.form}")
     device = open_device(arguments)
     try:
-        print_json(export_model(device))
+        if arguments.form == "dbc":
+            from fieldscribe.export.dbc import export_dbc
+
+            _print_bytes(export_dbc(device, arguments.unit).encode("latin-1"))
+        else:
+            from fieldscribe.export import export_model
+
+            print_json(export_model(device))
     except ExportError as error:
-        raise StopError(f"the model of {device.id} cannot be exported: {error}") from error
+        raise StopError(f"{device.id} cannot be exported as {arguments.form}: {error}") from error
     return FINE
+
+
+def _print_bytes(data: bytes) -> None:
+    """Bytes on stdout, whatever encoding it has."""
+    import sys
+
+    sys.stdout.flush()
+    sys.stdout.buffer.write(data)

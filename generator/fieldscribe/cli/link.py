@@ -30,13 +30,14 @@ def add_framing(parser: ArgumentParser, default: str) -> None:
     parser.add_argument(
         "--framing",
         choices=_FRAMINGS,
-        help=f"how frames are wrapped: rtu, tcp (modbus); uss, or the words of pkw, pzd, broadcast alone (uss) ({default})",
+        help="how frames are wrapped: rtu, tcp (modbus); uss, or the words of pkw, pzd, broadcast alone (uss) "
+        f"({default})",
     )
 
 
 def add_uss(parser: ArgumentParser) -> None:
     """How a USS link is set."""
-    parser.add_argument("--pkw", type=int, metavar="N", help="uss: words of the parameter part, 127 is variable (P2013)")
+    parser.add_argument("--pkw", type=int, metavar="N", help="uss: words of the parameter part (P2013; default: 127)")
     parser.add_argument("--pzd", type=int, metavar="N", help="uss: words of process data (P2012; default: 2)")
     parser.add_argument(
         "--single-first",

@@ -117,7 +117,7 @@ def check(point: Point, raw: int, settings: Settings) -> None:
         return
     if with_fixed(point, raw) != raw:
         raise CodecError("out_of_range")
-    if point.digits is not None and not {entry.raw for entry in point.digits.enum.entries}.issuperset(digits(point, raw)):
+    if strange_digits(point, raw):
         raise CodecError("unknown_value")
     closed = point.enum is not None and point.enum.closed
     if point.least <= raw <= point.greatest:
@@ -136,6 +136,12 @@ def digits(point: Point, raw: int) -> tuple[int, ...]:
         digit, raw = divmod(raw, 10**place)
         found.append(digit)
     return tuple(found)
+
+
+def strange_digits(point: Point, raw: int) -> bool:
+    """Whether a digit of the word is none of the numbers that it may be."""
+    known = {one.raw for one in point.digits.enum.entries} if point.digits is not None else set()
+    return not known.issuperset(digits(point, raw))
 
 
 def windows(point: Point, settings: Settings) -> tuple[Window, ...]:
@@ -179,9 +185,9 @@ def _with_factors(rule: Linear, settings: Settings) -> Fraction:
 
 
 def _factor(factor: Factor, settings: Settings) -> Fraction:
-    number = factor.slope * settings[factor.point] + factor.intercept
+    number = Fraction(factor.slope * settings[factor.point] + factor.intercept)
     if not factor.ten_to:
-        return Fraction(number)
+        return number
     if abs(number) > MOST_EXPONENT:
         raise CodecError("overflow", (factor.point,))
     return Fraction(10) ** int(number)

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from fieldscribe.dialogue import Item
 from fieldscribe.dialogue.codec import setting_of
 from fieldscribe.dialogue.meanings import meaning_of, range_remark, raw_text
-from fieldscribe.dialogue.selection import label
+from fieldscribe.dialogue.selection import label, same_meaning
 from fieldscribe.text import line
 from fieldscribe.wording import title_text
 
@@ -23,6 +24,9 @@ Where = tuple[str, int, int]
 
 Base = tuple[str, int, int]
 """(space, address, count): where an item is."""
+
+Numbers = tuple[int, "Settings"]
+"""The raw number of a point, and what is known of others."""
 
 
 class Directory:
@@ -51,6 +55,18 @@ class Directory:
                 yield point.name, setting_of(point, raw)
 
 
+def without_variants(points: Iterable[Point], *, limits: bool) -> list[Point]:
+    """The points, of variants that mean the same (and, with `limits`, may hold the same) one, without its variant."""
+    by_name: dict[str, list[Point]] = {}
+    for point in points:
+        by_name.setdefault(point.name, []).append(point)
+    result: list[Point] = []
+    for first, *others in by_name.values():
+        alike = all(same_meaning(one, first) and (not limits or one.allowed == first.allowed) for one in others)
+        result += [replace(first, variant=None)] if others and alike else [first, *others]
+    return result
+
+
 def title_of(point: Point) -> str:
     """The English title."""
     return title_text({"en": point.title["en"]})
@@ -61,10 +77,9 @@ def named_item(point: Point, base: Base, said: str = "") -> Item:
     return Item(*base, line(f"{label(point)}: {said or title_of(point)}"), point.item, point.code)
 
 
-def value_item(
-    device: Device, point: Point, base: Base, raw: int, settings: Settings, *, written: bool = False
-) -> Item:
+def value_item(device: Device, point: Point, base: Base, numbers: Numbers, *, written: bool = False) -> Item:
     """A point and what its raw number means; if it is `written`, also why the device will not take it."""
+    raw, settings = numbers
     meaning = meaning_of(device, point, raw, settings)
     text = f"{label(point)} = {meaning.text} ({raw_text(point, raw)}): {title_of(point)}"
     odd = range_remark(device, point, raw, settings) if written else ""

@@ -38,22 +38,25 @@ def meaning_of(device: Device, point: Point, raw: int, settings: Settings) -> Me
     """The meaning of a raw number; never fails: what cannot be said is said."""
     if point.text is not None:
         return Meaning(shown(text_of(raw, point.words)), text_of(raw, point.words))
+    named = _named(point, raw)
+    return _quantity(device, point, raw, settings) if named is None else Meaning(named)
+
+
+def _named(point: Point, raw: int) -> str | None:
+    """The words of a raw number that is no quantity."""
     special = next((one for one in point.specials if one.low <= raw <= one.high), None)
     if special is not None:
         remark = ", no value" if special.no_value else ""
-        return Meaning(line(f"{special.name} ({wording.title_text(special.title)}){remark}"))
+        return line(f"{special.name} ({wording.title_text(special.title)}){remark}")
     if point.enum is not None:
         entry = next((one for one in point.enum.entries if one.raw == raw), None)
-        if entry is None:
-            return Meaning(f"{raw}, a number without a name in the manual")
-        return Meaning(line(wording.entry_text(entry).partition(" = ")[2]))
+        named = "" if entry is None else wording.entry_text(entry).partition(" = ")[2]
+        return line(named) or f"{raw}, a number without a name in the manual"
     if point.flags:
-        return Meaning(_flags_text(point, raw))
+        return _flags_text(point, raw)
     if point.digits is not None:
-        return Meaning(_digits_text(point, raw))
-    if point.type == "bit":
-        return Meaning("on" if raw else "off")
-    return _quantity(device, point, raw, settings)
+        return _digits_text(point, raw)
+    return ("on" if raw else "off") if point.type == "bit" else None
 
 
 def rounding_remarks(point: Point, asked: Fraction, raw: int, settings: Settings) -> Iterator[str]:

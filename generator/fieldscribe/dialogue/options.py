@@ -57,12 +57,14 @@ def refuse_foreign(device: Device, options: Options) -> None:
     family = device.family
     for one in fields(options):
         takes = _TAKES.get(one.name, (family,))
-        if getattr(options, one.name) not in (None, False) and family not in takes:
+        given = getattr(options, one.name)
+        if given is not None and given is not False and family not in takes:
             raise UnclearError(
                 f"--{one.name.replace('_', '-')} is for {' and '.join(takes)} devices; {device.id} is a {family} device"
             )
     framings = FRAMINGS.get(family, ())
     if options.framing is not None and options.framing not in framings:
         raise UnclearError(
-            f"--framing {options.framing} is not for {family} devices such as {device.id}", f"it takes {', '.join(framings)}"
+            f"--framing {options.framing} is not for {family} devices such as {device.id}",
+            f"it takes {', '.join(framings)}",
         )

@@ -63,7 +63,12 @@ def failure(device: Device, point: Point, error: CodecError) -> tuple[str, str]:
 def names_text(device: Device, names: Iterable[str]) -> str:
     """Points as people know them: `A062 lower_frequency_limit and A004 maximum_frequency`."""
     points = points_by_name(device)
-    return " and ".join(label(points[name]) if name in points else line(name) for name in names)
+    return " and ".join(_name(points[name]) if name in points else line(name) for name in names)
+
+
+def _name(point: Point) -> str:
+    """A point as rules know it: of all its variants."""
+    return f"{line(point.code)} {point.name}" if point.code else point.name
 
 
 def amount(number: Fraction) -> str:
@@ -90,11 +95,14 @@ def _outside(device: Device, point: Point, value: Fraction | None, raw: int, set
         status = "unknown_value" if point.enum.closed else "out_of_range"
         beyond = "" if point.enum.closed else f"; raw {wording.raw_range_text(point)} may be written"
         return RefusedError(status, f"{label(point)} does not take {raw}", line(f"it has {known}{beyond}"))
-    if point.digits is not None and _has_strange_digit(point, raw):
+    if point.digits is not None and codec.strange_digits(point, raw):
         known = ", ".join(f"{one.raw} {one.name}" for one in point.digits.enum.entries[:_MOST_NAMES])
-        return RefusedError("unknown_value", f"{label(point)} does not take {raw}", line(f"each digit is one of {known}"))
+        return RefusedError(
+            "unknown_value", f"{label(point)} does not take {raw}", line(f"each digit is one of {known}")
+        )
     if codec.with_fixed(point, raw) != raw:
-        return RefusedError("out_of_range", f"{label(point)} does not take raw {raw}", wording.fixed_text(point))
+        always = wording.fixed_text(point)
+        return RefusedError("out_of_range", f"{label(point)}: raw {raw} breaks what is always written: {always}")
     asked = amount_with_unit(point, value) if value is not None else f"raw {raw}"
     span = wording.range_text(point, points_by_name(device)) or wording.raw_range_text(point)
     if point.form in ("enum", "flags", "bit") or not span:
@@ -102,12 +110,6 @@ def _outside(device: Device, point: Point, value: Fraction | None, raw: int, set
     span = (_range_now(point, settings) if point.limit_arguments else "") or span
     nearest = _nearest(point, value, raw, settings)
     return RefusedError("out_of_range", f"{label(point)}: {asked} is outside {line(span)}", nearest)
-
-
-def _has_strange_digit(point: Point, raw: int) -> bool:
-    """Whether a digit of the word is none of the numbers that it may be."""
-    entries = () if point.digits is None else point.digits.enum.entries
-    return not {entry.raw for entry in entries}.issuperset(codec.digits(point, raw))
 
 
 def _range_now(point: Point, settings: Settings) -> str:

@@ -44,7 +44,7 @@ def choose_point(device: Device, asked: str, *, index: int | None = None, alike:
         hint = f"it has {', '.join(dict.fromkeys(elements))}" if elements else ""
         raise UnclearError(f"`{quoted(asked)}` has no element {index}", hint)
     points = list({match.point.item: match.point for match in matches}.values())
-    if len(points) == 1 or (alike and points and all(_same_meaning(one, points[0]) for one in points)):
+    if len(points) == 1 or (alike and points and all(same_meaning(one, points[0]) for one in points)):
         return points[0]
     if not points:
         raise UnclearError(f"{device.id} has no point `{quoted(asked)}`", did_you_mean(near(device, asked)))
@@ -54,8 +54,8 @@ def choose_point(device: Device, asked: str, *, index: int | None = None, alike:
             f"`{quoted(asked)}` differs between variants", "give " + " or ".join(f"--variant {one}" for one in variants)
         )
     if len({point.code for point in points}) == 1 and all(point.index is not None for point in points):
-        elements = " or ".join(f"`{line(points[0].code or asked)}[{point.index}]`" for point in points[:8])
-        raise UnclearError(f"`{quoted(asked)}` has {len(points)} elements", f"write {elements}")
+        choices = " or ".join(f"`{line(points[0].code or asked)}[{point.index}]`" for point in points[:8])
+        raise UnclearError(f"`{quoted(asked)}` has {len(points)} elements", f"write {choices}")
     readings = ", ".join(f"{match.reading}: {label(match.point)}" for match in matches[:8])
     raise UnclearError(
         f"`{quoted(asked)}` means several points: {readings}", "name one, or force one reading: wire:, modicon:, code:"
@@ -83,7 +83,7 @@ def points_by_name(device: Device) -> Mapping[str, Point]:
     return {point.name: point for point in device.points}
 
 
-def _same_meaning(one: Point, other: Point) -> bool:
+def same_meaning(one: Point, other: Point) -> bool:
     """Whether points of one name differ in their place or limits only."""
     facts = [(point.name, point.type, point.bits, point.unit, point.scale, point.enum) for point in (one, other)]
     return facts[0] == facts[1]

@@ -21,8 +21,10 @@ def text_of(pattern: int, words: int) -> str:
 
 
 def shown(text: str) -> str:
-    """A text from the line between quotes, what is no letter escaped."""
-    return '"' + "".join(one if one.isprintable() and one not in '"\\' else f"\\x{ord(one):02X}" for one in text) + '"'
+    """A text from the line between quotes; what is no letter is escaped, and blanks that would run together."""
+    pairs = zip(f'"{text}', text, strict=False)
+    plain = [one.isprintable() and one not in '"\\' and before + one != "  " for before, one in pairs]
+    return '"' + "".join(one if fine else f"\\x{ord(one):02X}" for one, fine in zip(text, plain, strict=True)) + '"'
 
 
 def pattern_of_text(point: Point, typed: str) -> int:

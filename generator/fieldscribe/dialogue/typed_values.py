@@ -5,18 +5,18 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 from difflib import get_close_matches
-from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from fieldscribe.dialogue import codec
 from fieldscribe.dialogue.codec import CodecError, Settings
 from fieldscribe.dialogue.refusals import refusal
-from fieldscribe.dialogue.texts import pattern_of_text
 from fieldscribe.dialogue.selection import UnclearError, choose_point, did_you_mean, label, quoted
+from fieldscribe.dialogue.texts import pattern_of_text
 from fieldscribe.language.numbers import NumberError, parse_number
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+    from fractions import Fraction
 
     from fieldscribe.model import Device, Flag, Point
 
@@ -70,7 +70,7 @@ def encode_typed(device: Device, point: Point, typed: Typed, settings: Settings)
 
 
 def read_settings(device: Device, pairs: list[str]) -> dict[str, int | Fraction]:
-    """What rules take of points, from texts such as `A004=50 Hz` or `A004.raw=50`. Raises UnclearError, RefusedError."""
+    """What rules take of points, from `A004=50 Hz` or `A004.raw=50`. Raises UnclearError, RefusedError."""
     settings: dict[str, int | Fraction] = {}
     for pair in pairs:
         name, equals, text = pair.partition("=")

@@ -121,7 +121,7 @@ def _type_text(point: Point) -> str:
 
 
 def _meaning_rows(device: Device, point: Point) -> Iterator[Row]:
-    by_name = {one.name: one for one in device.points}
+    by_name = {name: one for one in device.points for name in (one.item, one.name)}
     unit = point.unit
     yield "Unit", f"{unit.symbol} ({unit.name})" if unit.symbol else ""
     yield "Scale", wording.scale_text(point, by_name)
@@ -153,8 +153,8 @@ def _names_rows(point: Point) -> Iterator[Row]:
         numbers, _, meaning = wording.special_text(special).partition(" = ")
         yield f"Raw {numbers}", meaning
     for flag in point.flags:
-        label = f"Bit{'s' if flag.width > 1 else ''} {wording.flag_bits(flag)}"
-        yield label, wording.flag_text(flag).partition(" = ")[2]
+        label = f"Bit{'s' if flag.width > 1 else ''} {wording.flag_bits(flag, point)}"
+        yield label, wording.flag_text(flag, point).partition(" = ")[2]
 
 
 def _behaviour_rows(device: Device, point: Point) -> Iterator[Row]:

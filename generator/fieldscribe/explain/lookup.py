@@ -120,7 +120,7 @@ def _by_wire(device: Device, number: int) -> Iterator[Match]:
                     told = f"word {number} of the telegram {line(point.telegram)}"
                 elif point.index is not None:
                     told += f", index {point.index}"
-                yield Match(told, point, word_text(place.addresses, number))
+                yield Match(told, point, word_text(place.addresses, number, text=point.text is not None))
                 break
 
 
@@ -155,12 +155,14 @@ def _in_frames(point: Point, key: str, number: int | None, size: int) -> Iterato
             return
 
 
-def word_text(addresses: tuple[int, ...], address: int) -> str:
+def word_text(addresses: tuple[int, ...], address: int, *, text: bool = False) -> str:
     """Which word of a point an address is: `low word (2 of 2)`; empty for a point of one word."""
     count = len(addresses)
     if count < 2 or address not in addresses:
         return ""
     place = addresses.index(address)
+    if text:
+        return f"word {place + 1} of {count}, the first characters first"
     name = {0: "high word", count - 1: "low word"}.get(place, "word")
     return f"{name} ({place + 1} of {count}, the high part first)"
 

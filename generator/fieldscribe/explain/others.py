@@ -1,4 +1,4 @@
-"""What can be explained beside points: commands, errata, and addresses that the manual closes."""
+"""What can be explained beside points: commands, errata, frames, and addresses that the manual closes."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe import wording
 from fieldscribe.explain import Explanation
+from fieldscribe.explain.exchanges import find_exchanges
 from fieldscribe.explain.lookup import number_of
 from fieldscribe.text import line
 from fieldscribe.wording.exact import hex_text
@@ -37,6 +38,8 @@ def _others(device: Device, what: str) -> Iterator[Told]:
     for erratum in device.errata:
         if forced in ("", "name") and asked.lower() == erratum.id:
             yield [f"erratum {erratum.id}"], _erratum(erratum)
+    for reading, heading, rows in find_exchanges(device, what):
+        yield [reading], _clean(heading, rows)
     for space, gaps in device.bus.gaps.items():
         for low, high in gaps:
             if number is not None and low <= number <= high:

@@ -34,7 +34,9 @@ def sample_raw(point: Point) -> int | None:
 def sample_said(point: Point, raw: int) -> str:
     """The number as an example: what it means, and the raw number."""
     if point.info.floating:
-        return f"for example the pattern {hex_text(raw, point.width // 4)}"
+        kind = ("<f", "<I") if point.type == "f32" else ("<d", "<Q")
+        number = struct.unpack(kind[0], struct.pack(kind[1], raw))[0]
+        return f"for example {wording.with_unit(f'{number:g}', point)} is the pattern {hex_text(raw, point.width // 4)}"
     meaning = wording.meaning_text(point, raw)
     return f"for example {meaning} is raw {raw}" if meaning else f"for example raw {raw}"
 

@@ -22,7 +22,7 @@ FORMAT = 1
 
 def export_model(device: Device) -> dict[str, object]:
     """The device as plain dictionaries, lists, texts and integers, ready for `json.dumps`. Raises ExportError."""
-    by_name: PointsByName = {point.name: point for point in device.points}
+    by_name: PointsByName = {name: point for point in device.points for name in (point.item, point.name)}
     directions = {telegram.name: telegram.direction for telegram in device.telegrams}
     return {
         "format": FORMAT,

@@ -26,6 +26,10 @@ _ACCESS = {"request": "w", "response": "r", "cyclic": "r"}
 _VERBS = {"w": "written", "r": "read"}
 
 
+_TOLD_APART = 2
+"""Two words in two frames can be told to belong together; more cannot."""
+
+
 class Places:
     """The addressing of one device."""
 
@@ -50,6 +54,8 @@ class Places:
             if not 0 <= address <= last:
                 self._outside(draft, space, address, last, single=address == found[0])
                 return None
+        if type_name != "text":
+            self._too_scattered(draft, found)
         order = "high first" if type_name == "text" else draft.get("words") or self._order(type_name)
         purpose = "write" if self.access(draft, space) == "w" else "read"
         return Place(purpose, space, found[::-1] if order == "low first" else found, None)
@@ -203,6 +209,14 @@ class Places:
             return None
         base = integer(use["at"], use.span("at"), self.report)
         return None if base is None else {"base": Fraction(base)}
+
+    def _too_scattered(self, draft: Draft, words: tuple[int, ...]) -> None:
+        """A finding for a number of more than two words that come in several frames: nobody could tell a torn one."""
+        carried = self.carried(draft)
+        if carried and len(words) > _TOLD_APART and words[0] // carried != words[-1] // carried:
+            message = f"the {len(words)} words of `{draft.name}` come in several frames"
+            hint = "a number that is parted has two words at most: describe the parts as points of their own"
+            self.report.error("parted-number", message, draft.span("at"), hint)
 
     def _outside(self, draft: Draft, space: str, address: int, last: int, *, single: bool) -> None:
         """A finding for a word that its space or telegram does not have."""

@@ -54,7 +54,10 @@ def bus_of(scope: Scope) -> Bus:
         scope.report.error("duplicate-name", "`bus` is said twice", second.key_span("bus"), "write it once", first)
     raw: Map = found[0]["bus"]
     _of_family(scope, raw, rules)
-    functions = codes(scope, raw.get("functions"), rules.first_code, rules.last_function)
+    functions, responses = (
+        codes(scope, raw.get(key) if key in rules.needed else None, rules.first_code, rules.last_function)
+        for key in ("functions", "responses")
+    )
     if scope.header["family"] == "modbus":
         _counts(scope, raw, functions)
         _broadcasts(scope, raw, functions)
@@ -69,7 +72,7 @@ def bus_of(scope: Scope) -> Bus:
         timing={key: str(value) for key, value in raw.get("timing", {}).items()},
         serial={key: _setting(value) for key, value in raw.get("serial", {}).items()},
         note=titles(raw.get("note")),
-        responses=codes(scope, raw.get("responses"), rules.first_code, rules.last_function),
+        responses=responses,
         pkw=tuple(dict.fromkeys(raw.get("pkw", ()))),
         pzd=_numbers(scope, raw, "pzd", "is no count of words", _MOST_PZD),
         bitrate=raw.get("bitrate"),

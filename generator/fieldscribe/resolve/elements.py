@@ -117,7 +117,7 @@ def _axis(scope: Scope, at: Map, many: str, one: str) -> _Axis | None:
         return None
     low, high = found
     if low < 0 or high < low or high - low >= 65536:
-        message = f"`{many}: {text}` counts nothing"
+        message = f"`{many}: {text}` is no count of elements, or too many"
         scope.report.error("wrong-choice", message, span, f"write a count, or an interval such as `{many}: 0..1`")
         return None
     if alone is None:

@@ -124,11 +124,13 @@ def _where(scope: Scope, raw: Map, bus: Bus) -> str | None:
 def said(value: Any) -> str:
     """What is printed or taken, in one line."""
     if isinstance(value, Map):
-        return "; ".join(f"{key.replace('_', ' ')} {_one(one)}" for key, one in value.items())
+        return "; ".join(f"{key.replace('_', ' ')} {_one(one, key)}" for key, one in value.items())
     return str(value)
 
 
-def _one(value: Any) -> str:
+def _one(value: Any, key: str) -> str:
+    if key == "mask" and isinstance(value, int):
+        return f"{value:04X}h"
     if isinstance(value, Seq):
         return " / ".join(map(str, value))
     return "nothing" if value is None else str(value)

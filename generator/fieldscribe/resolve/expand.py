@@ -12,6 +12,9 @@ from fieldscribe.resolve.scope import Scope, titles
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+MOST_POINTS = 100_000
+"""The most points of a device: rows that stand for many could otherwise fill the memory."""
+
 _OWN = frozenset({"code", "at", "printed", "was", "name", "sets", "members", "record", "title"})
 """What a further set does not take from the point it repeats (the title is extended instead)."""
 
@@ -38,10 +41,17 @@ _OF_FORMATS = ("type", "range", "scale", "unit", "enum", "flags", "special", "di
 
 
 def expand(scope: Scope) -> list[Draft]:
-    """All points of all groups, in the order of the text."""
-    return [
-        draft for group in groups(scope) for point in group.get("points", ()) for draft in _point(scope, group, point)
-    ]
+    """All points of all groups, in the order of the text; a finding when rows stand for more than anybody needs."""
+    found: list[Draft] = []
+    for group in groups(scope):
+        for point in group.get("points", ()):
+            found.extend(_point(scope, group, point))
+            if len(found) > MOST_POINTS:
+                message = f"the rows up to here stand for more than {MOST_POINTS} points"
+                hint = "look at the sets, indices and records"
+                scope.report.error("too-many-items", message, point.span("name"), hint)
+                return found[:MOST_POINTS]
+    return found
 
 
 def _point(scope: Scope, group: Map, point: Map) -> Iterator[Draft]:

@@ -56,6 +56,8 @@ def frames_of(scope: Scope, bus: Bus, index: Index, points: Mapping[str, Point])
             message = "the bytes have an odd number of digits" if digits else "the frame has no bytes"
             scope.report.error("bad-number", message, raw.span("bytes"), "write two digits for each byte")
             continue
+        if not (_known_framing(scope, raw) and _known_length(scope, bus, raw)):
+            continue
         result[name] = OpenFrame(
             _frame(scope, bus, raw, bytes.fromhex(digits), meaning_of(scope, raw, index, points)), raw
         )
@@ -82,16 +84,30 @@ def _frame(scope: Scope, bus: Bus, raw: Map, data: bytes, meaning: Mapping[str, 
 
 
 def framing_of(scope: Scope, bus: Bus, raw: Map) -> str:
-    """The framing of a frame: said, or the usual one of the family; a finding if the family has none of that name."""
+    """The framing of a frame: said, or the usual one of the family."""
+    usual = bus.framings[0] if bus.framings else _FRAMINGS[str(scope.header["family"])][0]
+    return str(raw.get("framing") or usual)
+
+
+def _known_framing(scope: Scope, raw: Map) -> bool:
+    """Whether the family has the framing; a finding if not."""
     family = str(scope.header["family"])
     known = _FRAMINGS[family]
-    usual = bus.framings[0] if family == "modbus" and bus.framings else known[0]
-    said = str(raw.get("framing", usual))
-    if said in known:
-        return said
-    message = f"`{said}` is no framing of the family {family}"
+    if raw.get("framing", known[0]) in known:
+        return True
+    message = f"`{raw['framing']}` is no framing of the family {family}"
     scope.report.error("wrong-choice", message, raw.span("framing"), f"write one of {', '.join(known)}")
-    return usual
+    return False
+
+
+def _known_length(scope: Scope, bus: Bus, raw: Map) -> bool:
+    """Whether the parameter part can have the length that is said; a finding if not."""
+    if scope.header["family"] != "uss" or not bus.pkw or raw.get("pkw", bus.pkw[0]) in bus.pkw:
+        return True
+    message = f"the parameter part cannot have the length {raw['pkw']}"
+    hint = f"known under `bus`: {', '.join(map(str, bus.pkw))}"
+    scope.report.error("wrong-choice", message, raw.span("pkw"), hint)
+    return False
 
 
 def _pkw(scope: Scope, bus: Bus, raw: Map) -> int | None:
@@ -99,14 +115,8 @@ def _pkw(scope: Scope, bus: Bus, raw: Map) -> int | None:
     if scope.header["family"] != "uss":
         _foreign(scope, raw, "pkw", "uss")
         return None
-    if framing_of(scope, bus, raw) in ("pzd", "broadcast"):
-        return None
     said: int = raw.get("pkw", _VARIABLE)
-    if bus.pkw and said not in bus.pkw and "pkw" in raw:
-        message = f"the parameter part cannot have the length {said}"
-        hint = f"known under `bus`: {', '.join(map(str, bus.pkw))}"
-        scope.report.error("wrong-choice", message, raw.span("pkw"), hint)
-    return said
+    return None if framing_of(scope, bus, raw) in ("pzd", "broadcast") else said
 
 
 def _can_id(scope: Scope, raw: Map) -> int | None:

@@ -33,6 +33,10 @@ def messages_of(scope: Scope, bus: Bus) -> tuple[Message, ...]:
     seen: dict[str, Span] = {}
     for raw in scope.listed("messages"):
         name = str(raw["name"])
+        if scope.header["family"] != "can":
+            hint = f"leave it out: the frames of {scope.header['family']} are known"
+            scope.report.error("family-key", "messages are for the family can", raw.span("name"), hint)
+            continue
         if name in seen:
             first = [(seen[name], "first given here")]
             message = f"two messages have the name `{name}`"

@@ -83,7 +83,7 @@ def _point(scope: Scope, draft: Draft, shape: Shape, places: Places, ranges: Ran
     place = places.place(draft, shape.space, shape.type, shape.bits)
     ranged = draft.layer("range") is not None or draft.layer("range_in_units") is not None
     said_open = bool(get("open", False))
-    enum = enum_of(scope, draft, closed=not ranged and not said_open)
+    enum = None if draft.text else enum_of(scope, draft, closed=not ranged and not said_open)
     allowed = ranges.allowed(draft, enum)
     if digits is not None and not ranged:
         allowed = allowed_digits(digits)
@@ -111,7 +111,7 @@ def _point(scope: Scope, draft: Draft, shape: Shape, places: Places, ranges: Ran
         scale=cases,
         decimals=decimals_of(draft, cases, ranges.bounds),
         allowed=allowed,
-        default=_default(scope, draft, enum),
+        default=None if draft.text else _default(scope, draft, enum),
         steps=_steps(scope, draft),
         enum=enum,
         flags=flags_of(scope, draft, shape.bits, shape.width),

@@ -31,6 +31,11 @@ def telegrams_of(scope: Scope, messages: tuple[Message, ...]) -> Telegrams:
     by_name = {message.name: message for message in messages}
     for raw in scope.listed("telegrams"):
         name = str(raw["name"])
+        if SPACE not in scope.family.spaces:
+            family = scope.header["family"]
+            message = f"the family {family} has no telegrams"
+            scope.report.error("family-key", message, raw.span("name"), "leave it out")
+            continue
         if name in seen:
             first = [(seen[name], "first given here")]
             message = f"two telegrams have the name `{name}`"

@@ -88,17 +88,21 @@ def fixed_of(scope: Scope, draft: Draft, bits: tuple[int, int] | None, width: in
             continue
         low, part = found
         if not 0 <= number <= part:
-            message = f"{said} does not fit into the bits {key}"
-            scope.report.error("range-outside-type", message, raw.span(key), f"they hold 0..{part}")
+            message = f"{said} does not fit into {_shown(key)}"
+            scope.report.error("range-outside-type", message, raw.span(key), f"write 0..{part}")
         elif mask & part << low:
-            message = f"the bits {key} are fixed twice"
+            message = f"{_shown(key)} cannot be fixed twice"
             scope.report.error("bits-overlap", message, raw.key_span(key), "remove one of them")
         elif own & part << low:
-            message = f"the bits {key} are those of the point itself"
+            message = f"{_shown(key)} cannot be fixed, for the point itself takes it"
             scope.report.error("bits-overlap", message, raw.key_span(key), "`fixed` names the bits beside it")
         else:
             mask, value = mask | part << low, value | number << low
     return Fixed(mask, value) if mask else None
+
+
+def _shown(key: str) -> str:
+    return f"bits {key}" if ".." in key else f"bit {key}"
 
 
 def _fixed_bits(scope: Scope, draft: Draft, raw: Map, key: str, word: int) -> tuple[int, int] | None:

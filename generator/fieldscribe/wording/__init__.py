@@ -125,7 +125,8 @@ def scale_text(point: Point, points: Points | None = None) -> str:
     if len(point.scale) == 1 and point.scale[0].point is None:
         return with_unit(inverse_text(point.scale[0].rule, points), point)
     return "; ".join(
-        with_unit(inverse_text(case.rule, points), point) + f" when {case.point}.raw is {case.raw}" for case in point.scale
+        with_unit(inverse_text(case.rule, points), point) + f" when {case.point}.raw is {case.raw}"
+        for case in point.scale
     )
 
 
@@ -166,14 +167,15 @@ def special_text(special: Special) -> str:
     return f"{numbers} = {special.name} ({title_text(special.title)})" + (", no value" if special.no_value else "")
 
 
-def flag_bits(flag: Flag) -> str:
-    """The bits of a flag: `3`, or `5..4`."""
-    return str(flag.low) if flag.width == 1 else f"{flag.low + flag.width - 1}..{flag.low}"
+def flag_bits(flag: Flag, point: Point | None = None) -> str:
+    """The bits of a flag: `3`, or `5..4`; with the point, as numbered in the whole word."""
+    low = flag.low + (point.bits[1] if point is not None and point.bits else 0)
+    return str(low) if flag.width == 1 else f"{low + flag.width - 1}..{low}"
 
 
-def flag_text(flag: Flag) -> str:
+def flag_text(flag: Flag, point: Point | None = None) -> str:
     """One flag of a word: `bit 3 = fault (Fault), true when 0`, or `bits 5..4 = mode (Mode): 0 = stop (Stop)`."""
-    head = f"{'bit' if flag.width == 1 else 'bits'} {flag_bits(flag)} = {flag.name} ({title_text(flag.title)})"
+    head = f"{'bit' if flag.width == 1 else 'bits'} {flag_bits(flag, point)} = {flag.name} ({title_text(flag.title)})"
     inverted = ", true when 0" if flag.width == 1 and flag.active == 0 else ""
     values = ": " + ", ".join(map(entry_text, flag.values)) if flag.values else ""
     return head + inverted + values

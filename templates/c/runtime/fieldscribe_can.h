@@ -35,6 +35,7 @@ typedef enum fieldscribe_can_status {
     FIELDSCRIBE_CAN_WRONG_UNIT,
     FIELDSCRIBE_CAN_WRONG_CHECK,   /* bytes do not agree with those that they combine */
     FIELDSCRIBE_CAN_WRONG_ADDRESS, /* the answer is about another parameter */
+    FIELDSCRIBE_CAN_ECHO_MISMATCH, /* the device answers a write with another word than the one that was written */
     /* telegrams */
     FIELDSCRIBE_CAN_MISSING, /* the frame that carries a word has not come yet */
     FIELDSCRIBE_CAN_TORN     /* two words of one number may be of different times: wait for more frames */
@@ -223,26 +224,43 @@ static inline fieldscribe_can_status fieldscribe_can_parse(const fieldscribe_can
     return FIELDSCRIBE_CAN_OK;
 }
 
+/* Whether a message has a byte of that kind. */
+static inline bool fieldscribe_can_carries(const fieldscribe_can_message *message, uint8_t kind)
+{
+    unsigned at = 0U;
+    while (at < FIELDSCRIBE_CAN_BYTES && message->roles[at].kind != kind) {
+        ++at;
+    }
+    return at < FIELDSCRIBE_CAN_BYTES;
+}
+
 /* Reads the word that answers for `address`. */
 static inline fieldscribe_can_status fieldscribe_can_answer(const fieldscribe_can_message *message, uint8_t unit,
     uint16_t address, const fieldscribe_can_frame *frame, uint16_t *word)
 {
     uint16_t answered = 0U;
     uint16_t raw = 0U;
-    bool carries = false;
-    unsigned at;
     const fieldscribe_can_status status = fieldscribe_can_parse(message, unit, frame, &answered, &raw);
     if (status != FIELDSCRIBE_CAN_OK) {
         return status;
     }
-    for (at = 0U; at < FIELDSCRIBE_CAN_BYTES; ++at) {
-        carries = carries || message->roles[at].kind == FIELDSCRIBE_CAN_ADDRESS;
-    }
-    if (carries && answered != address) {
+    if (answered != address && fieldscribe_can_carries(message, FIELDSCRIBE_CAN_ADDRESS)) {
         return FIELDSCRIBE_CAN_WRONG_ADDRESS;
     }
     *word = raw;
     return FIELDSCRIBE_CAN_OK;
+}
+
+/* Whether a frame confirms that `written` stands at `address` now: the device tells what it took. */
+static inline fieldscribe_can_status fieldscribe_can_confirm(const fieldscribe_can_message *message, uint8_t unit,
+    uint16_t address, uint16_t written, const fieldscribe_can_frame *frame)
+{
+    uint16_t word = 0U;
+    const fieldscribe_can_status status = fieldscribe_can_answer(message, unit, address, frame, &word);
+    if (status == FIELDSCRIBE_CAN_OK && word != written && fieldscribe_can_carries(message, FIELDSCRIBE_CAN_RAW)) {
+        return FIELDSCRIBE_CAN_ECHO_MISMATCH;
+    }
+    return status;
 }
 
 /* ---- Cyclic telegrams ---- */

@@ -406,7 +406,7 @@ static inline void fieldscribe_put_word(fieldscribe_outcome *out, uint16_t word)
 static inline const char *fieldscribe_can_status_text(fieldscribe_can_status status)
 {
     static const char *const names[] = {"ok", "bad_unit", "bad_address", "bad_value", "wrong_id", "wrong_length",
-        "wrong_constant", "wrong_unit", "wrong_check", "wrong_address", "missing", "torn"};
+        "wrong_constant", "wrong_unit", "wrong_check", "wrong_address", "echo_mismatch", "missing", "torn"};
     return names[(size_t)status];
 }
 #endif

@@ -332,7 +332,9 @@ static inline fieldscribe_uss_status fieldscribe_uss_take(const fieldscribe_uss_
 
 /*
  * Reads the answer to `request`. The words of process data, as many as the link has, are stored in `pzd`, which has
- * room for `room` of them. What an answer does not say is 0 in the reply.
+ * room for `room` of them, and is not where those are that are sent next: they come with every good telegram, also with
+ * one that brings no value (NO_ANSWER, REFUSED, NO_RIGHTS, WRONG_PARAMETER, WRONG_RESPONSE), and stay as they were if it
+ * is not good. What an answer does not say is 0 in the reply.
  */
 static inline fieldscribe_uss_status fieldscribe_uss_parse(const fieldscribe_uss_profile *profile,
     const fieldscribe_uss_link *link, const fieldscribe_uss_request *request, const uint8_t *bytes, size_t length,
@@ -363,7 +365,7 @@ static inline fieldscribe_uss_status fieldscribe_uss_parse(const fieldscribe_uss
     if (link->pkw != 0U) {
         status = fieldscribe_uss_take(profile, link, request, bytes + 3, words, reply);
     }
-    if (status == FIELDSCRIBE_USS_OK) {
+    if (status != FIELDSCRIBE_USS_WRONG_LENGTH) {
         for (at = 0U; at < link->pzd; ++at) {
             pzd[at] = fieldscribe_uss_get(bytes + 3U + 2U * words + 2U * at);
         }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: 0BSD
-//! What the modules that fieldscribe generates have in common: the traits of a point, exact arithmetic, Modbus frames.
+//! What the modules that fieldscribe generates have in common: the traits of a point, exact arithmetic, and for each
+//! family of buses a module with its frames and its clients: [`modbus`], [`can`], [`uss`].
 //!
 //! Nothing here allocates, does input or output, or panics.
 
@@ -7,17 +8,24 @@
 #![forbid(unsafe_code)]
 
 pub mod arithmetic;
+pub mod can;
 pub mod client;
+pub mod digits;
 pub mod modbus;
+mod pattern;
 mod point;
 mod raw;
+mod rule;
+pub mod text;
+pub mod uss;
 
-pub use arithmetic::Rule;
 pub use point::{
-    allowed, has_value, listed, BitGroup, CountReadable, CountWritable, Decoded, Point, Readable,
-    Scaled, Space, Whole, Writable,
+    allowed, has_value, in_address_order, in_reading_order, listed, BitGroup, CountReadable,
+    CountWritable, Decoded, Digits, Point, Readable, Scaled, Space, Whole, Writable,
 };
 pub use raw::Raw;
+pub use rule::Rule;
+pub use text::Text;
 
 use core::fmt;
 

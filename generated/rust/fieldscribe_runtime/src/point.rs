@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: 0BSD
 //! What a point is. Each point of a device is a type that implements [`Point`] and what its access allows.
 
-use crate::arithmetic::{insert, Rule};
-use crate::{Error, Raw};
+use crate::arithmetic::insert;
+use crate::{Error, Raw, Rule};
 
 /// Where an address counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -16,6 +16,10 @@ pub enum Space {
     Input,
     /// Holding registers: words that are read and written.
     Holding,
+    /// Parameters: numbers that a message names.
+    Parameter,
+    /// Telegrams: words at positions of a cyclic layout.
+    Telegram,
     /// A space of another family.
     Other(&'static str),
 }
@@ -29,6 +33,8 @@ impl Space {
             Self::Discrete => "discrete",
             Self::Input => "input",
             Self::Holding => "holding",
+            Self::Parameter => "parameter",
+            Self::Telegram => "telegram",
             Self::Other(name) => name,
         }
     }
@@ -48,6 +54,17 @@ pub trait Point {
     const SPACE: Space;
     /// The zero-based address on the wire, the lowest if the point has several words.
     const ADDRESS: u16;
+    /// The addresses of all words in reading order: the high part or the first characters first.
+    const ADDRESSES: &'static [u16] = &[Self::ADDRESS];
+    /// The index beside the address, if the point is an element of an array.
+    const INDEX: Option<u8> = None;
+    /// The telegram whose words the addresses count, if the point is in one.
+    const TELEGRAM: Option<&'static str> = None;
+    /// The bits of the word (of the raw number, if it has several words) that are always written as
+    /// [`Point::FIXED_BITS`] says.
+    const FIXED_MASK: u32 = 0;
+    /// What the bits of [`Point::FIXED_MASK`] are written as.
+    const FIXED_BITS: u32 = 0;
     /// How many words, or bits of a bit space, the point takes.
     const WORDS: u16 = 1;
     /// How many decimals counts have: they are in units of `10^-DECIMALS`.
@@ -69,7 +86,7 @@ pub trait Point {
     /// # Errors
     /// [`Error::WrongLength`] unless there are exactly the point's words.
     fn from_received(mut received: impl Iterator<Item = u16>) -> Result<Self::Raw, Error> {
-        let mut words = <Self::Raw as Raw>::Words::default();
+        let mut words = Self::Raw::MIN.into_words();
         for word in words.as_mut() {
             *word = received.next().ok_or(Error::WrongLength)?;
         }
@@ -102,10 +119,19 @@ pub trait BitGroup: Point<Raw: Raw<Words = [u16; 1]>> {
     }
 
     /// `word` with the group's number replaced; bits that the group does not have are cut off.
+    ///
+    /// The word's fixed bits are put in too.
     fn insert(word: u16, raw: Self::Raw) -> u16 {
         let [bits] = raw.into_words();
-        insert(word, Self::SHIFT, Self::MASK, bits)
+        let word = insert(word, Self::SHIFT, Self::MASK, bits);
+        (word & !low_word(Self::FIXED_MASK)) | low_word(Self::FIXED_BITS)
     }
+}
+
+/// A word whose decimal digits each mean something.
+pub trait Digits: Point {
+    /// The numbers that each digit may be.
+    const NUMBERS: &'static [u16];
 }
 
 /// A point whose scale needs the raw numbers of other points.
@@ -283,4 +309,42 @@ pub const fn has_value(holds: bool) -> Result<(), Error> {
     } else {
         Err(Error::NoValue)
     }
+}
+
+const fn low_word(bits: u32) -> u16 {
+    let [_, _, high, low] = bits.to_be_bytes();
+    u16::from_be_bytes([high, low])
+}
+
+/// The raw number from words in the order of [`Point::ADDRESSES`].
+pub(crate) fn joined<P: Point>(words: <P::Raw as Raw>::Words) -> P::Raw {
+    if P::WORDS == 1 {
+        P::from_words(words)
+    } else {
+        P::Raw::from_words(words)
+    }
+}
+
+/// Words in the order of their addresses as words in reading order, which `addresses` has.
+#[must_use]
+pub fn in_reading_order<const W: usize>(words: [u16; W], addresses: &[u16]) -> [u16; W] {
+    let mut found = words;
+    for (place, address) in found.iter_mut().zip(addresses) {
+        let rank = addresses.iter().filter(|other| *other < address).count();
+        *place = words.get(rank).copied().unwrap_or(*place);
+    }
+    found
+}
+
+/// Words in reading order, which `addresses` has, as words in the order of their addresses.
+#[must_use]
+pub fn in_address_order<const W: usize>(words: [u16; W], addresses: &[u16]) -> [u16; W] {
+    let mut found = words;
+    for (word, address) in words.iter().zip(addresses) {
+        let rank = addresses.iter().filter(|other| *other < address).count();
+        if let Some(place) = found.get_mut(rank) {
+            *place = *word;
+        }
+    }
+    found
 }

@@ -7,10 +7,10 @@ mod sealed {
     pub trait Sealed {}
 }
 
-/// A raw number: an integer, a bit, or the bit pattern of a floating-point number.
+/// A raw number: an integer, a bit, the bit pattern of a floating-point number; or the words of a text.
 pub trait Raw: Copy + PartialOrd + sealed::Sealed {
     /// The 16-bit words that hold the number.
-    type Words: Copy + Default + AsRef<[u16]> + AsMut<[u16]>;
+    type Words: Copy + AsRef<[u16]> + AsMut<[u16]>;
     /// The smallest number of the type.
     const MIN: Self;
     /// The largest number of the type.
@@ -129,5 +129,34 @@ impl Raw for bool {
     #[inline]
     fn to_i64(self) -> i64 {
         i64::from(self)
+    }
+}
+
+impl<const W: usize> sealed::Sealed for [u16; W] {}
+
+/// The words of a text in reading order; they are no number, and nothing is rounded to them.
+impl<const W: usize> Raw for [u16; W] {
+    type Words = Self;
+    const MIN: Self = [0; W];
+    const MAX: Self = [u16::MAX; W];
+
+    #[inline]
+    fn into_words(self) -> Self {
+        self
+    }
+
+    #[inline]
+    fn from_words(words: Self) -> Self {
+        words
+    }
+
+    #[inline]
+    fn round(_: f64) -> Option<Self> {
+        None
+    }
+
+    #[inline]
+    fn to_i64(self) -> i64 {
+        0
     }
 }

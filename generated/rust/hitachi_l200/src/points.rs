@@ -1657,6 +1657,7 @@ impl runtime::Point for ScaledProcessValue {
     const CODE: Option<&'static str> = Some("d004");
     const SPACE: runtime::Space = runtime::Space::Holding;
     const ADDRESS: u16 = 0x1004;
+    const ADDRESSES: &'static [u16] = &[0x1004, 0x1005];
     const WORDS: u16 = 2;
     const DECIMALS: u32 = 2;
     const UNIT: &'static str = "%";
@@ -1848,6 +1849,7 @@ impl runtime::Point for RunTime {
     const CODE: Option<&'static str> = Some("d016");
     const SPACE: runtime::Space = runtime::Space::Holding;
     const ADDRESS: u16 = 0x100D;
+    const ADDRESSES: &'static [u16] = &[0x100D, 0x100E];
     const WORDS: u16 = 2;
     const UNIT: &'static str = "h";
     const RAW_MAX: u32 = 999_999;
@@ -1897,6 +1899,7 @@ impl runtime::Point for PowerOnTime {
     const CODE: Option<&'static str> = Some("d017");
     const SPACE: runtime::Space = runtime::Space::Holding;
     const ADDRESS: u16 = 0x100F;
+    const ADDRESSES: &'static [u16] = &[0x100F, 0x1010];
     const WORDS: u16 = 2;
     const UNIT: &'static str = "h";
     const RAW_MAX: u32 = 999_999;
@@ -2182,6 +2185,7 @@ impl runtime::Point for Trip1RunTime {
     const CODE: Option<&'static str> = Some("d081");
     const SPACE: runtime::Space = runtime::Space::Holding;
     const ADDRESS: u16 = 0x0017;
+    const ADDRESSES: &'static [u16] = &[0x0017, 0x0018];
     const WORDS: u16 = 2;
     const UNIT: &'static str = "h";
 }
@@ -2230,6 +2234,7 @@ impl runtime::Point for Trip1PowerOnTime {
     const CODE: Option<&'static str> = Some("d081");
     const SPACE: runtime::Space = runtime::Space::Holding;
     const ADDRESS: u16 = 0x0019;
+    const ADDRESSES: &'static [u16] = &[0x0019, 0x001A];
     const WORDS: u16 = 2;
     const UNIT: &'static str = "h";
 }
@@ -2468,6 +2473,7 @@ impl runtime::Point for Trip2RunTime {
     const CODE: Option<&'static str> = Some("d082");
     const SPACE: runtime::Space = runtime::Space::Holding;
     const ADDRESS: u16 = 0x0021;
+    const ADDRESSES: &'static [u16] = &[0x0021, 0x0022];
     const WORDS: u16 = 2;
     const UNIT: &'static str = "h";
 }
@@ -2516,6 +2522,7 @@ impl runtime::Point for Trip2PowerOnTime {
     const CODE: Option<&'static str> = Some("d082");
     const SPACE: runtime::Space = runtime::Space::Holding;
     const ADDRESS: u16 = 0x0023;
+    const ADDRESSES: &'static [u16] = &[0x0023, 0x0024];
     const WORDS: u16 = 2;
     const UNIT: &'static str = "h";
 }
@@ -2754,6 +2761,7 @@ impl runtime::Point for Trip3RunTime {
     const CODE: Option<&'static str> = Some("d083");
     const SPACE: runtime::Space = runtime::Space::Holding;
     const ADDRESS: u16 = 0x002B;
+    const ADDRESSES: &'static [u16] = &[0x002B, 0x002C];
     const WORDS: u16 = 2;
     const UNIT: &'static str = "h";
 }
@@ -2802,6 +2810,7 @@ impl runtime::Point for Trip3PowerOnTime {
     const CODE: Option<&'static str> = Some("d083");
     const SPACE: runtime::Space = runtime::Space::Holding;
     const ADDRESS: u16 = 0x002D;
+    const ADDRESSES: &'static [u16] = &[0x002D, 0x002E];
     const WORDS: u16 = 2;
     const UNIT: &'static str = "h";
 }
@@ -2850,6 +2859,7 @@ impl runtime::Point for AccelerationTime {
     const CODE: Option<&'static str> = Some("F002");
     const SPACE: runtime::Space = runtime::Space::Holding;
     const ADDRESS: u16 = 0x1013;
+    const ADDRESSES: &'static [u16] = &[0x1013, 0x1014];
     const WORDS: u16 = 2;
     const DECIMALS: u32 = 2;
     const UNIT: &'static str = "s";
@@ -2928,6 +2938,7 @@ impl runtime::Point for AccelerationTimeSet2 {
     const CODE: Option<&'static str> = Some("F202");
     const SPACE: runtime::Space = runtime::Space::Holding;
     const ADDRESS: u16 = 0x1500;
+    const ADDRESSES: &'static [u16] = &[0x1500, 0x1501];
     const WORDS: u16 = 2;
     const DECIMALS: u32 = 2;
     const UNIT: &'static str = "s";
@@ -3006,6 +3017,7 @@ impl runtime::Point for DecelerationTime {
     const CODE: Option<&'static str> = Some("F003");
     const SPACE: runtime::Space = runtime::Space::Holding;
     const ADDRESS: u16 = 0x1015;
+    const ADDRESSES: &'static [u16] = &[0x1015, 0x1016];
     const WORDS: u16 = 2;
     const DECIMALS: u32 = 2;
     const UNIT: &'static str = "s";
@@ -3084,6 +3096,7 @@ impl runtime::Point for DecelerationTimeSet2 {
     const CODE: Option<&'static str> = Some("F203");
     const SPACE: runtime::Space = runtime::Space::Holding;
     const ADDRESS: u16 = 0x1502;
+    const ADDRESSES: &'static [u16] = &[0x1502, 0x1503];
     const WORDS: u16 = 2;
     const DECIMALS: u32 = 2;
     const UNIT: &'static str = "s";
@@ -8504,6 +8517,7 @@ impl runtime::Point for AccelerationTime2 {
     const CODE: Option<&'static str> = Some("A092");
     const SPACE: runtime::Space = runtime::Space::Holding;
     const ADDRESS: u16 = 0x1073;
+    const ADDRESSES: &'static [u16] = &[0x1073, 0x1074];
     const WORDS: u16 = 2;
     const DECIMALS: u32 = 2;
     const UNIT: &'static str = "s";
@@ -8582,6 +8596,7 @@ impl runtime::Point for DecelerationTime2 {
     const CODE: Option<&'static str> = Some("A093");
     const SPACE: runtime::Space = runtime::Space::Holding;
     const ADDRESS: u16 = 0x1075;
+    const ADDRESSES: &'static [u16] = &[0x1075, 0x1076];
     const WORDS: u16 = 2;
     const DECIMALS: u32 = 2;
     const UNIT: &'static str = "s";
@@ -8660,6 +8675,7 @@ impl runtime::Point for DecelerationTime2Set2 {
     const CODE: Option<&'static str> = Some("A293");
     const SPACE: runtime::Space = runtime::Space::Holding;
     const ADDRESS: u16 = 0x1519;
+    const ADDRESSES: &'static [u16] = &[0x1519, 0x151A];
     const WORDS: u16 = 2;
     const DECIMALS: u32 = 2;
     const UNIT: &'static str = "s";

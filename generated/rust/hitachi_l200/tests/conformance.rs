@@ -9,6 +9,8 @@ use hitachi_l200 as device;
 #[macro_use]
 mod runner;
 
+use runner::frames;
+
 table! { decode decode {
     "network_frequency_setpoint" NetworkFrequencySetpoint ();
     "network_process_value" NetworkProcessValue ();
@@ -1240,9 +1242,9 @@ fn run(kind: &str, vector: &runner::Vector) -> Option<runner::Outcome> {
         "bits" => bits(vector),
         "words" => words(vector),
         "address" => address(vector),
-        "build" | "printed_build" => Some(runner::build(vector, &device::PROFILE)),
-        "reply" | "printed_reply" => Some(runner::reply(vector)),
-        "block" => Some(runner::block(vector, device::BLOCKS)),
+        "build" | "printed_build" => Some(frames::build(vector, &device::PROFILE)),
+        "reply" | "printed_reply" => Some(frames::reply(vector)),
+        "block" => Some(frames::block(vector, device::BLOCKS)),
         _ => None,
     }
 }

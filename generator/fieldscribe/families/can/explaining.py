@@ -8,9 +8,9 @@ from fieldscribe.dialogue.codec import with_fixed
 from fieldscribe.dialogue.refusals import RefusedError
 from fieldscribe.dialogue.words import group_mask, words_of
 from fieldscribe.explain.samples import sample_raw, sample_said
+from fieldscribe.families.can.frames import CanFrame, identifier
 from fieldscribe.families.can.recognition import carries
 from fieldscribe.families.can.sending import default_unit, frame_text, read_frame, request_of, write_frames
-from fieldscribe.families.can.frames import CanFrame, identifier
 from fieldscribe.wording import fixed_text
 from fieldscribe.wording.exact import hex_text
 
@@ -70,7 +70,9 @@ def _telegram_text(device: Device, point: Point) -> str:
     for address in point.addresses:
         slot, word = divmod(address, message.words)
         at = [place for place, role in enumerate(message.roles) if role.kind == "word" and role.number >> 1 == word]
-        data = bytes({"constant": role.number, "unit": unit, "multiplexer": slot}.get(role.kind, 0) for role in message.roles)
+        data = bytes(
+            {"constant": role.number, "unit": unit, "multiplexer": slot}.get(role.kind, 0) for role in message.roles
+        )
         shown = frame_text(CanFrame(identifier(message, unit), data))
         mark = shown.index("#") + 1 + 2 * min(at)
         shown = f"{shown[:mark]}{'hhll' if max(at) > min(at) else 'll'}{shown[mark + 2 * len(at) :]}"

@@ -6,13 +6,13 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from fieldscribe.dialogue import Heard, Item
-from fieldscribe.dialogue.items import Directory, named_item, value_item
-from fieldscribe.dialogue.selection import label
+from fieldscribe.dialogue.items import Directory, named_item, value_item, without_variants
 from fieldscribe.dialogue.words import raw_of
 from fieldscribe.families.can.frames import LENGTH
 from fieldscribe.families.can.receiver import Receiver
 from fieldscribe.families.can.recognition import Recognised, recognise, senders
 from fieldscribe.families.can.remarks import (
+    fixed_note,
     identifiers_text,
     message_text,
     request_note,
@@ -52,6 +52,7 @@ class CanListener:
         self._given = settings
         self._directory = Directory(device)
         self._units: dict[int, _Unit] = {}
+        self._words = {(one.telegram, one.name): one.addresses[0] for one in device.points if one.addresses}
 
     def hear(self, pasted: Pasted) -> Heard:
         """What the next frame says; any bytes are safe."""
@@ -82,7 +83,8 @@ class CanListener:
             note = f"the manual knows multiplexers 0 to {last} only"
             return replace(base, kind="cyclic", notes=(note,))
         receiver = unit.receivers.setdefault(telegram.name, Receiver(telegram, found.message, found.unit or 0))
-        receiver.take(found.frame)
+        if not receiver.take(found.frame):
+            return replace(base, kind="cyclic", notes=("its words are not read, for the frame is damaged",))
         positions = range(first, min(first + per_frame, telegram.words))
         points = {point.item: point for at in positions for point in self._directory.at(telegram.name, at)}
         whole: list[tuple[Point, int]] = []
@@ -96,8 +98,7 @@ class CanListener:
         items = []
         for at in positions:
             here = [point for point in points.values() if at == min(set(point.addresses) & set(positions))]
-            for point in here:
-                items.append(self._word(receiver, telegram, point, raws.get(point.item), settings))
+            items += [self._word(receiver, telegram, point, raws.get(point.item), settings) for point in here]
             if not self._directory.at(telegram.name, at):
                 words = receiver.words((at,))[1]
                 items.append(Item(telegram.name, at, 1, f"word {at}: no point is described here ({_hex(words)})"))
@@ -107,18 +108,16 @@ class CanListener:
                 unit.waiting[point.item] = (point, raw)
         return replace(base, kind="cyclic", items=tuple(items))
 
-    def _word(
-        self, receiver: Receiver, telegram: Telegram, point: Point, raw: int | None, settings: Settings
-    ) -> Item:
+    def _word(self, receiver: Receiver, telegram: Telegram, point: Point, raw: int | None, settings: Settings) -> Item:
         """A point of the telegram, or as much of it as the frames so far tell."""
         base = (telegram.name, min(point.addresses), len(point.addresses))
         if raw is None:
             return named_item(point, base, self._partly(receiver, point, settings))
-        item = value_item(self._device, point, base, raw, settings)
+        item = value_item(self._device, point, base, (raw, settings))
         if not item.missing:
             return item
-        by_name = {one.name: one for one in self._device.points if one.telegram == telegram.name}
-        slots = sorted({by_name[name].addresses[0] // receiver.per_frame for name in item.missing if name in by_name})
+        places = [self._words[telegram.name, name] for name in item.missing if (telegram.name, name) in self._words]
+        slots = sorted({place // receiver.per_frame for place in places})
         comes = f"; it comes with multiplexer {' and '.join(map(str, slots))}" if slots else ""
         return replace(item, text=item.text + comes)
 
@@ -128,7 +127,7 @@ class CanListener:
         if any(status != "ok" for status, _ in parts):
             return waiting_text(point, [words for _, words in parts], receiver.per_frame)
         raw = raw_of(point, [words[0] for _, words in parts])
-        item = value_item(self._device, point, ("", 0, 0), raw, settings)
+        item = value_item(self._device, point, ("", 0, 0), (raw, settings))
         would = item.text.partition(" = ")[2].rpartition(":")[0]
         high = point.addresses[0] // receiver.per_frame
         return (
@@ -136,13 +135,11 @@ class CanListener:
             f"the next frame with multiplexer {high} tells"
         )
 
-    def _resolved(
-        self, unit: _Unit, telegram: Telegram, settings: Settings, now: dict[str, Point]
-    ) -> Iterator[Item]:
+    def _resolved(self, unit: _Unit, telegram: Telegram, settings: Settings, now: dict[str, Point]) -> Iterator[Item]:
         """Points of frames before that this frame gave their missing factors."""
         for name, (point, raw) in list(unit.waiting.items()):
             base = (telegram.name, min(point.addresses), len(point.addresses))
-            item = value_item(self._device, point, base, raw, settings)
+            item = value_item(self._device, point, base, (raw, settings))
             if name in now or item.missing:
                 continue
             del unit.waiting[name]
@@ -161,7 +158,8 @@ class CanListener:
         points = self._directory.at("parameter", address)
         if known and message.direction != "request":
             self._learn(unit, list(self._whole(unit, points)))
-        items = [self._value(unit, point, address, raw, written=writes) for point in points]
+        shown = without_variants(points, limits=writes)
+        items = [self._value(unit, point, address, raw, written=writes) for point in shown]
         if not points:
             brings = "" if raw is None else f" ({_hex((raw,))})"
             items = [Item("parameter", address, 1, f"{address_text(address)}: no point is described here{brings}")]
@@ -174,14 +172,15 @@ class CanListener:
         if raw is None:
             return named_item(point, base)
         if len(point.addresses) == 1:
-            return value_item(self._device, point, base, raw_of(point, (raw,)), settings, written=written)
+            item = value_item(self._device, point, base, (raw_of(point, (raw,)), settings), written=written)
+            return replace(item, text=item.text + fixed_note(point, raw)) if written else item
         words = {**unit.words, address: raw}
         place = point.addresses.index(address) + 1
         part = f"word {place} of {len(point.addresses)} = {_hex((raw,))}"
         if not all(at in words for at in point.addresses):
             left = sum(at not in words for at in point.addresses)
             return named_item(point, base, f"{part}; {left} more words to come")
-        item = value_item(self._device, point, base, raw_of(point, [words[at] for at in point.addresses]), settings)
+        item = value_item(self._device, point, base, (raw_of(point, [words[at] for at in point.addresses]), settings))
         return replace(item, text=f"{item.text}; here {part}")
 
     def _whole(self, unit: _Unit, points: Sequence[Point]) -> Iterator[tuple[Point, int]]:
@@ -248,5 +247,3 @@ def _kind(message: Message) -> str:
 
 def _hex(words: Sequence[int]) -> str:
     return " ".join(f"{word:04X}h" for word in words)
-
-

@@ -1,4 +1,4 @@
-"""CAN frames as people paste them: `321#DD00051E13880064`, lines of candump and its logs, bytes for a known identifier."""
+"""CAN frames as people paste them: `321#DD00051E13880064`, lines of candump, bytes for a known identifier."""
 
 from __future__ import annotations
 
@@ -17,7 +17,8 @@ HINT = "write identifier and data in hexadecimal, as in 321#DD00051E13880064, or
 MOST_IDENTIFIER = 0x1FFFFFFF
 _STAMP = r"(?P<stamp>\([0-9.]{1,32}\)\s+)?"
 _LOGGED = re.compile(
-    _STAMP + r"(?:(?P<bus>[A-Za-z][\w.-]{0,31})\s+)?(?:0[xX])?(?P<id>[0-9A-Fa-f]{1,8})#(?P<fd>#[0-9A-Fa-f])?(?P<data>[^\s#]*)"
+    _STAMP
+    + r"(?:(?P<bus>[A-Za-z][\w.-]{0,31})\s+)?(?:0[xX])?(?P<id>[0-9A-Fa-f]{1,8})#(?P<fd>#[0-9A-Fa-f])?(?P<data>[^\s#]*)"
     r"(?:\s+[RT])?"
 )
 _DUMPED = re.compile(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from fieldscribe.families.can.frames import LENGTH, identifier
+from fieldscribe.families.can.frames import LENGTH, checksum, identifier
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -60,6 +60,8 @@ class Receiver:
         place = 0
         for role, byte in zip(self.message.roles, frame.data, strict=True):
             expected = {"constant": role.number, "unit": self.unit & 0xFF}.get(role.kind, byte)
+            if role.kind == "xor":
+                expected = checksum(frame.data, role.number)
             if byte != expected:
                 return None
             if role.kind == "multiplexer":

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from fieldscribe.explain.lookup import word_text
 from fieldscribe.families.can.recognition import carries
 from fieldscribe.text import line
-from fieldscribe.wording import address_text
+from fieldscribe.wording import address_text, fixed_text
 from fieldscribe.wording.exact import hex_text
 
 if TYPE_CHECKING:
@@ -62,6 +62,13 @@ def request_note(device: Device, found: Recognised) -> Iterator[str]:
     low, high = device.bus.units
     if found.unit is not None and not low <= found.unit <= high:
         yield f"the device cannot have unit {found.unit}: units are {low} to {high}"
+
+
+def fixed_note(point: Point, word: int) -> str:
+    """That a written word has not the bits beside a bit group that are always written as a constant."""
+    if point.bits is None or point.fixed is None or word & point.fixed.mask == point.fixed.bits:
+        return ""
+    return f"; the word breaks what is always written: {fixed_text(point)}"
 
 
 def waiting_text(point: Point, parts: Sequence[Sequence[int]], per_frame: int) -> str:

@@ -90,7 +90,8 @@ def _text_note(point: Point) -> tuple[str, ...]:
 
 
 def _word(text: str) -> int:
-    number = number_of(text.strip())
+    asked = text.strip()
+    number = number_of(f"0{asked}" if asked[-1:] in ("h", "H") else asked)
     if number is None or number > 0xFFFF:
         raise UnclearError(f"--with-word: `{quoted(text)}` is no word", "write it as 1234h, 0x1234 or 4660")
     return number
@@ -99,5 +100,7 @@ def _word(text: str) -> int:
 def _refused(device: Device, point: Point, status: str) -> RefusedError:
     if status == "bad_unit":
         low, high = device.bus.units
-        return RefusedError(status, f"{label(point)}: the device cannot have this unit number", f"units are {low} to {high}")
+        return RefusedError(
+            status, f"{label(point)}: the device cannot have this unit number", f"units are {low} to {high}"
+        )
     return RefusedError(status, f"{label(point)}: {status.replace('_', ' ')}")

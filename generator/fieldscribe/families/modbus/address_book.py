@@ -115,7 +115,7 @@ class AddressBook:
         if not all(address in words for address in inside):
             return named_item(point, base)
         raw = raw_of(point, place.addresses, words)
-        return value_item(self._device, point, base, raw, settings, written=area.function not in READS)
+        return value_item(self._device, point, base, (raw, settings), written=area.function not in READS)
 
     def _unknown(self, area: Area, addresses: list[int]) -> list[Item]:
         if not addresses:

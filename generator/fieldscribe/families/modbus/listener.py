@@ -23,6 +23,8 @@ from fieldscribe.families.modbus.replies import Reply, parse_reply
 from fieldscribe.families.modbus.requests import Request, parse_request
 
 if TYPE_CHECKING:
+    from fractions import Fraction
+
     from fieldscribe.dialogue.codec import Settings
     from fieldscribe.model import Device
 
@@ -35,7 +37,7 @@ class ModbusListener:
     def __init__(self, device: Device, settings: Settings, framing: str | None = None) -> None:
         self._device = device
         self._given = settings
-        self._heard: dict[str, int] = {}
+        self._heard: dict[str, int | Fraction] = {}
         self._framing = framing
         self._book = AddressBook(device)
         self._open: Request | None = None

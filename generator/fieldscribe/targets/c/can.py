@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from fieldscribe.names import upper
 from fieldscribe.targets.c.literals import hexadecimal, raw_type
 from fieldscribe.targets.c.modbus import exceptions_of
+from fieldscribe.targets.c.places import fixed_number, fixes
 from fieldscribe.text import c_comment
 
 if TYPE_CHECKING:
@@ -129,7 +130,7 @@ def can_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
         exceptions=exceptions_of(device, scope),
         groups=tuple(_groups(device, scope)),
         parameters=tuple(
-            _parameter(point, views[point.item])
+            _parameter(point, views[point.item], scope)
             for point in points
             if point.space == "parameter" and (point.words == 1 or point.text is not None)
         ),
@@ -155,8 +156,9 @@ def identifiers(bus: BusView, view: DeviceView) -> Iterator[tuple[str, str]]:
         yield from ((name, f"the addresses of {group.title}") for name in (group.array, group.count_name))
     for point in bus.parameters:
         item = point.function[len(view.prefix) + 1 :]
-        tails = ("_read_request", "_read_answer") if point.read else ()
-        tails += ("_write_request", "_write_answer") if point.write else ()
+        tails = ["_read_request", "_read_answer"] if point.read else []
+        tails += ["_read_word"] if point.read and point.shares else []
+        tails += ["_write_request", "_write_answer"] if point.write else []
         yield from ((point.function + tail, item) for tail in tails)
     for one in bus.cyclic:
         yield f"{one.function}_received", one.function[len(view.prefix) + 1 :]
@@ -220,7 +222,7 @@ def _groups(device: Device, scope: Scope) -> Iterator[GroupView]:
             yield GroupView(group.name, name, count, tuple(hexadecimal(address) for address in addresses))
 
 
-def _parameter(point: Point, view: PointView) -> ParameterView:
+def _parameter(point: Point, view: PointView, scope: Scope) -> ParameterView:
     """The frames of a point whose every word travels in a message of its own."""
     return ParameterView(
         view.function,
@@ -231,7 +233,7 @@ def _parameter(point: Point, view: PointView) -> ParameterView:
         point.text is not None,
         point.bits is not None,
         raw_of_word(point, view, "word"),
-        word_of_raw(point, view, "word"),
+        word_of_raw(point, view, "word", scope),
     )
 
 
@@ -246,10 +248,16 @@ def raw_of_word(point: Point, view: PointView, word: str) -> str:
     return word if point.info.bits == 16 else f"({view.raw_type})({word} & 0xFFU)"
 
 
-def word_of_raw(point: Point, view: PointView, word: str) -> str:
-    """The one word of a raw number; `word` is what stands there now, for a point that shares it."""
+def word_of_raw(point: Point, view: PointView, word: str, scope: Scope) -> str:
+    """The one word of a raw number, with its constant bits: a word made of masks may lack them.
+
+    `word` is what stands there now, for a point that shares it.
+    """
     if point.bits is not None:
         return f"{view.function}_insert({word}, raw)"
+    if fixes(point):
+        number = fixed_number(point, view.macro, scope, "raw")
+        return f"(uint16_t)({number})" if point.info.signed else number
     if raw_type(point) == "bool":
         return "raw ? 1U : 0U"
     return "(uint16_t)raw" if point.info.signed else "raw"

@@ -93,7 +93,8 @@ def _identifiers(device: Device) -> Iterator[tuple[str, str]]:
 
 def _of_points(view: DeviceView) -> Iterator[tuple[str, str]]:
     for group in view.groups:
-        for point, _ in group.entries:
+        for point, remark in group.entries:
+            yield from ((name, remark.item) for name, _ in remark.defines)
             if point is None:
                 continue
             if point.enum is not None:

@@ -6,8 +6,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.names import upper
+from fieldscribe.targets.c.defines import special_defines
 from fieldscribe.targets.c.literals import raw_type
-from fieldscribe.targets.c.points import named_numbers, special_defines, value_type
+from fieldscribe.targets.c.points import named_numbers, value_type
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -5,10 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe import __version__
+from fieldscribe.model import UNSETTLED_TYPE
 from fieldscribe.names import upper
+from fieldscribe.targets.c.defines import place_defines
 from fieldscribe.targets.c.points import comment_lines, point_view
 from fieldscribe.targets.c.scope import Scope, scope_of
-from fieldscribe.targets.c.views import DeviceView, GroupView, Needs, PointView, TelegramView
+from fieldscribe.targets.c.views import DeviceView, GroupView, Needs, PointView, RemarkView, TelegramView
 from fieldscribe.text import c_comment
 
 if TYPE_CHECKING:
@@ -20,15 +22,17 @@ _FLOATS = {"round", "round_wide", "times", "times_wide", "real", "f32", "f64", "
 def device_view(device: Device) -> tuple[DeviceView, Scope]:
     """The header's view, and the scope it was built in."""
     scope = scope_of(device)
-    by_group: dict[str, list[tuple[PointView | None, tuple[str, ...]]]] = {group.name: [] for group in device.groups}
+    by_group: dict[str, list[tuple[PointView | None, RemarkView]]] = {group.name: [] for group in device.groups}
     aliases: list[tuple[str, str]] = []
     spaces: dict[str, None] = {}
     for point in device.points:
         if not point.generated:
             by_group.setdefault(point.group, []).append((None, _remark(point, scope)))
+            if _is_placed(point):
+                spaces.setdefault(point.space)
             continue
         one = point_view(point, scope)
-        by_group.setdefault(point.group, []).append((one, ()))
+        by_group.setdefault(point.group, []).append((one, RemarkView(point.item, (), ())))
         spaces.setdefault(point.space)
         for old in point.was:
             item = old + point.item[len(point.name) :]  # a variant keeps its suffix
@@ -47,10 +51,9 @@ def device_view(device: Device) -> tuple[DeviceView, Scope]:
         version=device.version,
         digest=device.digest[:16],
         telegrams=tuple(
-            TelegramView(
-                f"{scope.upper}_TELEGRAM_{upper(one.name)}", number, f"{scope.upper}_TELEGRAM_{upper(one.name)}_WORDS", one.words
-            )
+            TelegramView(name, number, f"{name}_WORDS", one.words)
             for number, one in enumerate(device.telegrams)
+            for name in (f"{scope.upper}_TELEGRAM_{upper(one.name)}",)
         ),
         spaces=tuple((f"{scope.upper}_SPACE_{upper(space)}", index) for index, space in enumerate(spaces)),
         groups=groups,
@@ -96,9 +99,18 @@ def _aliases(view: PointView, function: str, macro: str) -> list[tuple[str, str]
     return [*((macro + name[len(view.macro) :], name) for name, _ in view.defines), *renamed]
 
 
-def _remark(point: Point, scope: Scope) -> tuple[str, ...]:
-    lines = comment_lines(point, scope)
-    return (*lines, c_comment(f"Not generated ({point.item}): {point.reason or 'documented only'}."))
+def _is_placed(point: Point) -> bool:
+    """Whether the manual leaves open what the words mean but says where they are; others are nobody's to touch."""
+    return point.reason == UNSETTLED_TYPE and point.address is not None and bool(point.places)
+
+
+def _remark(point: Point, scope: Scope) -> RemarkView:
+    lines = [
+        *comment_lines(point, scope),
+        c_comment(f"Not generated ({point.item}): {point.reason or 'documented only'}."),
+    ]
+    places = place_defines(point, f"{scope.upper}_{upper(point.item)}", scope) if _is_placed(point) else ()
+    return RemarkView(point.item, tuple(lines), tuple(places))
 
 
 def _needs(scope: Scope) -> Needs:
@@ -121,5 +133,6 @@ def _needs(scope: Scope) -> Needs:
         f64_order="f64_order" in used,
         rules=rules,
         shifts=rules and scope.shifts,
+        lifts=rules and scope.lifts,
         floats=bool(used & _FLOATS),
     )

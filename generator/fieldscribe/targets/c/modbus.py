@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.names import upper
 from fieldscribe.targets.c.literals import hexadecimal, raw_type, unsigned
+from fieldscribe.targets.c.places import fixed_number, fixes
 from fieldscribe.text import c_comment
 
 if TYPE_CHECKING:
@@ -27,7 +28,10 @@ _READS = {"coil": 1, "discrete": 2, "holding": 3, "input": 4}
 
 @dataclass(frozen=True, slots=True)
 class RequestView:
-    """The requests of one point: `read` and `write` are functions' numbers or empty; `words` are stored by `stores`."""
+    """The requests of one point: `read` and `write` are functions' numbers or empty.
+
+    `number` is stored, in one word or in several.
+    """
 
     function: str
     macro: str
@@ -36,7 +40,8 @@ class RequestView:
     write_address: str
     raw_type: str
     count: int
-    store: str
+    number: str
+    single: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,7 +97,9 @@ def modbus_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
     numbers = frozenset(code.number for code in bus.functions)
     views = {entry.item: entry for group in view.groups for entry, _ in group.entries if entry is not None}
     requests = (
-        _request(point, views[point.item], numbers) for point in device.points if point.generated and point.places
+        _request(point, views[point.item], numbers, scope)
+        for point in device.points
+        if point.generated and point.places
     )
     return BusView(
         guard=f"{scope.upper}_MODBUS_H",
@@ -128,7 +135,7 @@ def identifiers(bus: BusView, view: DeviceView) -> Iterator[tuple[str, str]]:
         yield from ((f"{request.function}{tail}", item) for tail in ("_read_request", "_write_request"))
 
 
-def _request(point: Point, view: PointView, functions: frozenset[int]) -> RequestView | None:
+def _request(point: Point, view: PointView, functions: frozenset[int], scope: Scope) -> RequestView | None:
     """None for a point that no function of the device reaches, or that needs its word read first to be written."""
     place = point.places[0]
     read = (place.function or _READS.get(place.space, 0)) if point.readable else 0
@@ -146,8 +153,16 @@ def _request(point: Point, view: PointView, functions: frozenset[int]) -> Reques
         write_address=f"{view.macro}_WRITE_ADDRESS" if moved else f"{view.macro}_ADDRESS",
         raw_type=view.raw_type,
         count=point.words,
-        store="" if view.words is not None else "raw ? 1U : 0U" if raw_type(point) == "bool" else "raw",
+        number=_number(point, view, scope),
+        single=view.words is None,
     )
+
+
+def _number(point: Point, view: PointView, scope: Scope) -> str:
+    """What is stored for a raw number, with its constant bits: a word made of masks may lack them."""
+    if fixes(point):
+        return fixed_number(point, view.macro, scope, "raw")
+    return "raw ? 1U : 0U" if raw_type(point) == "bool" else "raw"
 
 
 def _writing(point: Point, place: Place, functions: frozenset[int]) -> int:

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 def words_view(point: Point, scope: Scope) -> WordsView | None:
-    """Conversions between raw and words; None where the one word is the raw number, or its bits are shared; of a text."""
+    """Conversions between raw and words; None for a text, and where one word is the raw number or holds several."""
     info = point.info
     if point.text is not None or point.bits is not None or info.bits == 1 or (info.bits <= 16 and not info.signed):
         return None
@@ -57,6 +57,11 @@ def bits_view(point: Point, macro: str, scope: Scope) -> BitsView | None:
     if point.fixed is not None:
         changed = f"(({changed}) & ~(uint32_t){macro}_FIXED_MASK) | {macro}_FIXED_BITS"
     return BitsView(extract, f"(uint16_t)({changed})")
+
+
+def fixes(point: Point) -> bool:
+    """Whether encoding puts constant bits into the raw number; for a bit group its insertion does."""
+    return point.fixed is not None and point.bits is None
 
 
 def fixed_number(point: Point, macro: str, scope: Scope, name: str) -> str:

@@ -5,39 +5,38 @@ from __future__ import annotations
 import textwrap
 from typing import TYPE_CHECKING
 
+from fieldscribe.model import UNSETTLED_TYPE
 from fieldscribe.names import upper
+from fieldscribe.targets.c.defines import defines
 from fieldscribe.targets.c.limits import any_of, check_view, interval_test
 from fieldscribe.targets.c.literals import (
     VALUE_BOUNDS,
     bare,
     float_order,
-    hexadecimal,
     outer_limits,
     raw_bounds,
     raw_type,
     signed,
     unsigned,
 )
-from fieldscribe.targets.c.places import bits_view, fixed_number, words_view
+from fieldscribe.targets.c.parts import digits_view, text_view
+from fieldscribe.targets.c.places import bits_view, fixed_number, fixes, words_view
 from fieldscribe.targets.c.rules import ruled_view
 from fieldscribe.targets.c.scales import scaled_view
 from fieldscribe.targets.c.views import (
     Codec,
-    Define,
-    DigitsView,
     EnumView,
     FlagView,
     FloatView,
     PlainView,
     PointView,
-    TextView,
 )
 from fieldscribe.text import c_comment, c_string
 from fieldscribe.wording import access_text, range_text, raw_range_text, resolution_text, with_unit
 from fieldscribe.wording.exact import number_text
 
 if TYPE_CHECKING:
-    from fieldscribe.model import Enum, Flag, Point, Special
+    from fieldscribe.model import Enum, Flag, Point
     from fieldscribe.targets.c.scope import Scope
 
 _COMMENT_WIDTH = 114
@@ -59,7 +58,7 @@ def point_view(point: Point, scope: Scope) -> PointView:
         macro=macro,
         item=point.item,
         comment=comment_lines(point, scope),
-        defines=tuple(_defines(point, macro, scope, low, high)),
+        defines=tuple(defines(point, macro, scope, (low, high))),
         enum=_enum_view(enum, point, scope) if enum is not None else None,
         shape=shape,
         codec=codec,
@@ -69,7 +68,7 @@ def point_view(point: Point, scope: Scope) -> PointView:
         readable=point.readable,
         writable=point.writable,
         check=check,
-        recheck=check is not None and (len(point.allowed.intervals) > 1 or bool(check.limits) or _fixes(point)),
+        recheck=check is not None and (len(point.allowed.intervals) > 1 or bool(check.limits) or fixes(point)),
         no_value=_no_value(point) if point.specials else "",
         scale_arguments=scale,
         limit_arguments=limits,
@@ -95,13 +94,15 @@ def value_type(point: Point) -> str:
 def comment_lines(point: Point, scope: Scope) -> tuple[str, ...]:
     """The comment above a point: code, title, range, access, default, and what is wrong in the manual."""
     head = f"{point.code}: {point.title['en']}" if point.code else point.title["en"]
-    facts = [_range(point), access_text(point.access)]
+    facts = [_range(point) if point.reason != UNSETTLED_TYPE else "", access_text(point.access)]
     if point.default is not None:
         facts.append(f"default {with_unit(number_text(point.default), point)}")
     lines = [*_wrapped(head), *_wrapped("; ".join(fact for fact in facts if fact) + ".")]
     for flag in point.flags:
         if flag.width == 1 and flag.active == 0:
             lines += _wrapped(f"Bit {flag.low} ({flag.name}) is true when it is 0.")
+    if any(flag.width == 1 and flag.active == 0 for flag in point.flags):
+        lines += _wrapped("Exclusive or with ACTIVE_LOW_MASK makes every bit 1 whose name is true, and back.")
     for erratum in point.errata:
         lines += _wrapped(scope.errata.get(erratum, f"Erratum {erratum}."))
     return tuple(lines)
@@ -110,14 +111,6 @@ def comment_lines(point: Point, scope: Scope) -> tuple[str, ...]:
 def named_numbers(point: Point) -> Enum | None:
     """The enum that names the point's numbers, or each of its digits."""
     return point.digits.enum if point.digits is not None else point.enum
-
-
-def special_defines(special: Special, macro: str) -> tuple[Define, Define]:
-    """The macros of the first and the last raw number of a special; the same one twice for a single number."""
-    name = f"{macro}_{upper(special.name)}"
-    if special.low == special.high:
-        return (name, signed(special.low)), (name, signed(special.low))
-    return (f"{name}_FIRST", signed(special.low)), (f"{name}_LAST", signed(special.high))
 
 
 def _range(point: Point) -> str:
@@ -147,12 +140,12 @@ def _codec(
     if form == "float":
         return "float", _float_view(point, scope)
     if form == "text":
-        return "text", _text_view(point, macro)
+        return "text", text_view(point)
     if form == "digits":
-        return "digits", _digits_view(point)
+        return "digits", digits_view(point)
     kind = value_type(point)
     least, greatest = VALUE_BOUNDS[kind]
-    if _fixes(point):  # a value without its constant bits may lie outside: only what the type cannot hold is refused
+    if fixes(point):  # a value without its constant bits may lie outside: only what the type cannot hold is refused
         low, high = raw_bounds(point)
         tests = [f"value < {bare(low)}"] if low > least else []
         tests += [f"value > {bare(high)}"] if high < greatest else []
@@ -160,47 +153,6 @@ def _codec(
     tests = [f"value < {macro}_RAW_MIN"] if outer[0] > least else []
     tests += [f"value > {macro}_RAW_MAX"] if outer[1] < greatest else []
     return "plain", PlainView(kind, " || ".join(tests), "")
-
-
-def _fixes(point: Point) -> bool:
-    """Whether encoding puts constant bits into the raw number; for a bit group its insertion does."""
-    return point.fixed is not None and point.bits is None
-
-
-_REFUSED_CHARACTERS = {
-    "ascii": "character < 0x20U || character > 0x7EU",
-    "latin-1": "character < 0x20U || (character > 0x7EU && character < 0xA0U)",
-}
-
-
-def _text_view(point: Point, macro: str) -> TextView:
-    assert point.text is not None
-    addresses = ", ".join(hexadecimal(address) for address in point.addresses)
-    characters = point.text.characters
-    return TextView(point.words, characters, _REFUSED_CHARACTERS[point.text.encoding], addresses)
-
-
-def _digits_view(point: Point) -> DigitsView:
-    """Only the first digit can be more than 9: it takes what is left."""
-    assert point.digits is not None
-    count = point.digits.count
-    largest = raw_bounds(point)[1] // 10 ** (count - 1)
-    numbers = sorted({entry.raw for entry in point.digits.enum.entries})
-    kind = "uint8_t" if max(largest, 9) < 256 else "uint16_t"
-    bounds = (0, 255 if kind == "uint8_t" else 65535)
-    tests = [interval_test("digit", low, high, bounds, unsigned) for low, high in _runs(numbers)]
-    return DigitsView(count, kind, any_of(tests))
-
-
-def _runs(numbers: list[int]) -> list[tuple[int, int]]:
-    """Ascending numbers as intervals without holes."""
-    runs: list[tuple[int, int]] = []
-    for number in numbers:
-        if runs and runs[-1][1] == number - 1:
-            runs[-1] = (runs[-1][0], number)
-        else:
-            runs.append((number, number))
-    return runs
 
 
 def _float_view(point: Point, scope: Scope) -> FloatView:
@@ -218,56 +170,6 @@ def _float_view(point: Point, scope: Scope) -> FloatView:
         nan=f"order < {bare(-infinity)} || order > {bare(infinity)}",
         inside=any_of(tests),
     )
-
-
-def _defines(point: Point, macro: str, scope: Scope, low: int, high: int) -> list[Define]:
-    defines: list[Define] = [(f"{macro}_SPACE", f"{scope.upper}_SPACE_{upper(point.space)}")]
-    address = point.address
-    if address is not None:
-        defines.append((f"{macro}_ADDRESS", hexadecimal(address)))
-        if point.index is not None:
-            defines.append((f"{macro}_INDEX", unsigned(point.index)))
-        if point.telegram is not None:
-            defines.append((f"{macro}_TELEGRAM", f"{scope.upper}_TELEGRAM_{upper(point.telegram)}"))
-        defines += [
-            (f"{macro}_{upper(place.purpose)}_ADDRESS", hexadecimal(min(place.addresses)))
-            for place in point.places[1:]
-            if place.addresses
-        ]
-    if point.code is not None:
-        defines.append((f"{macro}_CODE", c_string(point.code)))
-    for key, number in point.references.items():
-        literal = c_string(number) if isinstance(number, str) else (unsigned if number >= 0 else signed)(number)
-        defines.append((f"{macro}_{upper(key)}", literal))
-    defines.append((f"{macro}_WORDS", f"{point.words}U"))
-    if point.text is not None:
-        defines.append((f"{macro}_CHARACTERS", unsigned(point.text.characters)))
-    elif point.digits is not None:
-        defines.append((f"{macro}_DIGITS", unsigned(point.digits.count)))
-    elif not point.info.floating:
-        defines += [(f"{macro}_RAW_MIN", signed(low)), (f"{macro}_RAW_MAX", signed(high))]
-    if point.scale is not None and point.form == "scaled":
-        defines.append((f"{macro}_DECIMALS", f"{point.decimals}"))
-    if point.fixed is not None:
-        digits = 4 * point.words
-        defines.append((f"{macro}_FIXED_MASK", hexadecimal(point.fixed.mask, digits)))
-        defines.append((f"{macro}_FIXED_BITS", hexadecimal(point.fixed.bits, digits)))
-    if point.bits is not None:
-        mask = ((1 << point.width) - 1) << point.bits[1]
-        defines += [(f"{macro}_SHIFT", f"{point.bits[1]}U"), (f"{macro}_MASK", hexadecimal(mask))]
-    for special in point.specials:
-        defines += dict.fromkeys(special_defines(special, macro))
-    for flag in point.flags:
-        defines += _flag_defines(flag, f"{macro}_{upper(flag.name)}", point.info.bits // 4)
-    return defines
-
-
-def _flag_defines(flag: Flag, name: str, digits: int) -> list[Define]:
-    defines = [(f"{name}_MASK", hexadecimal(((1 << flag.width) - 1) << flag.low, digits))]
-    if flag.width > 1:
-        defines.append((f"{name}_SHIFT", f"{flag.low}U"))
-        defines += [(f"{name}_{upper(entry.name)}", f"{entry.raw}U") for entry in flag.values]
-    return defines
 
 
 def _enum_view(enum: Enum, point: Point, scope: Scope) -> EnumView | None:

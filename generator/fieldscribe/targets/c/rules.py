@@ -84,6 +84,7 @@ def _rule(rule: Linear, scope: Scope, test: str = "", *, of_limit: bool = False)
         signed(rule.offset.denominator),
         (*steps, *tens),
         scope.shifts,
+        scope.lifts,
     )
 
 

@@ -9,9 +9,9 @@ from fieldscribe.names import upper
 from fieldscribe.targets.c.literals import raw_type
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterator, Mapping
 
-    from fieldscribe.model import Device, Point
+    from fieldscribe.model import Device, Linear, Point
     from fieldscribe.targets.c.views import ScaledView
 
 
@@ -19,8 +19,8 @@ if TYPE_CHECKING:
 class Scope:
     """The namespace of one device.
 
-    `shifts` says that some rule has a factor of type f32; `used` collects the names of shared helpers, `enums` the
-    enums already placed, `scales` what points share.
+    `shifts` says that some rule has a factor of type f32, `lifts` that one with factors has an offset. `used` collects
+    the names of shared helpers, `enums` the enums already placed, `scales` what points share.
     """
 
     prefix: str
@@ -28,6 +28,7 @@ class Scope:
     points: Mapping[str, Point]
     errata: Mapping[str, str]
     shifts: bool
+    lifts: bool
     used: set[str] = field(default_factory=set)
     enums: set[str] = field(default_factory=set)
     scales: dict[tuple[object, ...], ScaledView] = field(default_factory=dict)
@@ -59,4 +60,13 @@ def scope_of(device: Device) -> Scope:
     }
     floating = {point.name for point in device.points if point.info.floating}
     shifts = any(not floating.isdisjoint(point.arguments) for point in device.points) if floating else False
-    return Scope(device.id, upper(device.id), points, lines, shifts)
+    lifts = any(rule.offset for point in device.points for rule in _rules(point))
+    return Scope(device.id, upper(device.id), points, lines, shifts, lifts)
+
+
+def _rules(point: Point) -> Iterator[Linear]:
+    """The rules of a point whose factors are known at run time."""
+    if point.scale_arguments:
+        yield from (case.rule for case in point.scale or ())
+    for interval in point.allowed.intervals:
+        yield from (bound.rule for bound in (interval.low, interval.high) if not isinstance(bound, int))

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from fieldscribe.names import upper
 from fieldscribe.targets.c.can import raw_of_word, word_of_raw
 from fieldscribe.targets.c.literals import hexadecimal
+from fieldscribe.targets.c.places import fixed_number, fixes
 from fieldscribe.text import c_comment, c_string
 
 if TYPE_CHECKING:
@@ -67,13 +68,11 @@ class WordView:
 
 @dataclass(frozen=True, slots=True)
 class StartView:
-    """The words of a telegram to send, before anything is put in: 0 but for constant bits (index, macro)."""
+    """The words of a telegram to send, before anything is put in."""
 
     name: str
     function: str
     words_name: str
-    words: int
-    fixed: tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,7 +120,7 @@ def uss_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
             if codes
         ),
         requests=tuple(request for request in requests if request is not None),
-        starts=tuple(_start(one, words, views, scope) for one in device.telegrams if one.direction == "request"),
+        starts=tuple(_start(one, scope) for one in device.telegrams if one.direction == "request"),
         words=tuple(_word(point, views[point.item], telegrams[point.telegram or ""], scope) for point in words),
     )
 
@@ -146,8 +145,9 @@ def identifiers(bus: BusView, view: DeviceView) -> Iterator[tuple[str, str]]:
 
 
 def _codes(title: str, kind: str, codes: tuple[Code, ...], scope: Scope) -> CodesView:
+    prefix = f"{scope.upper}_{upper(kind)}"
     entries = (
-        (f"{scope.upper}_{upper(kind)}_{upper(code.name)}", str(code.number), c_string(code.name), c_comment(code.title["en"]))
+        (f"{prefix}_{upper(code.name)}", str(code.number), c_string(code.name), c_comment(code.title["en"]))
         for code in codes
     )
     return CodesView(title, f"{scope.prefix}_{kind}_name", tuple(entries))
@@ -174,7 +174,7 @@ def _request(point: Point, view: PointView, tasks: dict[int, str], scope: Scope)
         eeprom,
         width,
         point.bits is not None,
-        ("(uint32_t)raw" if point.info.signed else "raw") if width == 2 else word_of_raw(point, view, "word"),
+        _to_value(point, view, scope) if width == 2 else word_of_raw(point, view, "word", scope),
         _from_value(point, scope) if width == 2 else raw_of_word(point, view, "word"),
     )
 
@@ -184,14 +184,20 @@ def _from_value(point: Point, scope: Scope) -> str:
     return f"{scope.helper('signed32')}(reply->value)" if point.info.signed else "reply->value"
 
 
-def _start(telegram: Telegram, words: list[Point], views: dict[str, PointView], scope: Scope) -> StartView:
-    fixed = [
-        f"words[{views[point.item].macro}_ADDRESS] |= {views[point.item].macro}_FIXED_BITS"
-        for point in words
-        if point.telegram == telegram.name and point.fixed is not None and point.words == 1
-    ]
+def _to_value(point: Point, view: PointView, scope: Scope) -> str:
+    """The 32-bit value of a raw number, with its constant bits."""
+    number = _number(point, view, scope)
+    return f"(uint32_t){number}" if point.info.signed else number
+
+
+def _number(point: Point, view: PointView, scope: Scope) -> str:
+    """The raw number of several words, with its constant bits: one made of masks may lack them."""
+    return fixed_number(point, view.macro, scope, "raw") if fixes(point) else "raw"
+
+
+def _start(telegram: Telegram, scope: Scope) -> StartView:
     macro = f"{scope.upper}_TELEGRAM_{upper(telegram.name)}_WORDS"
-    return StartView(telegram.name, f"{scope.prefix}_telegram_{telegram.name}_start", macro, telegram.words, tuple(fixed))
+    return StartView(telegram.name, f"{scope.prefix}_telegram_{telegram.name}_start", macro)
 
 
 def _word(point: Point, view: PointView, telegram: Telegram, scope: Scope) -> WordView:
@@ -206,5 +212,5 @@ def _word(point: Point, view: PointView, telegram: Telegram, scope: Scope) -> Wo
         point.writable,
         point.words == 2,
         raw_of_word(point, view, word),
-        word_of_raw(point, view, word),
+        _number(point, view, scope) if point.words == 2 else word_of_raw(point, view, word, scope),
     )

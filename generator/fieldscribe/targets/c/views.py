@@ -47,6 +47,7 @@ class RuleCase:
     parts: str
     steps: tuple[Step, ...]
     shifts: bool
+    lifts: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,7 +78,7 @@ class CheckView:
 
 @dataclass(frozen=True, slots=True)
 class PlainView:
-    """The raw number is the value, but for the bits that `fixed` puts in; `number` is that raw number, if not simple."""
+    """The raw number is the value; `number` is the raw number where constant bits are put in, else empty."""
 
     value_type: str
     outside: str
@@ -204,11 +205,20 @@ class PointView:
 
 
 @dataclass(frozen=True, slots=True)
+class RemarkView:
+    """A point that is not generated: why, and where it is if firmware may reach it by its raw words."""
+
+    item: str
+    comment: tuple[str, ...]
+    defines: tuple[Define, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class GroupView:
     """A section of the header: generated points, and remarks on those that are not."""
 
     title: str
-    entries: tuple[tuple[PointView | None, tuple[str, ...]], ...]
+    entries: tuple[tuple[PointView | None, RemarkView], ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -231,6 +241,7 @@ class Needs:
     f64_order: bool
     rules: bool
     shifts: bool
+    lifts: bool
     floats: bool
 
 

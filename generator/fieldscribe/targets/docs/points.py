@@ -23,7 +23,7 @@ from fieldscribe.wording.exact import fixed_rule, number_text
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
-    from fieldscribe.model import Device, Flag, Group, Point
+    from fieldscribe.model import Device, Group, Point
 
 _INLINE_NAMES = 4
 """An enum with at most so many names stands in the point's row; a longer one is linked."""
@@ -79,7 +79,7 @@ def _group_view(device: Device, group: Group, points: list[Point], by_name: Mapp
     facts = [f"{len(points)} point{'' if len(points) == 1 else 's'}"]
     facts += [f"space {next(iter(spaces))}"] if len(spaces) == 1 else []
     facts += [f"source: {source}"] if source else []
-    flags = (FlagsView(target("bits", point.item), _flag_table(point.flags)) for point in points if point.flags)
+    flags = (FlagsView(target("bits", point.item), _flag_table(point)) for point in points if point.flags)
     return GroupView(
         anchor=anchor("group", group.name),
         heading=cell(wording.title_text(group.title)),
@@ -111,7 +111,7 @@ def _point_table(
             ("Access", [point.access for point in points]),
             ("Range", [_range_cell(point, by_name) for point in points]),
             ("Raw range", [cell(wording.raw_range_text(point)) if _has_rule(point) else "" for point in points]),
-            ("Scale", [cell(wording.scale_text(point)) for point in points]),
+            ("Scale", [cell(wording.scale_text(point, by_name)) for point in points]),
             ("Default", [_default_cell(point) for point in points]),
             ("Remarks", ["; ".join(_remarks(device, point)) for point in points]),
             ("Source", [cell(source_text(point.source, several)) for point in points]),
@@ -206,16 +206,16 @@ def _conditions(device: Device, point: Point) -> Iterator[str]:
         yield "reserved"
 
 
-def _flag_table(flags: tuple[Flag, ...]) -> Table:
+def _flag_table(point: Point) -> Table:
     rows = [
         (
-            wording.flag_bits(flag),
+            wording.flag_bits(flag, point),
             code(flag.name),
             cell(wording.title_text(flag.title)),
             "0" if flag.width == 1 and flag.active == 0 else "1" if flag.width == 1 else "",
             ", ".join(cell(wording.entry_text(entry)) for entry in flag.values),
         )
-        for flag in flags
+        for flag in point.flags
     ]
     made = by_rows(("Bits", "Name", "Title", "True when", "Values"), rows)
     assert made is not None, "a word with flags has rows"

@@ -71,7 +71,7 @@ def _meaning(point: Point, by_name: dict[str, Point]) -> tuple[str, ...]:
         _cell(wording.raw_range_text(point)),
         _cell(wording.range_text(point, by_name)),
         _cell(point.unit.symbol),
-        _cell(wording.scale_text(point)),
+        _cell(wording.scale_text(point, by_name)),
         _cell(wording.resolution_text(point)),
         "" if point.default is None else number_text(point.default),
         _cell(wording.steps_text(point)),
@@ -81,7 +81,7 @@ def _meaning(point: Point, by_name: dict[str, Point]) -> tuple[str, ...]:
 def _names(point: Point) -> tuple[str, ...]:
     enum = point.enum or (point.digits and point.digits.enum)
     names = "; ".join(map(wording.entry_text, enum.entries)) if enum else ""
-    flags = "; ".join(map(wording.flag_text, point.flags))
+    flags = "; ".join(wording.flag_text(flag, point) for flag in point.flags)
     specials = "; ".join(map(wording.special_text, point.specials))
     return _cell(names), _cell(flags), _cell(specials), _cell(wording.fixed_text(point))
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from fieldscribe.model import Command, Device, Place
 from fieldscribe.targets.python.forms import place
 from fieldscribe.targets.python.identifiers import attribute
-from fieldscribe.targets.python.layout import Group, Node, laid_out
+from fieldscribe.targets.python.layout import Group, laid_out
 from fieldscribe.text import python_doc, python_string
 
 if TYPE_CHECKING:
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from fieldscribe.targets.python.scope import Scope
 
 
-def variants(device: Device) -> Node:
+def variants(device: Device) -> Group:
     """The values of each variant axis."""
     made = [
         Group(f"{python_string(axis)}: (", tuple(map(python_string, values)))

@@ -36,6 +36,11 @@ def call(head: str, items: Iterable[Node]) -> Group:
     return Group(f"{head}(", tuple(items))
 
 
+def assigned(name: str, node: Group) -> Group:
+    """The expression with the assignment to a name before it."""
+    return Group(f"{name} = {node.head}", node.items, node.close)
+
+
 def laid_out(node: Node, indent: int) -> str:
     """The expression at that indentation, with a comma expected behind it."""
     if isinstance(node, str):

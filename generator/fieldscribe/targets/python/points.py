@@ -7,11 +7,12 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from fieldscribe.targets.python.commands import commands, variants
+from fieldscribe.targets.python.existence import only_for
 from fieldscribe.targets.python.families import FAMILIES
 from fieldscribe.targets.python.families.family import RUNTIME, Family
 from fieldscribe.targets.python.forms import allowed, form, number, place, spans
 from fieldscribe.targets.python.identifiers import Identifiers, attribute, sorted_imports
-from fieldscribe.targets.python.layout import WIDTH, Group, Node, comment, laid_out
+from fieldscribe.targets.python.layout import WIDTH, Group, Node, assigned, comment, laid_out
 from fieldscribe.targets.python.scope import Scope
 from fieldscribe.text import python_doc, python_string
 from fieldscribe.wording import range_text
@@ -61,7 +62,7 @@ class PointsView:
 def points_view(device: Device, names: Identifiers) -> PointsView:
     """All points, group by group."""
     family = FAMILIES[device.family]
-    scope = Scope(names, {point.name: point for point in device.points}, {"PointTable"})
+    scope = Scope(names, {point.name: point for point in device.points}, device.variants, {"PointTable"})
     errata = {one.id: one for one in device.errata}
     groups = {group.name: GroupView(comment(f"{group.name}: {group.title['en']}")) for group in device.groups}
     by_name: dict[str, list[Point]] = {}
@@ -82,7 +83,7 @@ def points_view(device: Device, names: Identifiers) -> PointsView:
         uses_enums="enums" in scope.used,
         profile=laid_out(profile, 4),
         blocks="" if blocks is None else laid_out(blocks, 4),
-        variants=laid_out(variants(device), 4) if device.variants else "",
+        variants=laid_out(assigned("VARIANTS: ClassVar", variants(device)), 4) if device.variants else "",
         groups=[group for group in groups.values() if group.points or group.left_out],
         commands=made,
     )
@@ -125,6 +126,9 @@ def _arguments(point: Point, scope: Scope) -> list[Node]:
         axis, _, value = point.variant.partition("=")
         arguments.append(Group("variant=(", (python_string(axis), python_string(value))))
         arguments.append(f"name={python_string(point.name)}")
+    if found := only_for(point, scope.variants):
+        values = Group("(", tuple([python_string(value) for value in found[1]]))
+        arguments.append(Group("only_for=(", (python_string(found[0]), values)))
     return arguments
 
 

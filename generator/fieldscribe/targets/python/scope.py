@@ -14,8 +14,9 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Scope:
-    """Final names, points by name, and (filled on the way) the names of the runtime that expressions use."""
+    """Final names, points by name, variants, and (filled on the way) the names of the runtime that expressions use."""
 
     names: Identifiers
     points: Mapping[str, Point]
+    variants: Mapping[str, tuple[str, ...]]
     used: set[str] = field(default_factory=set)

@@ -20,6 +20,14 @@ def binding(indent: int, left: str, right: str) -> Lines:
     return f"{name}:", f"    {type_} = {right};"
 
 
+def assignment(indent: int, left: str, lines: Lines) -> Lines:
+    """`left = lines;` where these are several; the first goes to the next line if it is too long."""
+    first = f"{left} = {lines[0]}"
+    if indent + len(first) <= _WIDTH:
+        return (first, *lines[1:-1], f"{lines[-1]};")
+    return (f"{left} =", *(f"    {line}" for line in lines[:-1]), f"    {lines[-1]};")
+
+
 def arm(indent: int, pattern: str, body: str) -> Lines:
     """`pattern => body,`, else with a block."""
     line = f"{pattern} => {body},"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from json import dumps
 from typing import TYPE_CHECKING
 
-from fieldscribe.families.can import CanFrame, Receiver, build, identifier, parse
+from fieldscribe.families.can import CanFrame, Receiver, build, checksum, identifier, parse
 from fieldscribe.targets.vectors.lines import Lines, array
 from fieldscribe.targets.vectors.numbers import as_raw
 
@@ -118,6 +118,9 @@ class _Asking:
             word = (pattern + 0x1111 * (role.number >> 1)) & 0xFFFF
             parts = {"constant": role.number, "unit": self.unit & 0xFF, "multiplexer": slot}
             data.append(parts.get(role.kind, word & 0xFF if role.number & 1 else word >> 8))
+        for place, role in enumerate(self.message.roles):
+            if role.kind == "xor":
+                data[place] = checksum(data, role.number)
         return CanFrame(identifier(self.message, self.unit), bytes(data))
 
     def answer(self, frames: list[CanFrame]) -> None:

@@ -22,7 +22,7 @@ def text(lines: Lines, point: Point) -> None:
     alphabet = bytes(0x41 + place % 26 for place in range(size))
     received = [alphabet, alphabet[:1], alphabet[:-1], b"", b"A " * (size // 2), b" B", bytes(range(size))]
     received += [
-        bytes((0xFF, 0x80, 0x00) + (0x20,) * (size - 3)),
+        b"\xff\x80\0"[:size].ljust(size),
         b"\0" * size,
         bytes(0xA0 + place for place in range(size)),
     ]

@@ -164,13 +164,19 @@ class Oracle:
             found.append((low, high))
         return found or [(point.least, point.greatest)]
 
+    def _is_no_factor(self, factor: Factor, numbers: Numbers) -> bool:
+        """Whether a limit cannot be told from it: it divides by zero, or its floating-point number is none or zero."""
+        source = self.points.get(factor.point)
+        matters = factor.power < 0 or (source is not None and source.info.floating)
+        return matters and not factor.ten_to and _number(factor, numbers) == 0
+
     def _bound(self, bound: Bound, settings: Settings, *, lower: bool) -> int | str:
         if isinstance(bound, int):
             return bound
         if any(codes and settings[name] in codes for name, codes in bound.unless):
             return bound.least if lower else bound.greatest
         factors, numbers = bound.rule.factors, self._numbers(settings)
-        if any(one.power < 0 and not one.ten_to and _number(one, numbers) == 0 for one in factors):
+        if any(self._is_no_factor(one, numbers) for one in factors):
             return "zero_factor"
         if any(one.ten_to and not self.exponent_fits(one, settings) for one in factors):
             return "overflow"

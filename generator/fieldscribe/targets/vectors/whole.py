@@ -62,7 +62,7 @@ def with_fixed(point: Point, raw: int) -> int:
     fixed = point.fixed
     if fixed is None or point.bits is not None or not point.least <= raw <= point.greatest:
         return raw
-    return raw & ~fixed.mask | fixed.bits
+    return as_raw(point, raw & ~fixed.mask | fixed.bits)
 
 
 def names(lines: Lines, point: Point) -> None:

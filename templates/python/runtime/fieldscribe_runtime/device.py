@@ -56,6 +56,8 @@ class AnyDevice(Session):
             except StopIteration as done:
                 result: T = done.value
                 return result
+            finally:
+                steps.close()
 
     def read_many(self, what: str | Iterable[str | Point]) -> dict[str, Any]:
         """Read a group by its name, or several points, with few requests; values by point name."""
@@ -97,6 +99,8 @@ class AnyAsyncDevice(Session):
             except StopIteration as done:
                 result: T = done.value
                 return result
+            finally:
+                steps.close()
 
     async def read_many(self, what: str | Iterable[str | Point]) -> dict[str, Any]:
         """Read a group by its name, or several points, with few requests; values by point name."""

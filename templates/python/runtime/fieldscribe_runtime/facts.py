@@ -102,6 +102,7 @@ class FactArguments(TypedDict):
     changes: NotRequired[str]
     changes_with: NotRequired[tuple[str, ...]]
     variant: NotRequired[tuple[str, str]]
+    only_for: NotRequired[tuple[str, tuple[str, ...]]]
     name: NotRequired[str]
 
 
@@ -111,6 +112,7 @@ class Facts:
 
     `references` are the manual's other numberings of the point, `allowed` the raw numbers that it allows. `fixed` is a
     mask and the bits that the word always has there when it is written. `changes_with` names points that change it.
+    `only_for` says for which values of which axis of variants the point exists.
     """
 
     at: Place
@@ -127,5 +129,6 @@ class Facts:
     changes: str | None = None
     changes_with: tuple[str, ...] = ()
     variant: tuple[str, str] | None = None
+    only_for: tuple[str, tuple[str, ...]] | None = None
     name: str = ""
     item: str = ""

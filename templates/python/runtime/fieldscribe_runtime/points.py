@@ -125,9 +125,9 @@ class Point:
 
     def _from_high(self, place: Place) -> Sequence[int]:
         """Where the words of the number stand among those in ascending order of address, the high one first."""
-        ascending = sorted(set(place.addresses))
-        if len(ascending) < self.size:  # one address that holds all words, which travel with the high one first
+        if len(place.addresses) == 1:  # it holds all words, which travel with the high one first
             return range(self.size)
+        ascending = sorted(place.addresses)
         return [ascending.index(address) for address in place.addresses]
 
     def extract(self, word: int) -> int:

@@ -63,11 +63,15 @@ class Session(PointTable, ABC):
         """Write words or bits at a place, in ascending order of address."""
 
     def gather_steps(self, points: Sequence[Point], group: str | None) -> Steps[dict[str, int]]:
-        """Read the raw numbers of several points (all of a `group`, where one is named) by item: here one by one."""
+        """Read the raw numbers of several points (of a whole `group`, where one is named), by item: place by place."""
         del group
+        words: dict[Place, tuple[int, ...]] = {}
         raws: dict[str, int] = {}
         for point in points:
-            raws[point.facts.item] = yield from self.read_raw_steps(point)
+            at = point.facts.at
+            if at not in words:
+                words[at] = yield from self.get_steps(at)
+            raws[point.facts.item] = self.taken(point, words[at])
         return raws
 
     def shared_word_steps(self, point: Point) -> Steps[int]:
@@ -95,9 +99,15 @@ class Session(PointTable, ABC):
         axis, value = point.facts.variant or ("", None)
         if self.variants.get(axis, value) not in (value, None):
             raise AccessError(f"{point.label} exists only for {axis} {value}")
+        axis, values = point.facts.only_for or ("", ())
+        if self.variants.get(axis) not in (None, *values):
+            raise AccessError(f"{point.label} exists only for {axis} {' or '.join(values)}")
 
     def _has(self, point: Point) -> bool:
-        return point.facts.variant is None or self.variants.get(point.facts.variant[0]) == point.facts.variant[1]
+        axis, values = point.facts.only_for or ("", ())
+        exists = self.variants.get(axis) in (None, *values)
+        variant = point.facts.variant
+        return exists and (variant is None or self.variants.get(variant[0]) == variant[1])
 
     def read_raw_steps(self, point: Point) -> Steps[int]:
         """Read a point's raw number."""

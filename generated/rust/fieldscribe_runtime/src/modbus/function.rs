@@ -11,7 +11,7 @@ pub const fn read_function(space: Space) -> u8 {
         Space::Discrete => 2,
         Space::Holding => 3,
         Space::Input => 4,
-        Space::Other(_) => 0,
+        _ => 0,
     }
 }
 

@@ -10,12 +10,14 @@
 //! assert_eq!(request.build(&PROFILE, &mut frame), Ok(8));
 //! ```
 
+mod client;
 mod error;
 mod function;
 mod profile;
 mod reply;
 mod request;
 
+pub use client::{AsyncClient, Client, ClientError};
 pub use error::{BuildError, ReplyError};
 pub use function::{read_function, write_function};
 pub use profile::{Block, Command, Function, Profile};

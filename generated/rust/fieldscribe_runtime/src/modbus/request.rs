@@ -55,19 +55,17 @@ impl Request<'static> {
         Self::new(unit, function, P::ADDRESS, P::WORDS)
     }
 
-    /// A request that writes a point's raw number.
+    /// A request that writes a point's raw number; [`Request::write_words`] writes texts of more than four words.
     #[must_use]
     pub fn write<P: Writable + Whole>(unit: u8, raw: P::Raw) -> Self {
-        let usual = write_function(P::SPACE, P::WORDS);
-        let function = P::WRITE_FUNCTION.unwrap_or(usual);
+        let function = writing_function::<P>();
         Self::own(unit, function, P::WRITE_ADDRESS, P::to_words(raw).as_ref())
     }
 
     /// A request that writes a word back with a group of its bits replaced.
     #[must_use]
     pub fn update<P: Writable + BitGroup>(unit: u8, word: u16, raw: P::Raw) -> Self {
-        let usual = write_function(P::SPACE, P::WORDS);
-        let function = P::WRITE_FUNCTION.unwrap_or(usual);
+        let function = writing_function::<P>();
         Self::own(unit, function, P::WRITE_ADDRESS, &[P::insert(word, raw)])
     }
 
@@ -86,19 +84,25 @@ impl Request<'static> {
 
     fn own(unit: u8, function: u8, address: u16, values: &[u16]) -> Self {
         let mut words = [0; 4];
-        let mut count = 0;
         for (place, value) in words.iter_mut().zip(values) {
             *place = *value;
-            count += 1;
         }
+        // More values than there is room for make a count that does not fit them, which no frame is built of.
+        let count = u16::try_from(values.len()).unwrap_or(u16::MAX);
         Self {
-            values: Values::Own(words, usize::from(count)),
+            values: Values::Own(words, values.len().min(words.len())),
             ..Self::new(unit, function, address, count)
         }
     }
 }
 
 impl<'a> Request<'a> {
+    /// A request that writes a point's words, as [`Whole::to_words`] gives them.
+    #[must_use]
+    pub fn write_words<P: Writable + Whole>(unit: u8, words: &'a [u16]) -> Self {
+        Self::write_values(unit, writing_function::<P>(), P::WRITE_ADDRESS, words)
+    }
+
     /// A request that writes words, or bits as 0 and 1.
     #[must_use]
     pub fn write_values(unit: u8, function: u8, address: u16, values: &'a [u16]) -> Self {
@@ -217,6 +221,11 @@ impl<'a> Request<'a> {
             (_, Some(value)) => *value,
         }
     }
+}
+
+/// The function that writes a point.
+fn writing_function<P: Writable>() -> u8 {
+    P::WRITE_FUNCTION.unwrap_or(write_function(P::SPACE, P::WORDS))
 }
 
 fn coil_bytes(count: u16, pad_even: bool) -> u8 {

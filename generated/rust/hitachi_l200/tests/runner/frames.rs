@@ -3,7 +3,7 @@
 
 use fieldscribe_runtime::modbus::{Block, BuildError, Profile, ReplyError, Request, LONGEST};
 
-use super::{same, Outcome, Vector};
+use super::{bytes, hex, same, Outcome, Vector};
 
 /// A request into bytes.
 pub fn build(vector: &Vector, profile: &Profile) -> Outcome {
@@ -63,17 +63,4 @@ fn request<'a>(vector: &Vector, values: Option<&'a [u16]>) -> Request<'a> {
         "tcp" => request.tcp(vector.raw("transaction")),
         _ => request,
     }
-}
-
-fn hex(bytes: &[u8]) -> String {
-    bytes
-        .iter()
-        .fold(String::new(), |text, byte| format!("{text}{byte:02x}"))
-}
-
-fn bytes(text: &str) -> Vec<u8> {
-    let digits = (0..text.len() / 2).map(|place| &text[2 * place..2 * place + 2]);
-    digits
-        .filter_map(|pair| u8::from_str_radix(pair, 16).ok())
-        .collect()
 }

@@ -3,23 +3,22 @@
 
 #![allow(dead_code, reason = "not every device has points of every kind")]
 
-mod frames;
+pub mod frames;
 
 use std::collections::BTreeMap;
 use std::process::ExitCode;
 
 use fieldscribe_runtime::{
-    BitGroup, CountReadable, CountWritable, Decoded, Error, Point, Readable, Whole, Writable,
+    BitGroup, CountReadable, CountWritable, Decoded, Error, Point, Raw, Readable, Text, Whole,
+    Writable,
 };
 use serde_json::Value;
-
-pub use frames::{block, build, reply};
 
 /// Nothing, or what differs.
 pub type Outcome = Result<(), String>;
 
 /// The kinds of vectors in the order of the report.
-const KINDS: [&str; 17] = [
+const KINDS: [&str; 31] = [
     "decode",
     "encode",
     "decode_count",
@@ -37,6 +36,20 @@ const KINDS: [&str; 17] = [
     "printed_build",
     "printed_reply",
     "block",
+    "place",
+    "fixed",
+    "text_decode",
+    "text_encode",
+    "digits",
+    "digits_encode",
+    "can_build",
+    "can_parse",
+    "can_telegram",
+    "uss_build",
+    "uss_broadcast",
+    "uss_reply",
+    "uss_printed_build",
+    "uss_printed_reply",
 ];
 
 /// The keys of an `address` vector that are no numbering of the manual.
@@ -77,6 +90,21 @@ macro_rules! table {
             $vector,
             &[$(($key, device::points::$point::$constant.into())),*],
         )
+    };
+    ($run:ident $point:ident (text $($constant:ident $key:literal)*) $vector:ident) => {
+        runner::place_of::<device::points::$point>(
+            $vector,
+            &[$(($key, device::points::$point::$constant.into())),*],
+        )
+    };
+    ($run:ident $point:ident (sizes $characters:literal $words:literal) $vector:ident) => {
+        runner::$run::<device::points::$point, $characters, $words>($vector)
+    };
+    ($run:ident $point:ident (digits $count:literal $number:ident) $vector:ident) => {
+        runner::$run::<device::points::$point, _, $number, $count>($vector)
+    };
+    ($run:ident $point:ident (frames) $vector:ident) => {
+        runner::frames::$run::<device::points::$point>($vector)
     };
     ($run:ident $word:ident (value $constant:ident) $vector:ident) => {
         runner::$run($vector, u64::from(device::flags::$word::$constant))
@@ -163,6 +191,18 @@ impl Vector {
         }
     }
 
+    /// A truth.
+    pub fn truth(&self, key: &str) -> bool {
+        self.0[key].as_bool().unwrap_or_default()
+    }
+
+    /// Pairs of a number and bytes.
+    pub fn pairs(&self, key: &str) -> Vec<(i128, Vec<u8>)> {
+        let pairs = self.0[key].as_array().into_iter().flatten();
+        let pair = |pair: &Value| Some((number(&pair[0])?, bytes(pair[1].as_str()?)));
+        pairs.filter_map(pair).collect()
+    }
+
     fn float(&self) -> f64 {
         f64::from_bits(u64::from_str_radix(self.text("float"), 16).unwrap_or_default())
     }
@@ -181,6 +221,21 @@ impl Vector {
 fn number(value: &Value) -> Option<i128> {
     let signed = value.as_i64().map(i128::from);
     signed.or_else(|| value.as_u64().map(i128::from))
+}
+
+/// Bytes as the vectors have them.
+pub fn hex(bytes: &[u8]) -> String {
+    bytes
+        .iter()
+        .fold(String::new(), |text, byte| format!("{text}{byte:02x}"))
+}
+
+/// The bytes of a text of hexadecimal digits.
+pub fn bytes(text: &str) -> Vec<u8> {
+    let digits = (0..text.len() / 2).map(|place| &text[2 * place..2 * place + 2]);
+    digits
+        .filter_map(|pair| u8::from_str_radix(pair, 16).ok())
+        .collect()
 }
 
 /// The two are equal.
@@ -370,15 +425,20 @@ pub fn address<P>(vector: &Vector, references: &[(&str, Value)]) -> Outcome
 where
     P: Point<Raw: Number + PartialEq + std::fmt::Debug>,
 {
+    if vector.number("raw_min").is_some() {
+        same(vector.raw("raw_min"), P::RAW_MIN)?;
+        same(vector.raw("raw_max"), P::RAW_MAX)?;
+    }
+    place_of::<P>(vector, references)
+}
+
+/// The same but for the limits, which a text has not.
+pub fn place_of<P: Point>(vector: &Vector, references: &[(&str, Value)]) -> Outcome {
     same(vector.text("space"), P::SPACE.name())?;
     same(vector.text("point"), P::NAME)?;
     same(vector.raw("address"), P::ADDRESS)?;
     same(vector.raw("words"), P::WORDS)?;
     same(vector.0["code"].as_str(), P::CODE)?;
-    if vector.number("raw_min").is_some() {
-        same(vector.raw("raw_min"), P::RAW_MIN)?;
-        same(vector.raw("raw_max"), P::RAW_MAX)?;
-    }
     let decimals = vector.number("decimals").unwrap_or_default();
     same(decimals, i128::from(P::DECIMALS))?;
     for (key, number) in references {
@@ -387,6 +447,78 @@ where
     let keys = vector.0.as_object().into_iter().flat_map(|all| all.keys());
     let others = keys.filter(|key| !OWN_KEYS.contains(&key.as_str())).count();
     same(others, references.len())
+}
+
+/// What says where a point is beside its lowest address.
+pub fn place<P: Point>(vector: &Vector) -> Outcome {
+    let addresses = vector.numbers("addresses").unwrap_or_default();
+    same(addresses.as_slice(), P::ADDRESSES)?;
+    same(vector.number("index"), P::INDEX.map(i128::from))?;
+    same(vector.0["telegram"].as_str(), P::TELEGRAM)
+}
+
+/// The bits of a word that are always written as a constant.
+pub fn fixed<P: Point>(vector: &Vector) -> Outcome {
+    same(vector.raw("mask"), P::FIXED_MASK)?;
+    same(vector.raw("bits"), P::FIXED_BITS)
+}
+
+/// Words to a text.
+pub fn text_decode<P, const N: usize, const W: usize>(vector: &Vector) -> Outcome
+where
+    P: Readable<Raw = [u16; W], Value = Text<N>, Factors = ()>,
+{
+    let words: Vec<u16> = vector.numbers("words").unwrap_or_default();
+    let mut raw = [0; W];
+    raw.copy_from_slice(&words);
+    let text = P::decode(raw).into_result().map_err(Error::name)?;
+    same(vector.text("text"), hex(text.as_bytes()).as_str())?;
+    same(text.as_bytes().len(), text.to_string().chars().count())
+}
+
+/// A text to words.
+pub fn text_encode<P, const N: usize, const W: usize>(vector: &Vector) -> Outcome
+where
+    P: Writable<Raw = [u16; W], Value = Text<N>, With = ()> + Whole,
+{
+    let bytes = bytes(vector.text("text"));
+    let latin: String = bytes.iter().copied().map(char::from).collect();
+    same(Text::<N>::from_bytes(&bytes), Text::new(&latin))?;
+    let (status, words) = match Text::from_bytes(&bytes).and_then(P::encode) {
+        Ok(raw) => {
+            let received = P::to_words(raw).into_iter();
+            same(Ok(raw), P::from_received(received))?;
+            ("ok", raw.into_words().to_vec())
+        }
+        Err(error) => (error.name(), Vec::new()),
+    };
+    same(vector.text("status"), status)?;
+    same(vector.numbers("words").unwrap_or_default(), words)
+}
+
+/// A number to its digits.
+pub fn digits<P, E, C, const N: usize>(vector: &Vector) -> Outcome
+where
+    P: Readable<Raw: Number, Value = [E; N], Factors = ()>,
+    C: From<E> + Into<i128>,
+{
+    let found = P::decode(vector.raw("raw")).into_result();
+    let found = found.map_err(Error::name)?;
+    let numbers: Vec<i128> = found.map(|digit| C::from(digit).into()).to_vec();
+    same(vector.numbers("digits").unwrap_or_default(), numbers)
+}
+
+/// Digits to a number.
+pub fn digits_encode<P, E, C, const N: usize>(vector: &Vector) -> Outcome
+where
+    P: Writable<Raw: Number, Value = [E; N], With = ()>,
+    E: From<C> + Copy,
+    C: Number,
+{
+    let numbers: Vec<C> = vector.numbers("digits").unwrap_or_default();
+    let digits: Vec<E> = numbers.into_iter().map(E::from).collect();
+    let digits = <[E; N]>::try_from(digits).map_err(|_| "there are other digits".to_owned())?;
+    vector.expect(P::encode(digits).map(Number::to_value), "raw")
 }
 
 /// Runs all vectors of the file and reports one line per kind.

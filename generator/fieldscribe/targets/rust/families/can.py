@@ -6,12 +6,13 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.targets.rust.documentation import sentence
-from fieldscribe.targets.rust.layout import array, binding
+from fieldscribe.targets.rust.families.numbers import constants
+from fieldscribe.targets.rust.layout import array, assignment, binding
 from fieldscribe.targets.rust.literals import integer, mask, type_name
 from fieldscribe.text import rust_string
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterator, Sequence
 
     from fieldscribe.model import Device, Message, Role, Telegram
     from fieldscribe.targets.rust.subjects import Scope, Subject
@@ -22,14 +23,10 @@ _PLAIN = {"unit": "Unit", "multiplexer": "Multiplexer"}
 
 @dataclass(frozen=True, slots=True)
 class MessageView:
-    """A message: final name, literals of its name and identifier, roles of its bytes."""
+    """A message as a constant."""
 
     doc: str
-    name: str
-    literal: str
-    id: str
-    adds_unit: str
-    roles: tuple[str, ...]
+    lines: tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +51,8 @@ def can_context(device: Device) -> dict[str, object]:
         "bitrate": "" if bus.bitrate is None else integer(bus.bitrate),
         "dialogues": tuple(_dialogues(device.messages)),
         "messages": tuple(map(_message, device.messages)),
-        "message_names": array([f"&{message.name.upper()}" for message in device.messages]),
+        "message_names": array([f"&messages::{message.name.upper()}" for message in device.messages]),
+        "numbers": (("exceptions", "Exception codes.", constants(bus.exceptions, "u16")),),
         "telegrams": tuple(
             _telegram(one, carriers[one.message])
             for one in device.telegrams
@@ -80,22 +78,23 @@ def can_traits(subject: Subject, scope: Scope) -> Iterator[tuple[str, ...]]:
 
 
 def can_identifiers(device: Device) -> Iterator[tuple[str, str, str]]:
-    """The names of messages and telegrams; `ALL` is the list of the former."""
-    yield "messages", "ALL", "the list of all messages"
+    """The names of messages and telegrams."""
     for message in device.messages:
         yield "messages", message.name.upper(), f"message {message.name}"
     for telegram in device.telegrams:
         yield "telegrams", type_name(telegram.name), f"telegram {telegram.name}"
 
 
-def _dialogues(messages: Iterable[Message]) -> Iterator[tuple[str, str, str]]:
-    """The constants of the messages that read and write a parameter; the names are empty if there are none."""
-    requests = {message.name: message for message in messages if message.direction == "request"}
-    answered = [(requests[one.answers], one) for one in messages if one.answers in requests]
+def _dialogues(messages: Sequence[Message]) -> Iterator[tuple[str, str, str]]:
+    """The constants of the messages that read and write a parameter: names and answers, empty if there are none."""
+    requests = [one for one in messages if one.direction == "request" and _carries(one, "address")]
     for name, writes in (("READ", False), ("WRITE", True)):
-        pairs = [(asked, answer) for asked, answer in answered if _carries(asked, "raw") is writes]
-        names = [(asked.name.upper(), answer.name.upper()) for asked, answer in pairs if _carries(asked, "address")]
-        yield name, *(names[0] if names else ("", ""))
+        request = next((one for one in requests if _carries(one, "raw") is writes), None)
+        answer = next((one for one in messages if request is not None and one.answers == request.name), None)
+        if request is None or (answer is None and not writes):
+            yield name, "", ""
+        else:
+            yield name, request.name.upper(), "None" if answer is None else f"Some(&messages::{answer.name.upper()})"
 
 
 def _carries(message: Message, kind: str) -> bool:
@@ -104,14 +103,11 @@ def _carries(message: Message, kind: str) -> bool:
 
 def _message(message: Message) -> MessageView:
     width = "u16" if message.can_id <= 0xFFFF else "u32"
-    return MessageView(
-        sentence(message.name),
-        message.name.upper(),
-        rust_string(message.name),
-        mask(message.can_id, width),
-        "true" if message.adds_unit else "false",
-        tuple(map(_role, message.roles)),
-    )
+    roles = (f"        Role::{_role(role)}," for role in message.roles)
+    adds_unit = "true" if message.adds_unit else "false"
+    head = (f"    {one}," for one in (rust_string(message.name), mask(message.can_id, width), adds_unit))
+    literal = ("Message::new(", *head, "    [", *roles, "    ],", ")")
+    return MessageView(sentence(message.name), assignment(4, f"pub const {message.name.upper()}: Message", literal))
 
 
 def _role(role: Role) -> str:

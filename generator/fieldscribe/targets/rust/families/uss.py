@@ -4,18 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.targets.rust.documentation import sentence
-from fieldscribe.targets.rust.layout import array, binding, short_array
-from fieldscribe.targets.rust.literals import integer, mask
+from fieldscribe.targets.rust.families.numbers import constants
+from fieldscribe.targets.rust.layout import array
+from fieldscribe.targets.rust.literals import type_name
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterator
 
-    from fieldscribe.model import Code, Device
+    from fieldscribe.model import Device
     from fieldscribe.targets.rust.subjects import Scope, Subject
-
-Constant = tuple[str, tuple[str, ...]]
-"""What a doc comment says of a constant, and its lines."""
 
 
 def uss_context(device: Device) -> dict[str, object]:
@@ -27,13 +24,11 @@ def uss_context(device: Device) -> dict[str, object]:
         "pkw": ", ".join(map(str, bus.pkw)),
         "broadcast": "None" if bus.broadcast is None else f"Some({bus.broadcast})",
         "tasks": array([f"Task::new({one.number}, &[{', '.join(map(str, one.answers))}])" for one in bus.functions]),
-        "words_at_first": short_array(
-            0, "const WORDS: &[u16]", [mask(word, "u16") for word in _words_at_first(device)]
-        ),
+        "fixed": array([f"FixedBits::of::<points::{type_name(item)}>()" for item in _fixed(device)]),
         "numbers": (
-            ("tasks", "Task ids.", "u8", _constants(bus.functions, "u8")),
-            ("responses", "Response ids.", "u8", _constants(bus.responses, "u8")),
-            ("exceptions", "Error values of a refusal.", "u16", _constants(bus.exceptions, "u16")),
+            ("tasks", "Task ids.", constants(bus.functions, "u8")),
+            ("responses", "Response ids.", constants(bus.responses, "u8")),
+            ("exceptions", "Error values of a refusal.", constants(bus.exceptions, "u16")),
         ),
     }
 
@@ -56,17 +51,9 @@ def uss_identifiers(device: Device) -> Iterator[tuple[str, str, str]]:
             yield module, code.name.upper(), f"{module} {code.name}"
 
 
-def _constants(codes: Iterable[Code], type_: str) -> tuple[Constant, ...]:
-    return tuple(
-        (sentence(one.name), binding(4, f"pub const {one.name.upper()}: {type_}", integer(one.number))) for one in codes
-    )
-
-
-def _words_at_first(device: Device) -> list[int]:
-    """The fixed bits of the words that are sent, up to the last that has some."""
+def _fixed(device: Device) -> Iterator[str]:
+    """The points that are sent with bits that are always 1."""
     sent = {telegram.name for telegram in device.telegrams if telegram.direction == "request"}
-    words: dict[int, int] = {}
     for point in device.points:
-        if point.telegram in sent and point.fixed is not None and point.fixed.bits and point.address is not None:
-            words[point.address] = words.get(point.address, 0) | point.fixed.bits
-    return [words.get(position, 0) for position in range(max(words, default=-1) + 1)]
+        if point.generated and point.telegram in sent and point.fixed is not None and point.fixed.bits:
+            yield point.item

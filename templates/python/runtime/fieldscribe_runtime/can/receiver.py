@@ -70,13 +70,13 @@ class Receiver:
         """The words at these positions, the high one first; raises TelegramError, `missing` or `torn`.
 
         Two words of two frames are believed only when the same high word came before and after the low one: a counter
-        may have moved on in between.
+        may have moved on in between. Longer runs of words, such as texts, are given as they came last.
         """
         found = [(self._slot(position), position % len(self._pairs)) for position in positions]
         if any(slot.number == 0 for slot, _ in found):
             raise TelegramError("missing", f"not all frames of {self.telegram} with words {positions} came yet")
         (high, high_word), (low, low_word) = found[0], found[-1]
-        if high is low:
+        if high is low or len(found) > 2:
             return tuple([slot.words[word] for slot, word in found])
         if high.number_before and high.words[high_word] == high.words_before[high_word]:
             if high.number_before < low.number < high.number:

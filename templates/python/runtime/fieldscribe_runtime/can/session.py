@@ -35,6 +35,7 @@ class CanSession(Session):
     def __init__(self, unit: int, variants: Mapping[str, str | None]) -> None:
         super().__init__(unit, variants)
         self.receivers = {one.name: Receiver(self.PROFILE, one.name, unit) for one in self.PROFILE.telegrams}
+        self._since: float | None = None
 
     def take(self, frame: Frame) -> bool:
         """Feed a frame that came by another way; whether it is of a telegram of this device."""
@@ -44,16 +45,24 @@ class CanSession(Session):
 
     def get_steps(self, place: Place) -> Steps[tuple[int, ...]]:
         """Read parameters one by one, or listen for words of a telegram; in ascending order of address."""
-        return (yield from self._get_steps(place, monotonic() - self.fresh_for))
+        if place.telegram is not None:
+            return (yield from self._listen_steps(place))
+        if place.space != "parameter":
+            raise RequestError("bad_space", f"the space {place.space!r} cannot be read by address, only parameter")
+        request = self.PROFILE.request(writes=False)
+        answer = self.PROFILE.answer(request)
+        words: tuple[int, ...] = ()
+        for address in sorted(place.addresses):
+            words = (*words, (yield from self._ask_steps(request, answer, address, 0)))
+        return words
 
     def gather_steps(self, points: Sequence[Point], group: str | None) -> Steps[dict[str, int]]:
         """Read the raw numbers of several points; those of a telegram out of the same frames."""
-        del group
-        since = monotonic() - self.fresh_for
-        raws: dict[str, int] = {}
-        for point in points:
-            raws[point.facts.item] = self.taken(point, (yield from self._get_steps(point.facts.at, since)))
-        return raws
+        self._since = monotonic() - self.fresh_for
+        try:
+            return (yield from super().gather_steps(points, group))
+        finally:
+            self._since = None
 
     def store_steps(self, place: Place, values: tuple[int, ...]) -> Steps[None]:
         """Write parameters one by one."""
@@ -65,18 +74,6 @@ class CanSession(Session):
             raw = yield from self._ask_steps(request, answer, address, word)
             if answer is not None and answer.carries("raw") and raw != word:
                 raise FrameError("echo_mismatch", f"{word} was written to {address}, and the device answered {raw}")
-
-    def _get_steps(self, place: Place, since: float) -> Steps[tuple[int, ...]]:
-        if place.telegram is not None:
-            return (yield from self._listen_steps(place, since))
-        if place.space != "parameter":
-            raise RequestError("bad_space", f"the space {place.space!r} cannot be read by address, only parameter")
-        request = self.PROFILE.request(writes=False)
-        answer = self.PROFILE.answer(request)
-        words: tuple[int, ...] = ()
-        for address in sorted(place.addresses):
-            words = (*words, (yield from self._ask_steps(request, answer, address, 0)))
-        return words
 
     def _ask_steps(self, request: Message, answer: Message | None, address: int, raw: int) -> Steps[int]:
         """One request, and the raw number of its answer; all other frames are offered to the receivers."""
@@ -96,10 +93,11 @@ class CanSession(Session):
                     return word
             self.take(frame)
 
-    def _listen_steps(self, place: Place, since: float) -> Steps[tuple[int, ...]]:
-        """Words of a telegram, as soon as all of them came since that moment and belong together."""
+    def _listen_steps(self, place: Place) -> Steps[tuple[int, ...]]:
+        """Words of a telegram, as soon as all of them are there, fresh, and belong together."""
         self.PROFILE.telegram(place.telegram)
         receiver = self.receivers[place.telegram or ""]
+        since = monotonic() - self.fresh_for if self._since is None else self._since
         deadline = monotonic() + self.patience
         awaited = f"{receiver.telegram} with words {', '.join(map(str, place.addresses))}"
         trouble: TelegramError | None = None

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: 0BSD
 //! Exact arithmetic: rounding to nearest with halves away from zero, checked steps, bits in words.
 
+pub use crate::rule::Rule;
 use crate::{Error, Point, Raw, Writable};
 
 macro_rules! round {

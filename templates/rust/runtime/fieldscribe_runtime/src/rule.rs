@@ -12,6 +12,8 @@ pub struct Rule {
     den: i64,
     offset_num: i64,
     offset_den: i64,
+    /// Whether all factors are integers.
+    whole: bool,
     times: Magnitude,
     over: Magnitude,
 }
@@ -26,6 +28,7 @@ impl Rule {
             den,
             offset_num: 0,
             offset_den: 1,
+            whole: true,
             times: Magnitude::ONE,
             over: Magnitude::ONE,
         }
@@ -87,6 +90,7 @@ impl Rule {
         let times = self.times.times(magnitude).ok_or(Error::Overflow)?;
         Ok(Self {
             num: signed(negative, self.num)?,
+            whole: false,
             times,
             ..self
         })
@@ -114,6 +118,7 @@ impl Rule {
         let over = self.over.times(magnitude).ok_or(Error::Overflow)?;
         Ok(Self {
             den: signed(negative, self.den)?,
+            whole: false,
             over,
             ..self
         })
@@ -168,7 +173,7 @@ impl Rule {
     /// [`Error::OutOfRange`] if the raw number is beyond every type.
     #[inline]
     pub fn encode_count<const PER_UNIT: i64>(self, count: i64) -> Result<i64, Error> {
-        if !self.is_whole() {
+        if !self.whole {
             return self.raw_of(count, PER_UNIT).ok_or(Error::OutOfRange);
         }
         let den = product([self.den, PER_UNIT, self.offset_den]);
@@ -188,7 +193,7 @@ impl Rule {
     /// [`Error::Overflow`]; [`Error::ZeroFactor`].
     #[inline]
     pub fn decode_count<const PER_UNIT: i64>(self, raw: i64) -> Result<i64, Error> {
-        if !self.is_whole() {
+        if !self.whole {
             return self.count_of(raw, PER_UNIT);
         }
         let (num, den) = self.turned(raw, PER_UNIT)?;
@@ -201,7 +206,7 @@ impl Rule {
     /// [`Error::Overflow`].
     #[inline]
     pub fn limit(self) -> Result<i64, Error> {
-        if !self.is_whole() {
+        if !self.whole {
             return self.raw_of(1, 1).ok_or(Error::Overflow);
         }
         let den = product([self.den, self.offset_den, 1]);
@@ -213,12 +218,6 @@ impl Rule {
         sum.zip(den)
             .and_then(|(sum, den)| divide(sum, den))
             .ok_or(Error::Overflow)
-    }
-
-    /// Whether all factors are integers.
-    #[inline]
-    fn is_whole(self) -> bool {
-        self.times == Magnitude::ONE && self.over == Magnitude::ONE
     }
 
     /// The raw number of a count, with factors of any size.

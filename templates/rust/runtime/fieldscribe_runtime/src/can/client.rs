@@ -5,7 +5,8 @@ use core::fmt;
 use core::future::Future;
 
 use super::{
-    BuildError, Dialogue, Frame, Parameter, Profile, ReceiveError, Received, Receiver, Telegram,
+    BuildError, Dialogue, Frame, Message, Parameter, Profile, ReceiveError, Received, Receiver,
+    Telegram,
 };
 use crate::point::joined;
 use crate::{BitGroup, Decoded, Error, Raw, Readable, Whole, Writable};
@@ -105,6 +106,8 @@ pub enum ClientError<E> {
     Build(BuildError),
     /// Many frames came, and not the one that was waited for.
     NoAnswer,
+    /// The device answered a write with this other raw number.
+    EchoMismatch(u16),
     /// Many frames came, and the telegram's words did not come together.
     Telegram(ReceiveError),
     /// The transport failed.
@@ -129,6 +132,7 @@ impl<E: fmt::Display> fmt::Display for ClientError<E> {
             Self::Point(error) => error.fmt(formatter),
             Self::Build(error) => error.fmt(formatter),
             Self::NoAnswer => formatter.write_str("the device does not answer"),
+            Self::EchoMismatch(raw) => write!(formatter, "the device answered {raw} to a write"),
             Self::Telegram(error) => error.fmt(formatter),
             Self::Transport(error) => error.fmt(formatter),
         }
@@ -140,7 +144,7 @@ impl<E: core::error::Error + 'static> core::error::Error for ClientError<E> {
         match self {
             Self::Point(error) => Some(error),
             Self::Build(error) => Some(error),
-            Self::NoAnswer => None,
+            Self::NoAnswer | Self::EchoMismatch(_) => None,
             Self::Telegram(error) => Some(error),
             Self::Transport(error) => Some(error),
         }
@@ -172,10 +176,17 @@ impl Unit {
         Ok((dialogue, frame))
     }
 
-    /// The raw number of a frame that answers about the address.
-    fn answer(&self, dialogue: Dialogue, address: u16, frame: &Frame) -> Option<u16> {
-        let content = dialogue.answer.parse(self.number, frame).ok()?;
-        (content.address == address).then_some(content.raw)
+    /// The raw number of a frame that answers about the address, if it answers.
+    fn answer(&self, answer: &Message, address: u16, frame: &Frame) -> Option<u16> {
+        let content = answer.parse(self.number, frame).ok()?;
+        let fits = content.address == address || !answer.carries_address();
+        fits.then_some(content.raw)
+    }
+
+    /// What the device answered to a write, if that is another raw number.
+    fn other(&self, written: u16, answered: u16) -> Option<u16> {
+        let answer = self.profile.write?.answer?;
+        (answer.carries_raw() && answered != written).then_some(answered)
     }
 }
 
@@ -236,9 +247,12 @@ macro_rules! client {
             ) -> Result<u16, ClientError<T::Error>> {
                 let (dialogue, asked) = self.unit.ask(dialogue, address, raw)?;
                 self.transport.send(&asked)$($wait)*.map_err(ClientError::Transport)?;
+                let Some(answer) = dialogue.answer else {
+                    return Ok(raw);
+                };
                 for _ in 0..self.unit.patience {
                     let frame = self.transport.receive()$($wait)*.map_err(ClientError::Transport)?;
-                    if let Some(raw) = self.unit.answer(dialogue, address, &frame) {
+                    if let Some(raw) = self.unit.answer(answer, address, &frame) {
                         return Ok(raw);
                     }
                     self.listener.hear(&frame);
@@ -263,8 +277,11 @@ macro_rules! client {
                 address: u16,
                 word: u16,
             ) -> Result<(), ClientError<T::Error>> {
-                self.exchange(self.unit.profile.write, address, word)$($wait)*?;
-                Ok(())
+                let answered = self.exchange(self.unit.profile.write, address, word)$($wait)*?;
+                match self.unit.other(word, answered) {
+                    Some(other) => Err(ClientError::EchoMismatch(other)),
+                    None => Ok(()),
+                }
             }
 
             /// A parameter's raw number: word by word if it has several.
@@ -363,7 +380,9 @@ macro_rules! client {
                 Ok(())
             }
 
-            /// The value of a point of a telegram: what the listener has, else it listens until the words are there.
+            /// The value of a point of a telegram: listens until all its words came again and belong together.
+            ///
+            /// What was heard before is at the listener: `client.listener().raw::<P>()`.
             ///
             /// # Errors
             /// Whatever [`ClientError`] tells.
@@ -387,13 +406,17 @@ macro_rules! client {
                 P: Received,
                 L: AsRef<Receiver<P::Telegram>>,
             {
-                let mut found = self.listener.as_ref().raw::<P>();
+                let taken = self.listener.as_ref().taken();
+                let mut found = Err(ReceiveError::Missing);
                 for _ in 0..self.unit.patience {
+                    self.listen()$($wait)*?;
+                    let receiver = self.listener.as_ref();
+                    if receiver.came_since::<P>(taken) {
+                        found = receiver.raw::<P>();
+                    }
                     if found.is_ok() {
                         break;
                     }
-                    self.listen()$($wait)*?;
-                    found = self.listener.as_ref().raw::<P>();
                 }
                 let raw = found.map_err(ClientError::Telegram)?;
                 Ok(P::decode_with(raw, with).into_result()?)

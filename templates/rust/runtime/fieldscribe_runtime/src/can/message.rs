@@ -121,6 +121,18 @@ impl Message {
         Ok(content)
     }
 
+    /// Whether a byte of the message is part of an address.
+    pub(super) fn carries_address(&self) -> bool {
+        let carries = |role: &Role| matches!(role, Role::Address(_));
+        self.roles.iter().any(carries)
+    }
+
+    /// Whether a byte of the message is part of a raw number.
+    pub(super) fn carries_raw(&self) -> bool {
+        let carries = |role: &Role| matches!(role, Role::Raw(_));
+        self.roles.iter().any(carries)
+    }
+
     /// How many words of a telegram a frame carries.
     pub(super) fn words(&self) -> usize {
         let is_word = |role: &&Role| matches!(role, Role::Word(_));
@@ -196,8 +208,8 @@ fn combined(data: [u8; LENGTH], mask: u8) -> u8 {
 pub struct Dialogue {
     /// What is asked.
     pub request: &'static Message,
-    /// What the device says to it.
-    pub answer: &'static Message,
+    /// What the device says to it, if it says anything.
+    pub answer: Option<&'static Message>,
 }
 
 /// What the messages need to know of a device.

@@ -94,6 +94,20 @@ impl<T: Telegram> Receiver<T> {
         true
     }
 
+    /// How many frames were taken.
+    #[must_use]
+    pub const fn taken(&self) -> u64 {
+        self.clock
+    }
+
+    /// Whether all words of a point came again since so many frames were taken.
+    #[must_use]
+    pub fn came_since<P: Received<Telegram = T>>(&self, taken: u64) -> bool {
+        let came =
+            |position: &u16| matches!(self.place(*position), Ok((slot, _)) if slot.now.at > taken);
+        P::ADDRESSES.iter().all(came)
+    }
+
     /// The word at a position of the telegram, from 0.
     ///
     /// # Errors

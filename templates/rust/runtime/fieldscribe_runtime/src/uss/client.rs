@@ -69,13 +69,20 @@ impl<E: core::error::Error + 'static> core::error::Error for ClientError<E> {
     }
 }
 
+/// The words that are sent again and again: all 0 until one of them was set.
+#[derive(Clone, Copy, Debug)]
+struct Process {
+    words: [u16; WORDS],
+    is_set: bool,
+}
+
 /// One drive of a bus: keeps the words that it is sent again and again, and those that it answered with.
 #[derive(Debug)]
 struct Drive {
     profile: &'static Profile,
     link: Link,
     unit: u8,
-    words: [u16; WORDS],
+    process: Process,
     heard: [u16; WORDS],
     count: usize,
     sent: [u8; SENT],
@@ -83,16 +90,15 @@ struct Drive {
 }
 
 impl Drive {
-    fn new(profile: &'static Profile, link: Link, unit: u8) -> Self {
-        let mut words = [0; WORDS];
-        for (place, word) in words.iter_mut().zip(profile.fixed) {
-            *place = *word;
-        }
+    const fn new(profile: &'static Profile, link: Link, unit: u8) -> Self {
         Self {
             profile,
             link,
             unit,
-            words,
+            process: Process {
+                words: [0; WORDS],
+                is_set: false,
+            },
             heard: [0; WORDS],
             count: 0,
             sent: [0; SENT],
@@ -101,8 +107,12 @@ impl Drive {
     }
 
     /// The telegram to send and the space for its answer.
-    fn telegrams(&mut self, request: &Request) -> Result<(&[u8], &mut [u8]), BuildError> {
-        let words = self.words.get(..usize::from(self.link.pzd));
+    fn telegrams(
+        &mut self,
+        request: &Request,
+        process: &Process,
+    ) -> Result<(&[u8], &mut [u8]), BuildError> {
+        let words = process.words.get(..usize::from(self.link.pzd));
         let words = words.ok_or(BuildError::BadLink)?;
         let length = request.build(self.profile, self.link, words, &mut self.sent)?;
         let sent = self.sent.get(..length).ok_or(BuildError::BufferTooSmall)?;
@@ -111,17 +121,23 @@ impl Drive {
 
     /// The telegram to all units.
     fn for_all(&mut self, masks: [u16; 4]) -> Result<&[u8], BuildError> {
-        let words = self.words.get(..usize::from(self.link.pzd));
+        let words = self.process.words.get(..usize::from(self.link.pzd));
         let words = words.ok_or(BuildError::BadLink)?;
         let length = broadcast(self.profile, self.link, masks, words, &mut self.sent)?;
         self.sent.get(..length).ok_or(BuildError::BufferTooSmall)
     }
 
     /// The answer in the first bytes that were received; its process data are kept.
-    fn reply(&mut self, request: &Request, length: usize) -> Result<Reply<'_>, ParseError> {
+    fn reply(
+        &mut self,
+        request: &Request,
+        process: &Process,
+        length: usize,
+    ) -> Result<Reply<'_>, ParseError> {
         let received = self.received.get(..length);
         let received = received.ok_or(ParseError::WrongLength)?;
         let reply = request.parse(self.profile, self.link, received)?;
+        self.process = *process;
         self.count = 0;
         for (place, word) in self.heard.iter_mut().zip(reply.words()) {
             *place = word;
@@ -130,22 +146,45 @@ impl Drive {
         Ok(reply)
     }
 
-    /// The word that is sent at a position.
-    fn word(&mut self, position: u16) -> Result<&mut u16, Error> {
-        let words = self.words.get_mut(..usize::from(self.link.pzd));
-        let word = words.and_then(|words| words.get_mut(usize::from(position)));
-        word.ok_or(Error::WrongLength)
+    /// The process data with other words of a point; the first time the words not set get their fixed bits.
+    fn with_words<P: Sent>(&self, words: &[u16]) -> Result<Process, Error> {
+        self.changed(|all| {
+            for (position, word) in P::ADDRESSES.iter().zip(words) {
+                *all.get_mut(usize::from(*position))
+                    .ok_or(Error::WrongLength)? = *word;
+            }
+            Ok(())
+        })
     }
 
-    /// Sets the words of a point, all of them or none.
-    fn set<P: Sent>(&mut self, words: &[u16]) -> Result<(), Error> {
-        for position in P::ADDRESSES {
-            self.word(*position)?;
+    /// The process data with another number of a group of bits.
+    fn with_bits<P: Sent + BitGroup>(&self, raw: P::Raw) -> Result<Process, Error> {
+        self.changed(|all| {
+            let word = all.get_mut(usize::from(P::ADDRESS));
+            let word = word.ok_or(Error::WrongLength)?;
+            *word = P::insert(*word, raw);
+            Ok(())
+        })
+    }
+
+    fn changed(
+        &self,
+        change: impl FnOnce(&mut [u16]) -> Result<(), Error>,
+    ) -> Result<Process, Error> {
+        let mut words = self.process.words;
+        if !self.process.is_set {
+            for fixed in self.profile.fixed {
+                if let Some(word) = words.get_mut(usize::from(fixed.position)) {
+                    *word |= fixed.bits;
+                }
+            }
         }
-        for (position, word) in P::ADDRESSES.iter().zip(words) {
-            *self.word(*position)? = *word;
-        }
-        Ok(())
+        let linked = words.get_mut(..usize::from(self.link.pzd));
+        change(linked.ok_or(Error::WrongLength)?)?;
+        Ok(Process {
+            words,
+            is_set: true,
+        })
     }
 
     /// The raw number of a point in the last answer.
@@ -165,8 +204,8 @@ macro_rules! client {
     ($client:ident, $transport:ident, $about:literal, [$($async:ident)?], [$($wait:tt)*]) => {
         #[doc = $about]
         ///
-        /// Every telegram carries the words of process data as they were set last; a word that was never set carries
-        /// its fixed bits.
+        /// Every telegram carries the words of process data as they were set last. They are all 0 until one is set; then
+        /// those that are not carry their fixed bits.
         #[derive(Debug)]
         pub struct $client<T> {
             transport: T,
@@ -175,7 +214,7 @@ macro_rules! client {
 
         impl<T> $client<T> {
             /// The drive of that unit behind a transport; the profile is the device's own.
-            pub fn new(transport: T, profile: &'static Profile, link: Link, unit: u8) -> Self {
+            pub const fn new(transport: T, profile: &'static Profile, link: Link, unit: u8) -> Self {
                 Self { transport, drive: Drive::new(profile, link, unit) }
             }
 
@@ -204,7 +243,8 @@ macro_rules! client {
                 P: Writable + Whole + Sent,
             {
                 let words = P::encode_with(value, with)?.into_words();
-                self.drive.set::<P>(words.as_ref())
+                self.drive.process = self.drive.with_words::<P>(words.as_ref())?;
+                Ok(())
             }
 
             /// Sets a group of bits of the process data, which the next telegram carries.
@@ -215,9 +255,7 @@ macro_rules! client {
             where
                 P: Writable<With = ()> + BitGroup + Sent,
             {
-                let raw = P::encode(value)?;
-                let word = self.drive.word(P::ADDRESS)?;
-                *word = P::insert(*word, raw);
+                self.drive.process = self.drive.with_bits::<P>(P::encode(value)?)?;
                 Ok(())
             }
 
@@ -253,10 +291,20 @@ macro_rules! client {
                 &mut self,
                 request: Request,
             ) -> Result<Reply<'_>, ClientError<T::Error>> {
-                let (sent, space) = self.drive.telegrams(&request)?;
+                self.exchange_with(request, self.drive.process)$($wait)*
+            }
+
+            /// The answer to a request that carries these process data, which stay in force if it succeeds: after a
+            /// failure no later telegram may start what seemed to have failed.
+            $($async)? fn exchange_with(
+                &mut self,
+                request: Request,
+                process: Process,
+            ) -> Result<Reply<'_>, ClientError<T::Error>> {
+                let (sent, space) = self.drive.telegrams(&request, &process)?;
                 let answer = self.transport.exchange(sent, space)$($wait)*;
                 let length = answer.map_err(ClientError::Transport)?;
-                Ok(self.drive.reply(&request, length)?)
+                Ok(self.drive.reply(&request, &process, length)?)
             }
 
             /// Sends the process data and keeps what the drive answers with.
@@ -283,7 +331,7 @@ macro_rules! client {
                 Ok(())
             }
 
-            /// Sets a point of the process data and sends it.
+            /// Sets a point of the process data and sends it. It stays set if the drive answers.
             ///
             /// # Errors
             /// Whatever [`ClientError`] tells.
@@ -306,8 +354,25 @@ macro_rules! client {
             where
                 P: Writable + Whole + Sent,
             {
-                self.set_with::<P>(value, with)?;
-                self.cycle()$($wait)*
+                let words = P::encode_with(value, with)?.into_words();
+                let process = self.drive.with_words::<P>(words.as_ref())?;
+                let request = Request::cyclic(self.drive.unit);
+                self.exchange_with(request, process)$($wait)*?;
+                Ok(())
+            }
+
+            /// Sets a group of bits of the process data and sends it. It stays set if the drive answers.
+            ///
+            /// # Errors
+            /// Whatever [`ClientError`] tells.
+            pub $($async)? fn send_bits<P>(&mut self, value: P::Value) -> Result<(), ClientError<T::Error>>
+            where
+                P: Writable<With = ()> + BitGroup + Sent,
+            {
+                let process = self.drive.with_bits::<P>(P::encode(value)?)?;
+                let request = Request::cyclic(self.drive.unit);
+                self.exchange_with(request, process)$($wait)*?;
+                Ok(())
             }
 
             /// The value of a point of the process data, which the drive is asked for.

@@ -18,7 +18,7 @@ mod request;
 
 pub use client::{AsyncClient, Client, ClientError};
 pub use error::{BuildError, ParseError};
-pub use profile::{Link, Profile, Task};
+pub use profile::{FixedBits, Link, Profile, Task};
 pub use reply::Reply;
 pub use request::{broadcast, Request, Value};
 

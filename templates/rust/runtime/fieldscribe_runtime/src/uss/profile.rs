@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: 0BSD
 //! What the telegrams need to know of a device, as constants of the generated code, and how a link is set.
 
-use super::VARIABLE;
+use super::{Sent, VARIABLE};
 
 /// How a link is set: its words of the parameter part (0, 3, 4 or 127 for variable) and of process data.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -70,6 +70,25 @@ impl Task {
     }
 }
 
+/// The bits of a word of process data that are always sent as a constant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FixedBits {
+    pub(super) position: u16,
+    pub(super) bits: u16,
+}
+
+impl FixedBits {
+    /// Those that a point has.
+    #[must_use]
+    pub const fn of<P: Sent>() -> Self {
+        let [_, _, high, low] = P::FIXED_BITS.to_be_bytes();
+        Self {
+            position: P::ADDRESS,
+            bits: u16::from_be_bytes([high, low]),
+        }
+    }
+}
+
 /// What the telegrams need to know of a device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Profile {
@@ -78,13 +97,12 @@ pub struct Profile {
     pkw: &'static [u8],
     pzd: (u8, u8),
     pub(super) broadcast: Option<u8>,
-    pub(super) fixed: &'static [u16],
+    pub(super) fixed: &'static [FixedBits],
 }
 
 impl Profile {
     /// The tasks, the least and the greatest unit, the lengths of the parameter part, the least and the greatest number
-    /// of words of process data, the address that means all units, and the process data as they are sent before anything
-    /// is set: the fixed bits alone.
+    /// of words of process data, the address that means all units, and the fixed bits of the process data.
     #[must_use]
     pub const fn new(
         tasks: &'static [Task],
@@ -92,7 +110,7 @@ impl Profile {
         pkw: &'static [u8],
         pzd: (u8, u8),
         broadcast: Option<u8>,
-        fixed: &'static [u16],
+        fixed: &'static [FixedBits],
     ) -> Self {
         Self {
             tasks,

@@ -6,13 +6,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from .errors import RequestError
-from .modbus import READ_COILS, READ_DISCRETE, READ_HOLDING, READ_INPUT, READS, Profile
+from ..errors import RequestError
+from .frames import READ_COILS, READ_DISCRETE, READ_HOLDING, READ_INPUT, READS, Profile
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable
 
-    from .facts import Place
+    from ..facts import Place
 
 _READS = {"coil": READ_COILS, "discrete": READ_DISCRETE, "holding": READ_HOLDING, "input": READ_INPUT}
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from .errors import ExceptionReplyError, FrameError, RequestError
+from ..errors import ExceptionReplyError, FrameError, RequestError
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Mapping

@@ -1,0 +1,380 @@
+/*
+ * USS telegrams: builds requests and reads answers, in the caller's buffers. A telegram carries a parameter part (PKW:
+ * one task for one parameter, and its answer) and process data (PZD: words that are exchanged with every telegram).
+ * No heap, no state; any bytes at any length are safe to parse.
+ *
+ * SPDX-License-Identifier: 0BSD
+ */
+#ifndef FIELDSCRIBE_USS_H
+#define FIELDSCRIBE_USS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* What the headers of devices rely on: it grows when they have to be generated anew. */
+#define FIELDSCRIBE_USS_INTERFACE 1
+
+/* The longest telegram there is. */
+#define FIELDSCRIBE_USS_MOST 256U
+
+/* The length of a parameter part that is as long as its content needs. */
+#define FIELDSCRIBE_USS_VARIABLE 127U
+
+/* In a profile: no address byte is a broadcast. */
+#define FIELDSCRIBE_USS_NO_BROADCAST 0xFFFFU
+
+/* Parameters are numbered from 0 up to here. */
+#define FIELDSCRIBE_USS_LAST_PARAMETER 31999U
+
+typedef enum fieldscribe_uss_status {
+    FIELDSCRIBE_USS_OK = 0,
+    /* building */
+    FIELDSCRIBE_USS_BAD_LINK,         /* a parameter part or a number of process data words that the device has not */
+    FIELDSCRIBE_USS_BAD_UNIT,         /* not a unit of this device */
+    FIELDSCRIBE_USS_BAD_TASK,         /* the device does not know the task, or the link has no parameter part for it */
+    FIELDSCRIBE_USS_BAD_PARAMETER,    /* beyond 31999 */
+    FIELDSCRIBE_USS_BAD_INDEX,        /* beyond 255 */
+    FIELDSCRIBE_USS_BAD_VALUE,        /* the value does not fit into the words for it */
+    FIELDSCRIBE_USS_BUFFER_TOO_SMALL, /* the caller's buffer does not hold the result */
+    /* parsing */
+    FIELDSCRIBE_USS_WRONG_START,
+    FIELDSCRIBE_USS_WRONG_LENGTH,
+    FIELDSCRIBE_USS_WRONG_CHECK,
+    FIELDSCRIBE_USS_WRONG_UNIT,
+    FIELDSCRIBE_USS_WRONG_PARAMETER, /* the answer is about another parameter or index */
+    FIELDSCRIBE_USS_NO_ANSWER,       /* the task has not been answered yet: ask again */
+    FIELDSCRIBE_USS_REFUSED,         /* the device refused; the reply holds its error */
+    FIELDSCRIBE_USS_NO_RIGHTS,       /* the parameter part is not in control */
+    FIELDSCRIBE_USS_WRONG_RESPONSE   /* no response to this task */
+} fieldscribe_uss_status;
+
+/* How master and device are set: words of the parameter part (0, 3, 4 or 127), and of the process data. */
+typedef struct fieldscribe_uss_link {
+    uint8_t pkw;
+    uint8_t pzd;
+    bool single_first; /* with 4 words, a single word stands in the first of the two for the value */
+} fieldscribe_uss_link;
+
+/* A task, and the responses that mean success: bit n stands for response n. */
+typedef struct fieldscribe_uss_task {
+    uint8_t number;
+    uint16_t answers;
+} fieldscribe_uss_task;
+
+/* What a device understands. */
+typedef struct fieldscribe_uss_profile {
+    const fieldscribe_uss_task *tasks;
+    size_t task_count;
+    const uint8_t *pkw;
+    size_t pkw_count;
+    uint8_t first_unit;
+    uint8_t last_unit;
+    uint16_t broadcast;
+    uint8_t least_pzd;
+    uint8_t most_pzd;
+} fieldscribe_uss_profile;
+
+/* What is asked of a parameter. `width` is how many words the value has: 0 for none, 1 or 2. */
+typedef struct fieldscribe_uss_request {
+    uint8_t unit;
+    uint8_t task;
+    uint16_t parameter;
+    uint16_t index;
+    uint8_t width;
+    uint32_t value;
+} fieldscribe_uss_request;
+
+/* What an answer says: the words of the value and the value, or the error when the device refused. */
+typedef struct fieldscribe_uss_reply {
+    uint8_t response;
+    uint8_t width;
+    uint32_t value;
+    uint16_t error;
+} fieldscribe_uss_reply;
+
+/* A request for no parameter: only process data is exchanged. */
+static inline fieldscribe_uss_request fieldscribe_uss_exchange(uint8_t unit)
+{
+    const fieldscribe_uss_request request = {unit, 0U, 0U, 0U, 0U, 0U};
+    return request;
+}
+
+static inline fieldscribe_uss_request fieldscribe_uss_read(uint8_t unit, uint8_t task, uint16_t parameter, uint16_t index)
+{
+    const fieldscribe_uss_request request = {unit, task, parameter, index, 0U, 0U};
+    return request;
+}
+
+static inline fieldscribe_uss_request fieldscribe_uss_write(
+    uint8_t unit, uint8_t task, uint16_t parameter, uint16_t index, uint8_t width, uint32_t value)
+{
+    const fieldscribe_uss_request request = {unit, task, parameter, index, width, value};
+    return request;
+}
+
+static inline uint16_t fieldscribe_uss_get(const uint8_t *bytes)
+{
+    return (uint16_t)(((uint32_t)bytes[0] << 8) | bytes[1]);
+}
+
+static inline void fieldscribe_uss_put(uint8_t *bytes, uint16_t number)
+{
+    bytes[0] = (uint8_t)(number >> 8);
+    bytes[1] = (uint8_t)(number & 0xFFU);
+}
+
+/* The last byte of a telegram: all before it, combined by exclusive or. */
+static inline uint8_t fieldscribe_uss_check(const uint8_t *bytes, size_t length)
+{
+    uint8_t check = 0U;
+    size_t at;
+    for (at = 0U; at < length; ++at) {
+        check = (uint8_t)(check ^ bytes[at]);
+    }
+    return check;
+}
+
+/* The task of that number; NULL when the device does not know it. */
+static inline const fieldscribe_uss_task *fieldscribe_uss_find(const fieldscribe_uss_profile *profile, uint8_t number)
+{
+    size_t at;
+    for (at = 0U; at < profile->task_count; ++at) {
+        if (profile->tasks[at].number == number) {
+            return &profile->tasks[at];
+        }
+    }
+    return NULL;
+}
+
+/* The index word: the index, and the page of 2000 parameters in bits 15, 12, 13, 14 (its lowest bit in bit 15). */
+static inline uint16_t fieldscribe_uss_index_word(uint16_t parameter, uint16_t index)
+{
+    const uint32_t page = parameter / 2000U;
+    return (uint16_t)(index | ((page & 1U) << 15) | ((page >> 1 & 1U) << 12) | ((page >> 2 & 1U) << 13) |
+        ((page >> 3 & 1U) << 14));
+}
+
+/* Whether a single word stands in the second of the two words for the value. */
+static inline bool fieldscribe_uss_single_last(const fieldscribe_uss_link *link)
+{
+    return link->pkw == 4U && !link->single_first;
+}
+
+/* Whether the device can be set to such a parameter part. */
+static inline bool fieldscribe_uss_allows_pkw(const fieldscribe_uss_profile *profile, uint8_t pkw)
+{
+    size_t at = 0U;
+    while (at < profile->pkw_count && profile->pkw[at] != pkw) {
+        ++at;
+    }
+    return at < profile->pkw_count;
+}
+
+/* Whether the device can be set to so many words of process data, and `count` is how many there are. */
+static inline bool fieldscribe_uss_allows_pzd(
+    const fieldscribe_uss_profile *profile, const fieldscribe_uss_link *link, size_t count)
+{
+    return count == link->pzd && link->pzd >= profile->least_pzd && link->pzd <= profile->most_pzd;
+}
+
+/* Whether this device takes the request. */
+static inline fieldscribe_uss_status fieldscribe_uss_allows(const fieldscribe_uss_profile *profile,
+    const fieldscribe_uss_link *link, const fieldscribe_uss_request *request, size_t pzd_count)
+{
+    if (!fieldscribe_uss_allows_pkw(profile, link->pkw) || !fieldscribe_uss_allows_pzd(profile, link, pzd_count)) {
+        return FIELDSCRIBE_USS_BAD_LINK;
+    }
+    if (request->unit < profile->first_unit || request->unit > profile->last_unit) {
+        return FIELDSCRIBE_USS_BAD_UNIT;
+    }
+    if (fieldscribe_uss_find(profile, request->task) == NULL || (link->pkw == 0U && request->task != 0U)) {
+        return FIELDSCRIBE_USS_BAD_TASK;
+    }
+    if (request->parameter > FIELDSCRIBE_USS_LAST_PARAMETER) {
+        return FIELDSCRIBE_USS_BAD_PARAMETER;
+    }
+    if (request->index > 0xFFU) {
+        return FIELDSCRIBE_USS_BAD_INDEX;
+    }
+    if (request->width > 2U || (request->width == 2U && link->pkw == 3U) ||
+        (request->width == 1U && request->value > 0xFFFFU) || (request->width == 0U && request->value != 0U)) {
+        return FIELDSCRIBE_USS_BAD_VALUE;
+    }
+    return FIELDSCRIBE_USS_OK;
+}
+
+/* Puts a telegram together: `head` has `head_bytes` bytes of parameter part. */
+static inline fieldscribe_uss_status fieldscribe_uss_assemble(uint8_t address, const uint8_t *head, size_t head_bytes,
+    const uint16_t *pzd, size_t pzd_count, uint8_t *buffer, size_t size, size_t *length)
+{
+    const size_t used = 4U + head_bytes + 2U * pzd_count; /* with start, length, address and check */
+    size_t at;
+    if (used > size || used > FIELDSCRIBE_USS_MOST) {
+        return FIELDSCRIBE_USS_BUFFER_TOO_SMALL;
+    }
+    buffer[0] = 0x02U;
+    buffer[1] = (uint8_t)(used - 2U);
+    buffer[2] = address;
+    for (at = 0U; at < head_bytes; ++at) {
+        buffer[3U + at] = head[at];
+    }
+    for (at = 0U; at < pzd_count; ++at) {
+        fieldscribe_uss_put(buffer + 3U + head_bytes + 2U * at, pzd[at]);
+    }
+    buffer[used - 1U] = fieldscribe_uss_check(buffer, used - 1U);
+    *length = used;
+    return FIELDSCRIBE_USS_OK;
+}
+
+/*
+ * The telegram of a request in `buffer`; `length` says how many of its `size` bytes were used, 0 on an error. `pzd` has
+ * `pzd_count` words of process data, as many as the link.
+ */
+static inline fieldscribe_uss_status fieldscribe_uss_build(const fieldscribe_uss_profile *profile,
+    const fieldscribe_uss_link *link, const fieldscribe_uss_request *request, const uint16_t *pzd, size_t pzd_count,
+    uint8_t *buffer, size_t size, size_t *length)
+{
+    const fieldscribe_uss_status status = fieldscribe_uss_allows(profile, link, request, pzd_count);
+    uint32_t value = request->value;
+    uint8_t head[8];
+    *length = 0U;
+    if (status != FIELDSCRIBE_USS_OK) {
+        return status;
+    }
+    if (request->width == 1U && !fieldscribe_uss_single_last(link)) {
+        value <<= 16; /* into the first of the two words */
+    }
+    fieldscribe_uss_put(head, (uint16_t)((uint32_t)request->task << 12 | request->parameter % 2000U));
+    fieldscribe_uss_put(head + 2, fieldscribe_uss_index_word(request->parameter, request->index));
+    fieldscribe_uss_put(head + 4, (uint16_t)(value >> 16));
+    fieldscribe_uss_put(head + 6, (uint16_t)(value & 0xFFFFU)); /* left out where the part has 3 words */
+    return fieldscribe_uss_assemble(request->unit, head, link->pkw == 0U ? 0U : link->pkw == 3U ? 6U : 8U, pzd,
+        pzd_count, buffer, size, length);
+}
+
+/*
+ * A telegram for all units, which nobody answers. `mask` stands where the parameter part is: only the bits that are set
+ * there are taken from the words of process data.
+ */
+static inline fieldscribe_uss_status fieldscribe_uss_build_broadcast(const fieldscribe_uss_profile *profile,
+    const fieldscribe_uss_link *link, const uint16_t mask[4], const uint16_t *pzd, size_t pzd_count, uint8_t *buffer,
+    size_t size, size_t *length)
+{
+    uint8_t head[8];
+    size_t at;
+    *length = 0U;
+    if (profile->broadcast > 0xFFU || !fieldscribe_uss_allows_pzd(profile, link, pzd_count)) {
+        return FIELDSCRIBE_USS_BAD_LINK;
+    }
+    for (at = 0U; at < 4U; ++at) {
+        fieldscribe_uss_put(head + 2U * at, mask[at]);
+    }
+    return fieldscribe_uss_assemble(
+        (uint8_t)profile->broadcast, head, sizeof head, pzd, pzd_count, buffer, size, length);
+}
+
+/* Whether that many words of data can come over the link. */
+static inline bool fieldscribe_uss_fits(const fieldscribe_uss_link *link, size_t words)
+{
+    return link->pkw == FIELDSCRIBE_USS_VARIABLE ? words >= 3U + (size_t)link->pzd : words == (size_t)link->pkw + link->pzd;
+}
+
+/* Reads the parameter part of an answer, which has `words` words (at least 3). */
+static inline fieldscribe_uss_status fieldscribe_uss_take(const fieldscribe_uss_profile *profile,
+    const fieldscribe_uss_link *link, const fieldscribe_uss_request *request, const uint8_t *part, size_t words,
+    fieldscribe_uss_reply *reply)
+{
+    const uint16_t head = fieldscribe_uss_get(part);
+    const uint8_t response = (uint8_t)(head >> 12);
+    const uint16_t first = fieldscribe_uss_get(part + 4);
+    const uint16_t second = words > 3U ? fieldscribe_uss_get(part + 6) : 0U;
+    const bool is_double = response == 2U || response == 5U;
+    const fieldscribe_uss_task *const task = fieldscribe_uss_find(profile, request->task);
+    if (request->task == 0U) {
+        reply->response = response; /* nothing was asked: there is no value */
+        return FIELDSCRIBE_USS_OK;
+    }
+    if (response == 0U) {
+        return FIELDSCRIBE_USS_NO_ANSWER;
+    }
+    if ((head & 0x0FFFU) != request->parameter % 2000U ||
+        fieldscribe_uss_get(part + 2) != fieldscribe_uss_index_word(request->parameter, request->index)) {
+        return FIELDSCRIBE_USS_WRONG_PARAMETER;
+    }
+    if (response == 7U) {
+        reply->response = response;
+        reply->error = first;
+        return FIELDSCRIBE_USS_REFUSED;
+    }
+    if (response == 8U) {
+        return FIELDSCRIBE_USS_NO_RIGHTS;
+    }
+    if (task == NULL || ((uint32_t)task->answers >> response & 1U) == 0U) {
+        return FIELDSCRIBE_USS_WRONG_RESPONSE;
+    }
+    if (is_double && words < 4U) {
+        return FIELDSCRIBE_USS_WRONG_LENGTH;
+    }
+    reply->response = response;
+    reply->width = is_double ? 2U : 1U;
+    if (is_double) {
+        reply->value = (uint32_t)first << 16 | second;
+    } else {
+        reply->value = fieldscribe_uss_single_last(link) ? second : first;
+    }
+    return FIELDSCRIBE_USS_OK;
+}
+
+/*
+ * Reads the answer to `request`. The words of process data, as many as the link has, are stored in `pzd`, which has
+ * room for `room` of them, and is not where those are that are sent next: they come with every good telegram, also with
+ * one that brings no value (NO_ANSWER, REFUSED, NO_RIGHTS, WRONG_PARAMETER, WRONG_RESPONSE), and stay as they were if it
+ * is not good. What an answer does not say is 0 in the reply.
+ */
+static inline fieldscribe_uss_status fieldscribe_uss_parse(const fieldscribe_uss_profile *profile,
+    const fieldscribe_uss_link *link, const fieldscribe_uss_request *request, const uint8_t *bytes, size_t length,
+    uint16_t *pzd, size_t room, fieldscribe_uss_reply *reply)
+{
+    static const fieldscribe_uss_reply nothing = {0U, 0U, 0U, 0U};
+    fieldscribe_uss_status status = FIELDSCRIBE_USS_OK;
+    size_t words;
+    size_t at;
+    *reply = nothing;
+    if (length == 0U || bytes[0] != 0x02U) {
+        return FIELDSCRIBE_USS_WRONG_START;
+    }
+    if (length < 4U || (size_t)bytes[1] + 2U != length || length % 2U != 0U ||
+        !fieldscribe_uss_fits(link, (length - 4U) / 2U)) {
+        return FIELDSCRIBE_USS_WRONG_LENGTH;
+    }
+    if (fieldscribe_uss_check(bytes, length - 1U) != bytes[length - 1U]) {
+        return FIELDSCRIBE_USS_WRONG_CHECK;
+    }
+    if (bytes[2] != request->unit) {
+        return FIELDSCRIBE_USS_WRONG_UNIT;
+    }
+    if (room < link->pzd) {
+        return FIELDSCRIBE_USS_BUFFER_TOO_SMALL;
+    }
+    words = (length - 4U) / 2U - link->pzd; /* of the parameter part */
+    if (link->pkw != 0U) {
+        status = fieldscribe_uss_take(profile, link, request, bytes + 3, words, reply);
+    }
+    if (status != FIELDSCRIBE_USS_WRONG_LENGTH) {
+        for (at = 0U; at < link->pzd; ++at) {
+            pzd[at] = fieldscribe_uss_get(bytes + 3U + 2U * words + 2U * at);
+        }
+    }
+    return status;
+}
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: 0BSD
+"""The CAN family: messages of 8 bytes, multiplexed telegrams, and devices over a transport."""
+
+from ..facts import Telegram
+from .device import AsyncCanDevice, AsyncCanTransport, CanDevice, CanTransport
+from .frames import Frame, Message, Profile, Role, build, parse
+from .receiver import Receiver
+from .session import CanSession
+
+__all__ = [
+    "AsyncCanDevice",
+    "AsyncCanTransport",
+    "CanDevice",
+    "CanSession",
+    "CanTransport",
+    "Frame",
+    "Message",
+    "Profile",
+    "Receiver",
+    "Role",
+    "Telegram",
+    "build",
+    "parse",
+]

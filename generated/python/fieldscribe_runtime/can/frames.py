@@ -1,0 +1,151 @@
+# SPDX-License-Identifier: 0BSD
+"""CAN messages with a layout of bytes, without any I/O. Any bytes of any length are safe to parse."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
+
+from ..errors import AccessError, FrameError, RequestError
+
+if TYPE_CHECKING:
+    from ..facts import Telegram
+
+LENGTH = 8
+"""How many bytes every message has."""
+
+
+@dataclass(frozen=True, slots=True)
+class Frame:
+    """A data frame on the bus: its identifier and its bytes."""
+
+    id: int
+    data: bytes
+
+
+class Role(NamedTuple):
+    """What one byte of a message carries.
+
+    `constant` (number: the byte itself), `unit`, `address` and `raw` (number: how far the byte lies above bit 0),
+    `multiplexer`, `word` (number: 2 * word of the frame, and 1 more for its low byte), `xor` (number: a mask of the
+    bytes of the message that are combined).
+    """
+
+    kind: str
+    number: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class Message:
+    """A layout of 8 bytes with an identifier: `can_id`, plus the unit number if `adds_unit`."""
+
+    name: str
+    direction: str
+    can_id: int
+    roles: tuple[Role, ...]
+    adds_unit: bool = False
+    answers: str | None = None
+
+    def identifier(self, unit: int) -> int:
+        """The identifier that carries the message to or from a unit."""
+        return self.can_id + unit if self.adds_unit else self.can_id
+
+    def carries(self, kind: str) -> bool:
+        """Whether some byte has that role."""
+        return any(role.kind == kind for role in self.roles)
+
+
+@dataclass(frozen=True, slots=True)
+class Profile:
+    """What a device says and hears: unit numbers, the bits of identifiers, messages and telegrams."""
+
+    units: tuple[int, int]
+    identifier_bits: int
+    messages: tuple[Message, ...]
+    telegrams: tuple[Telegram, ...] = ()
+
+    def message(self, name: str | None) -> Message:
+        """A message by name; raises AccessError."""
+        for message in self.messages:
+            if message.name == name:
+                return message
+        raise AccessError(f"the device has no message {name}")
+
+    def telegram(self, name: str | None) -> Telegram:
+        """A telegram by name; raises AccessError."""
+        for telegram in self.telegrams:
+            if telegram.name == name:
+                return telegram
+        raise AccessError(f"the device has no telegram {name}")
+
+    def request(self, *, writes: bool) -> Message:
+        """The request that reads or writes a parameter; raises AccessError."""
+        for message in self.messages:
+            if message.direction == "request" and message.carries("address") and message.carries("raw") == writes:
+                return message
+        raise AccessError(f"the device has no message that {'writes' if writes else 'reads'} a parameter")
+
+    def answer(self, request: Message) -> Message | None:
+        """What answers a request, where anything does."""
+        return next((message for message in self.messages if message.answers == request.name), None)
+
+
+def _combined(data: bytes | bytearray, mask: int) -> int:
+    """The bytes of a mask, combined by exclusive or."""
+    result = 0
+    for place, byte in enumerate(data):
+        if mask >> place & 1:
+            result ^= byte
+    return result
+
+
+def build(message: Message, profile: Profile, unit: int, address: int = 0, raw: int = 0) -> Frame:
+    """The frame of a message; raises RequestError (bad_unit, bad_address, bad_value)."""
+    for status, what, number, (low, high) in (
+        ("bad_unit", "unit", unit, profile.units),
+        ("bad_address", "address", address, (0, 0xFFFF)),
+        ("bad_value", "raw number", raw, (0, 0xFFFF)),
+    ):
+        if not low <= number <= high:
+            raise RequestError(status, f"{what} {number} is outside {low}..{high}")
+    carried = {"address": address, "raw": raw}
+    data = bytearray()
+    for kind, number in message.roles:
+        if kind == "constant":
+            data.append(number)
+        else:
+            data.append(unit & 0xFF if kind == "unit" else carried.get(kind, 0) >> number & 0xFF)
+    for place, (kind, mask) in enumerate(message.roles):
+        if kind == "xor":
+            data[place] = _combined(data, mask)
+    return Frame(message.identifier(unit), bytes(data))
+
+
+def check(message: Message, unit: int, frame: Frame) -> None:
+    """Raises FrameError if a frame is not that message of that unit, whatever its check bytes say.
+
+    The first failure decides: wrong_id, wrong_length, wrong_constant, wrong_unit.
+    """
+    if frame.id != message.identifier(unit):
+        raise FrameError("wrong_id", f"identifier {frame.id:X}h is not that of {message.name}")
+    if len(frame.data) != LENGTH:
+        raise FrameError("wrong_length", f"{message.name} has {LENGTH} bytes, not {len(frame.data)}")
+    for kind, status, expected in (("constant", "wrong_constant", None), ("unit", "wrong_unit", unit & 0xFF)):
+        for role, byte in zip(message.roles, frame.data, strict=True):
+            if role.kind == kind and byte != (role.number if expected is None else expected):
+                raise FrameError(status, f"a byte that {message.name} has as its {kind} is {byte:02X}h")
+
+
+def parse(message: Message, unit: int, frame: Frame) -> tuple[int, int]:
+    """Address and raw number in a message, 0 for what it does not carry.
+
+    Raises FrameError, the first failure deciding: wrong_id, wrong_length, wrong_constant, wrong_unit, wrong_check.
+    """
+    check(message, unit, frame)
+    carried = {"address": 0, "raw": 0}
+    for (kind, number), byte in zip(message.roles, frame.data, strict=True):
+        if kind == "xor" and byte != _combined(frame.data, number):
+            raise FrameError("wrong_check", f"the check of {message.name} is wrong")
+        if kind in carried:
+            carried[kind] += byte << number
+    return carried["address"], carried["raw"]

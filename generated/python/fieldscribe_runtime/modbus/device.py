@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: 0BSD
+"""Modbus devices over a transport, blocking and async."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Protocol
+
+from ..device import AnyAsyncDevice, AnyDevice
+from ..facts import Place
+from .planner import read_function
+from .session import ModbusSession
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+
+class Transport(Protocol):
+    """Carries one request to the bus and one reply back."""
+
+    @property
+    def framing(self) -> str:
+        """`rtu` or `tcp`: what the frames look like."""
+
+    def exchange(self, request: bytes) -> bytes:
+        """Send a frame and return the whole reply; for a broadcast (nobody answers) return no bytes."""
+
+
+class AsyncTransport(Protocol):
+    """Carries one request to the bus and one reply back, asynchronously."""
+
+    @property
+    def framing(self) -> str:
+        """`rtu` or `tcp`: what the frames look like."""
+
+    async def exchange(self, request: bytes) -> bytes:
+        """Send a frame and return the whole reply; for a broadcast (nobody answers) return no bytes."""
+
+
+class ModbusDevice(ModbusSession, AnyDevice):
+    """A device on a Modbus line or network."""
+
+    def __init__(self, transport: Transport, unit: int, variants: Mapping[str, str | None] | None = None) -> None:
+        super().__init__(transport.framing, unit, variants or {})
+        self.transport = transport
+
+    def _carry(self, request: bytes) -> bytes:
+        return self.transport.exchange(request)
+
+    def read_at(self, space: str, address: int, count: int = 1) -> tuple[int, ...]:
+        """Read words or bits by address, without any meaning."""
+        return self.run(self.ask(read_function(Place(space, (address,))), address, count))
+
+    def write_at(self, space: str, address: int, *values: int) -> None:
+        """Write words or bits by address. Nothing is checked: this can set what no point allows."""
+        self.run(self.put_steps(Place(space, tuple(range(address, address + len(values)))), values))
+
+
+class AsyncModbusDevice(ModbusSession, AnyAsyncDevice):
+    """A device on a Modbus line or network, asynchronously."""
+
+    def __init__(self, transport: AsyncTransport, unit: int, variants: Mapping[str, str | None] | None = None) -> None:
+        super().__init__(transport.framing, unit, variants or {})
+        self.transport = transport
+
+    async def _carry(self, request: bytes) -> bytes:
+        return await self.transport.exchange(request)
+
+    async def read_at(self, space: str, address: int, count: int = 1) -> tuple[int, ...]:
+        """Read words or bits by address, without any meaning."""
+        return await self.run(self.ask(read_function(Place(space, (address,))), address, count))
+
+    async def write_at(self, space: str, address: int, *values: int) -> None:
+        """Write words or bits by address. Nothing is checked: this can set what no point allows."""
+        await self.run(self.put_steps(Place(space, tuple(range(address, address + len(values)))), values))

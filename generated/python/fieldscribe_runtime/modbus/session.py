@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: 0BSD
+"""How a Modbus device's words are read and written: requests and replies as bytes, no I/O."""
+
+from __future__ import annotations
+
+from collections.abc import Generator, Mapping, Sequence
+from typing import TYPE_CHECKING, ClassVar, TypeVar
+
+from ..errors import RequestError
+from ..points import Decoding, Point
+from ..session import Session
+from .frames import (
+    RTU,
+    TCP,
+    WRITE_COIL,
+    WRITE_COILS,
+    WRITE_REGISTER,
+    WRITE_REGISTERS,
+    WRITES,
+    Profile,
+    Request,
+    build,
+    parse,
+)
+from .planner import Block, plan, read_function
+
+if TYPE_CHECKING:
+    from ..facts import Place
+
+T = TypeVar("T")
+Steps = Generator[bytes, bytes, T]
+"""Each step yields the bytes of a request and is sent those of the reply."""
+
+_WRITES = {
+    "coil": (WRITE_COIL, WRITE_COILS),
+    "holding": (WRITE_REGISTER, WRITE_REGISTERS),
+}
+
+
+class ModbusSession(Session):
+    """The state of one Modbus device."""
+
+    PROFILE: ClassVar[Profile]
+
+    def __init__(self, framing: str, unit: int, variants: Mapping[str, str | None]) -> None:
+        if framing not in (RTU, TCP):
+            raise ValueError(f"the framing is 'rtu' or 'tcp', not {framing!r}")
+        super().__init__(unit, variants)
+        self._framing = framing
+        self._transaction = 0
+        self._readable: frozenset[tuple[str, int]] | None = None
+
+    def ask(self, function: int, address: int, count: int = 0, values: tuple[int, ...] = ()) -> Steps[tuple[int, ...]]:
+        """One request and its reply."""
+        self._transaction = self._transaction + 1 & 0xFFFF
+        request = Request(self.unit, function, address, count, values)
+        reply = yield build(request, self.PROFILE, self._framing, self._transaction)
+        if self.unit == self.PROFILE.broadcast:
+            return ()
+        return parse(request, reply, self.PROFILE, self._framing, self._transaction)
+
+    def get_steps(self, place: Place) -> Steps[tuple[int, ...]]:
+        """Read the words or bits of a place, in ascending order of address."""
+        words = yield from self.ask(read_function(place), place.address, place.span)
+        return tuple([words[address - place.address] for address in sorted(place.addresses)])
+
+    def store_steps(self, place: Place, values: tuple[int, ...]) -> Steps[None]:
+        """Write words or bits at a place."""
+        if place.space not in _WRITES:
+            raise RequestError("bad_space", f"the space {place.space!r} cannot be written, only coil and holding")
+        single, block = _WRITES[place.space]
+        function = single if len(values) == 1 and single in self.PROFILE.functions else block
+        if place.function in WRITES:
+            function = place.function
+        yield from self.ask(function, place.address, values=values)
+
+    def gather_steps(self, points: Sequence[Point], group: str | None) -> Steps[dict[str, int]]:
+        """Read the raw numbers of several points with few requests, in the blocks that the group was planned in."""
+        blocks: tuple[Block, ...] = self.BLOCKS.get(group, ()) if group is not None else ()
+        rest = [one.facts.at for one in points if not any(block.covers(one.facts.at) for block in blocks)]
+        raws: dict[str, int] = {}
+        for block in (*blocks, *plan(rest, self.PROFILE, self._bridges())):
+            words = yield from self.ask(block.function, block.address, block.count)
+            for point in points:
+                if block.covers(point.facts.at):
+                    own = [words[address - block.address] for address in sorted(point.facts.at.addresses)]
+                    raws[point.facts.item] = self.taken(point, own)
+        return raws
+
+    def _bridges(self) -> frozenset[tuple[str, int]]:
+        """The addresses of all points that are known to be readable."""
+        if self._readable is None:
+            readable = [one for one in self.POINTS.values() if isinstance(one, Decoding) and self._has(one)]
+            places = [point.facts.at for point in readable]
+            self._readable = frozenset((place.space, address) for place in places for address in place.addresses)
+        return self._readable

@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: 0BSD
+"""Forms of words that hold characters or decimal digits instead of a number."""
+
+from __future__ import annotations
+
+import enum
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, TypeVar
+
+from .errors import UnknownValueError, WrongLengthError
+from .forms import Form, Type, whole
+
+if TYPE_CHECKING:
+    from .forms import Allowed
+    from .rules import Raws
+
+E = TypeVar("E", bound=enum.IntEnum)
+
+_ASCII = frozenset(range(0x20, 0x7F))
+_WRITABLE = {"ascii": _ASCII, "latin-1": _ASCII | frozenset(range(0xA0, 0x100))}
+
+
+class Text(Form[str, str]):
+    """Characters, two in a word, padded with spaces; the raw number is all words, the first one highest."""
+
+    def __init__(self, characters: int, encoding: str = "ascii") -> None:
+        self.characters = characters
+        self.encoding = encoding
+        self.wire = Type(8 * characters)
+        self._writable = _WRITABLE[encoding]
+
+    def decode(self, raw: int, raws: Raws) -> str:
+        """The characters without the spaces behind them; each byte is one, whatever it is."""
+        data = (raw & (1 << self.wire.bits) - 1).to_bytes(self.characters, "big")
+        return data.rstrip(b" ").decode("latin-1")
+
+    def encode(self, value: str, allowed: Allowed, raws: Raws) -> int | None:
+        """The words of a text that fits and has only printable characters."""
+        if not isinstance(value, str) or len(value) > self.characters:
+            return None
+        try:
+            data = value.ljust(self.characters).encode("latin-1")
+        except UnicodeEncodeError:
+            return None
+        return int.from_bytes(data, "big") if self._writable.issuperset(data) else None
+
+    def checked(self, raw: int, allowed: Allowed, raws: Raws) -> int | None:
+        """The same words if they hold only printable characters."""
+        if not 0 <= raw < 1 << self.wire.bits:
+            return None
+        return raw if self._writable.issuperset(raw.to_bytes(self.characters, "big")) else None
+
+    def decode_count(self, raw: int, raws: Raws) -> int:
+        """There is none: raises TypeError."""
+        raise TypeError("a text has no integer path")
+
+    def encode_count(self, count: int, allowed: Allowed, raws: Raws) -> int | None:
+        """There is none: raises TypeError."""
+        raise TypeError("a text has no integer path")
+
+    def choices(self) -> str | None:
+        """What a text has to be."""
+        return f"no text of at most {self.characters} printable {self.encoding} characters"
+
+
+class Digits(Form[tuple[E | int, ...], Sequence[E | int]]):
+    """A word whose decimal digits, the highest first, are each one of an enum's numbers."""
+
+    names: type[E]
+    refused = UnknownValueError
+
+    def __init__(self, wire: Type, names: type[E], *, count: int) -> None:
+        self.wire = wire
+        self.names = names
+        self.count = count
+        self._numbers = {entry.value: entry for entry in names}
+
+    def _digits(self, raw: int) -> tuple[int, ...]:
+        """The digits as numbers; the first one is whatever the others leave."""
+        digits = []
+        for _ in range(self.count - 1):
+            raw, digit = divmod(raw, 10)
+            digits.append(digit)
+        return (raw, *reversed(digits))
+
+    def decode(self, raw: int, raws: Raws) -> tuple[E | int, ...]:
+        """A member for each digit, or its bare number where there is none."""
+        return tuple([self._numbers.get(digit, digit) for digit in self._digits(raw)])
+
+    def encode(self, value: Sequence[E | int], allowed: Allowed, raws: Raws) -> int | None:
+        """The word of that many members or numbers; a member of another enum raises UnknownValueError."""
+        if len(value) != self.count:
+            raise WrongLengthError(f"takes {self.count} digits, not {len(value)}")
+        raw = 0
+        for digit in value:
+            if isinstance(digit, enum.Enum) and not isinstance(digit, self.names):
+                raise UnknownValueError(f"{digit!r} is no {self.names.__name__}")
+            if whole(digit) not in self._numbers:
+                return None
+            raw = raw * 10 + whole(digit)
+        return raw if raw < 1 << self.wire.bits else None
+
+    def checked(self, raw: int, allowed: Allowed, raws: Raws) -> int | None:
+        """The same word if every digit is one of the enum's numbers."""
+        inside = 0 <= raw < 1 << self.wire.bits
+        return raw if inside and self._numbers.keys() >= set(self._digits(raw)) else None
+
+    def name_of(self, raw: int) -> str | None:
+        """The name of one digit's number in lower case."""
+        entry = self._numbers.get(raw)
+        return None if entry is None else entry.name.lower()
+
+    def choices(self) -> str | None:
+        """What each digit has to be."""
+        named = ", ".join(f"{entry.value} {entry.name.lower()}" for entry in self.names)
+        return f"not made of {self.count} digits out of {named}"

@@ -1,0 +1,224 @@
+# SPDX-License-Identifier: 0BSD
+"""USS telegrams as bytes, without any I/O. Any bytes of any length are safe to parse."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from ..errors import FrameError, RefusedError, RequestError
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from ..facts import Telegram
+
+START = 0x02
+VARIABLE = 127
+"""The setting of the parameter part that lets its length follow from the request."""
+NO_TASK, READ = 0, 1
+RAM = {(1, False): 2, (2, False): 3, (1, True): 7, (2, True): 8}
+"""The tasks that change a value in RAM, by its words and whether it is an element of an array."""
+EEPROM = {(1, False): 14, (2, False): 13, (1, True): 12, (2, True): 11}
+"""The tasks that change a value and keep it in EEPROM."""
+
+_NO_ANSWER, _REFUSED, _NO_RIGHTS = 0, 7, 8
+_DOUBLE = frozenset({2, 5})
+_LAST_PARAMETER, _LAST_INDEX = 31999, 255
+_PAGE = 2000
+_PAGE_BITS = (15, 12, 13, 14)
+
+
+@dataclass(frozen=True, slots=True)
+class Link:
+    """How the link is set: `pkw` words of the parameter part (127: variable), `pzd` words of process data.
+
+    `single_first`: the firmware that keeps single words in the first value word although the part has 4 words.
+    """
+
+    pkw: int
+    pzd: int
+    single_first: bool = False
+
+    @property
+    def sent(self) -> int:
+        """How many words of the parameter part are sent."""
+        return 4 if self.pkw == VARIABLE else self.pkw
+
+    @property
+    def single_last(self) -> bool:
+        """Whether a single value stands in the second value word."""
+        return self.pkw == 4 and not self.single_first
+
+
+@dataclass(frozen=True, slots=True)
+class Profile:
+    """What a device takes: unit numbers, the address byte for all of them, lengths, tasks with their answers.
+
+    `errors` names the numbers with which tasks are refused, `telegrams` the process data.
+    """
+
+    units: tuple[int, int]
+    pkw: tuple[int, ...]
+    pzd: tuple[int, int]
+    tasks: Mapping[int, tuple[int, ...]]
+    broadcast: int | None = None
+    errors: Mapping[int, str] = field(default_factory=dict)
+    telegrams: tuple[Telegram, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Request:
+    """What is asked: a task for a parameter (or an element of one) with a value of `width` words, and process data."""
+
+    unit: int
+    task: int = NO_TASK
+    parameter: int = 0
+    index: int = 0
+    width: int = 0
+    value: int = 0
+    words: tuple[int, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Reply:
+    """A good answer: its response id, a value of `width` words (0 without a task), and process data."""
+
+    response: int = 0
+    width: int = 0
+    value: int = 0
+    words: tuple[int, ...] = ()
+
+
+def _check_byte(data: bytes) -> int:
+    result = 0
+    for byte in data:
+        result ^= byte
+    return result
+
+
+def _telegram(address: int, words: Sequence[int]) -> bytes:
+    data = b"".join([word.to_bytes(2, "big") for word in words])
+    body = bytes((START, len(data) + 2, address)) + data
+    return body + bytes((_check_byte(body),))
+
+
+def _named(task: int, parameter: int, index: int) -> tuple[int, int]:
+    """The words that name a task and an element of a parameter."""
+    page, number = divmod(parameter, _PAGE)
+    pages = sum((page >> bit & 1) << place for bit, place in enumerate(_PAGE_BITS))
+    return task << 12 | number, pages | index
+
+
+def _check_process_data(profile: Profile, link: Link, words: Sequence[int]) -> None:
+    low, high = profile.pzd
+    if not low <= link.pzd <= high:
+        raise RequestError("bad_link", f"the device takes {low}..{high} words of process data, not {link.pzd}")
+    if len(words) != link.pzd:
+        raise RequestError("bad_link", f"the link carries {link.pzd} words of process data, not {len(words)}")
+
+
+def check_request(request: Request, profile: Profile, link: Link) -> None:
+    """Raises RequestError if such a request must not be sent.
+
+    The first failure decides: bad_link, bad_unit, bad_task, bad_parameter, bad_index, bad_value.
+    """
+    if link.pkw not in profile.pkw:
+        raise RequestError("bad_link", f"the parameter part has one of {profile.pkw} words, not {link.pkw}")
+    _check_process_data(profile, link, request.words)
+    low, high = profile.units
+    if not low <= request.unit <= high:
+        raise RequestError("bad_unit", f"unit {request.unit} is outside {low}..{high}")
+    if request.task not in profile.tasks:
+        raise RequestError("bad_task", f"the device has no task {request.task}")
+    if link.pkw == 0 and request.task != NO_TASK:
+        raise RequestError("bad_task", "the link carries no parameters")
+    if not 0 <= request.parameter <= _LAST_PARAMETER:
+        raise RequestError("bad_parameter", f"parameter {request.parameter} is outside 0..{_LAST_PARAMETER}")
+    if not 0 <= request.index <= _LAST_INDEX:
+        raise RequestError("bad_index", f"index {request.index} is outside 0..{_LAST_INDEX}")
+    if request.width == 2 and link.sent < 4:
+        raise RequestError("bad_value", "the link has no room for double words")
+    largest = (1 << 16 * request.width) - 1 if request.width in (0, 1, 2) else -1
+    if not 0 <= request.value <= largest or not all(0 <= word <= 0xFFFF for word in request.words):
+        raise RequestError("bad_value", f"a value does not fit: {request.value} into {request.width} words, or a word")
+
+
+def build(request: Request, profile: Profile, link: Link) -> bytes:
+    """The bytes of a request; raises RequestError if it must not be sent."""
+    check_request(request, profile, link)
+    high, low = divmod(request.value, 0x10000)
+    if request.width == 1:
+        high, low = (0, low) if link.single_last else (low, 0)
+    part = (*_named(request.task, request.parameter, request.index), high, low)[: link.sent]
+    return _telegram(request.unit, (*part, *request.words))
+
+
+def broadcast(mask: tuple[int, ...], words: tuple[int, ...], profile: Profile, link: Link) -> bytes:
+    """Process data for all units, which nobody answers; four words of `mask` say which words and bits count.
+
+    Raises RequestError (bad_link, bad_value).
+    """
+    _check_process_data(profile, link, words)
+    if profile.broadcast is None or len(mask) != 4:
+        raise RequestError("bad_link", "a broadcast takes 4 words of mask, and a device that knows it")
+    if not all(0 <= word <= 0xFFFF for word in (*mask, *words)):
+        raise RequestError("bad_value", "words must be in 0..65535")
+    return _telegram(profile.broadcast, (*mask, *words))
+
+
+def reply_size(received: bytes) -> int | None:
+    """How long the reply is whose first bytes are `received`; None while that cannot be told. For transports."""
+    return received[1] + 2 if len(received) >= 2 else None
+
+
+def parse(request: Request, reply: bytes, profile: Profile, link: Link) -> Reply:
+    """What a reply to `request` brings.
+
+    Raises FrameError, the first failure deciding: wrong_start, wrong_length, wrong_check, wrong_unit, no_answer,
+    wrong_parameter, refused (RefusedError, with the device's number), no_rights, wrong_response.
+    """
+    words = _opened(request, reply, link)
+    part, data = words[: len(words) - link.pzd], words[len(words) - link.pzd :]
+    if not part:
+        return Reply(words=data)
+    response = part[0] >> 12
+    if request.task == NO_TASK:
+        return Reply(response, words=data)
+    _check_answer(request, part, profile)
+    if response in _DOUBLE:
+        return Reply(response, 2, part[2] << 16 | part[3], data)
+    return Reply(response, 1, part[3 if link.single_last else 2], data)
+
+
+def _opened(request: Request, reply: bytes, link: Link) -> tuple[int, ...]:
+    """The words of a reply whose bytes are a good telegram of the right unit and length."""
+    if not reply or reply[0] != START:
+        raise FrameError("wrong_start", "the reply does not begin with 02h")
+    size = len(reply)
+    whole = size >= 4 and reply[1] + 2 == size and size % 2 == 0
+    part = (size - 4) // 2 - link.pzd
+    if not whole or (part < 3 if link.pkw == VARIABLE else part != link.pkw):
+        raise FrameError("wrong_length", f"{size} bytes are no whole reply over this link")
+    if _check_byte(reply) != 0:
+        raise FrameError("wrong_check", "the check of the reply is wrong")
+    if reply[2] != request.unit:
+        raise FrameError("wrong_unit", f"unit {reply[2]} answered instead of {request.unit}")
+    return tuple([int.from_bytes(reply[at : at + 2], "big") for at in range(3, size - 1, 2)])
+
+
+def _check_answer(request: Request, part: tuple[int, ...], profile: Profile) -> None:
+    """Raises FrameError if a parameter part is no good answer to the task."""
+    response = part[0] >> 12
+    if response == _NO_ANSWER:
+        raise FrameError("no_answer", "the device has not answered the task yet")
+    if (part[0] & 0x0FFF, part[1]) != _named(0, request.parameter, request.index):
+        raise FrameError("wrong_parameter", "the reply is for another parameter")
+    if response == _REFUSED:
+        raise RefusedError(part[2], profile.errors.get(part[2]))
+    if response == _NO_RIGHTS:
+        raise FrameError("no_rights", "the device does not let this master change parameters")
+    if response not in profile.tasks[request.task]:
+        raise FrameError("wrong_response", f"response {response} does not belong to task {request.task}")
+    if response in _DOUBLE and len(part) < 4:
+        raise FrameError("wrong_length", "the reply has no room for the double word that it announces")

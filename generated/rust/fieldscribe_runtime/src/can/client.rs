@@ -1,0 +1,435 @@
+// SPDX-License-Identifier: 0BSD
+//! Reading and writing points of a CAN device over a transport that the caller brings.
+
+use core::fmt;
+use core::future::Future;
+
+use super::{
+    BuildError, Dialogue, Frame, Message, Parameter, Profile, ReceiveError, Received, Receiver,
+    Telegram,
+};
+use crate::point::joined;
+use crate::{BitGroup, Decoded, Error, Raw, Readable, Whole, Writable};
+
+/// Sends frames and waits for frames.
+pub trait Transport {
+    /// What can go wrong on the bus.
+    type Error;
+
+    /// Sends a frame.
+    ///
+    /// # Errors
+    /// Whatever went wrong on the bus.
+    fn send(&mut self, frame: &Frame) -> Result<(), Self::Error>;
+
+    /// Waits for the next frame.
+    ///
+    /// # Errors
+    /// Whatever went wrong on the bus, also that nothing came in time.
+    fn receive(&mut self) -> Result<Frame, Self::Error>;
+}
+
+/// Sends frames and waits for frames without blocking.
+pub trait AsyncTransport {
+    /// What can go wrong on the bus.
+    type Error;
+
+    /// As [`Transport::send`].
+    fn send(&mut self, frame: &Frame) -> impl Future<Output = Result<(), Self::Error>>;
+
+    /// As [`Transport::receive`].
+    fn receive(&mut self) -> impl Future<Output = Result<Frame, Self::Error>>;
+}
+
+/// Several clients share one bus: each borrows it for as long as it lives.
+impl<T: Transport + ?Sized> Transport for &mut T {
+    type Error = T::Error;
+
+    fn send(&mut self, frame: &Frame) -> Result<(), Self::Error> {
+        (**self).send(frame)
+    }
+
+    fn receive(&mut self) -> Result<Frame, Self::Error> {
+        (**self).receive()
+    }
+}
+
+/// As for [`Transport`].
+impl<T: AsyncTransport + ?Sized> AsyncTransport for &mut T {
+    type Error = T::Error;
+
+    fn send(&mut self, frame: &Frame) -> impl Future<Output = Result<(), Self::Error>> {
+        (**self).send(frame)
+    }
+
+    fn receive(&mut self) -> impl Future<Output = Result<Frame, Self::Error>> {
+        (**self).receive()
+    }
+}
+
+/// Hears the frames that a client does not wait for: a [`Receiver`], a pair of listeners, or `()` for none.
+pub trait Listener {
+    /// Takes a frame that may be none of its own.
+    fn hear(&mut self, frame: &Frame);
+}
+
+impl Listener for () {
+    fn hear(&mut self, _: &Frame) {}
+}
+
+impl<T: Telegram> Listener for Receiver<T> {
+    fn hear(&mut self, frame: &Frame) {
+        self.take(frame);
+    }
+}
+
+impl<A: Listener, B: Listener> Listener for (A, B) {
+    fn hear(&mut self, frame: &Frame) {
+        self.0.hear(frame);
+        self.1.hear(frame);
+    }
+}
+
+impl<L: Listener + ?Sized> Listener for &mut L {
+    fn hear(&mut self, frame: &Frame) {
+        (**self).hear(frame);
+    }
+}
+
+/// Why a point could not be read or written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum ClientError<E> {
+    /// The number could not be encoded or decoded.
+    Point(Error),
+    /// The request could not be built.
+    Build(BuildError),
+    /// Many frames came, and not the one that was waited for.
+    NoAnswer,
+    /// The device answered a write with this other raw number.
+    EchoMismatch(u16),
+    /// Many frames came, and the telegram's words did not come together.
+    Telegram(ReceiveError),
+    /// The transport failed.
+    Transport(E),
+}
+
+impl<E> From<Error> for ClientError<E> {
+    fn from(error: Error) -> Self {
+        Self::Point(error)
+    }
+}
+
+impl<E> From<BuildError> for ClientError<E> {
+    fn from(error: BuildError) -> Self {
+        Self::Build(error)
+    }
+}
+
+impl<E: fmt::Display> fmt::Display for ClientError<E> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Point(error) => error.fmt(formatter),
+            Self::Build(error) => error.fmt(formatter),
+            Self::NoAnswer => formatter.write_str("the device does not answer"),
+            Self::EchoMismatch(raw) => write!(formatter, "the device answered {raw} to a write"),
+            Self::Telegram(error) => error.fmt(formatter),
+            Self::Transport(error) => error.fmt(formatter),
+        }
+    }
+}
+
+impl<E: core::error::Error + 'static> core::error::Error for ClientError<E> {
+    fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
+        match self {
+            Self::Point(error) => Some(error),
+            Self::Build(error) => Some(error),
+            Self::NoAnswer | Self::EchoMismatch(_) => None,
+            Self::Telegram(error) => Some(error),
+            Self::Transport(error) => Some(error),
+        }
+    }
+}
+
+/// How many other frames a client lets pass while it waits, where nothing else is said.
+const PATIENCE: u32 = 10_000;
+
+/// One unit of a bus.
+#[derive(Debug)]
+struct Unit {
+    profile: &'static Profile,
+    number: u8,
+    patience: u32,
+}
+
+impl Unit {
+    /// The messages of a dialogue and the frame that asks.
+    fn ask(
+        &self,
+        dialogue: Option<Dialogue>,
+        address: u16,
+        raw: u16,
+    ) -> Result<(Dialogue, Frame), BuildError> {
+        let dialogue = dialogue.ok_or(BuildError::NoMessage)?;
+        let message = dialogue.request;
+        let frame = message.build(self.profile, self.number, address, raw)?;
+        Ok((dialogue, frame))
+    }
+
+    /// The raw number of a frame that answers about the address, if it answers.
+    fn answer(&self, answer: &Message, address: u16, frame: &Frame) -> Option<u16> {
+        let content = answer.parse(self.number, frame).ok()?;
+        let fits = content.address == address || !answer.carries_address();
+        fits.then_some(content.raw)
+    }
+
+    /// What the device answered to a write, if that is another raw number.
+    fn other(&self, written: u16, answered: u16) -> Option<u16> {
+        let answer = self.profile.write?.answer?;
+        (answer.carries_raw() && answered != written).then_some(answered)
+    }
+}
+
+/// The same client twice: what differs is how it waits for the transport.
+macro_rules! client {
+    ($client:ident, $transport:ident, $about:literal, [$($async:ident)?], [$($wait:tt)*]) => {
+        #[doc = $about]
+        ///
+        /// Frames that are no answer to what was asked are offered to a [`Listener`].
+        #[derive(Debug)]
+        pub struct $client<T, L = ()> {
+            transport: T,
+            listener: L,
+            unit: Unit,
+        }
+
+        impl<T> $client<T> {
+            /// The unit of that number behind a transport; the profile is the device's own.
+            pub const fn new(transport: T, profile: &'static Profile, unit: u8) -> Self {
+                Self {
+                    transport,
+                    listener: (),
+                    unit: Unit { profile, number: unit, patience: PATIENCE },
+                }
+            }
+        }
+
+        impl<T, L> $client<T, L> {
+            /// The same client with another listener, as a [`Receiver`] of a telegram.
+            pub fn listening<M: Listener>(self, listener: M) -> $client<T, M> {
+                $client { transport: self.transport, listener, unit: self.unit }
+            }
+
+            /// The same client that lets so many frames pass while it waits for one; else it waits for ten thousand.
+            #[must_use]
+            pub fn patient(self, frames: u32) -> Self {
+                Self { unit: Unit { patience: frames, ..self.unit }, ..self }
+            }
+
+            /// The listener, with what it has heard.
+            pub const fn listener(&self) -> &L {
+                &self.listener
+            }
+
+            /// The transport back.
+            pub fn into_transport(self) -> T {
+                self.transport
+            }
+        }
+
+        impl<T: $transport, L: Listener> $client<T, L> {
+            /// The raw number that the device answers with.
+            $($async)? fn exchange(
+                &mut self,
+                dialogue: Option<Dialogue>,
+                address: u16,
+                raw: u16,
+            ) -> Result<u16, ClientError<T::Error>> {
+                let (dialogue, asked) = self.unit.ask(dialogue, address, raw)?;
+                self.transport.send(&asked)$($wait)*.map_err(ClientError::Transport)?;
+                let Some(answer) = dialogue.answer else {
+                    return Ok(raw);
+                };
+                for _ in 0..self.unit.patience {
+                    let frame = self.transport.receive()$($wait)*.map_err(ClientError::Transport)?;
+                    if let Some(raw) = self.unit.answer(answer, address, &frame) {
+                        return Ok(raw);
+                    }
+                    self.listener.hear(&frame);
+                }
+                Err(ClientError::NoAnswer)
+            }
+
+            /// The word at an address.
+            ///
+            /// # Errors
+            /// Whatever [`ClientError`] tells.
+            pub $($async)? fn read_word(&mut self, address: u16) -> Result<u16, ClientError<T::Error>> {
+                self.exchange(self.unit.profile.read, address, 0)$($wait)*
+            }
+
+            /// Writes a word to an address.
+            ///
+            /// # Errors
+            /// Whatever [`ClientError`] tells.
+            pub $($async)? fn write_word(
+                &mut self,
+                address: u16,
+                word: u16,
+            ) -> Result<(), ClientError<T::Error>> {
+                let answered = self.exchange(self.unit.profile.write, address, word)$($wait)*?;
+                match self.unit.other(word, answered) {
+                    Some(other) => Err(ClientError::EchoMismatch(other)),
+                    None => Ok(()),
+                }
+            }
+
+            /// A parameter's raw number: word by word if it has several.
+            ///
+            /// # Errors
+            /// Whatever [`ClientError`] tells.
+            pub $($async)? fn read_raw<P>(&mut self) -> Result<P::Raw, ClientError<T::Error>>
+            where
+                P: Readable + Parameter,
+            {
+                let mut words = P::Raw::MIN.into_words();
+                for (place, address) in words.as_mut().iter_mut().zip(P::ADDRESSES) {
+                    *place = self.read_word(*address)$($wait)*?;
+                }
+                Ok(joined::<P>(words))
+            }
+
+            /// A parameter's value.
+            ///
+            /// # Errors
+            /// Whatever [`ClientError`] tells.
+            pub $($async)? fn read<P>(&mut self) -> Result<P::Value, ClientError<T::Error>>
+            where
+                P: Readable<Factors = ()> + Parameter,
+            {
+                self.read_with::<P>(())$($wait)*
+            }
+
+            /// A parameter's value, by the raw numbers that its scale needs.
+            ///
+            /// # Errors
+            /// Whatever [`ClientError`] tells.
+            pub $($async)? fn read_with<P>(
+                &mut self,
+                with: P::Factors,
+            ) -> Result<P::Value, ClientError<T::Error>>
+            where
+                P: Readable + Parameter,
+            {
+                let raw = self.read_raw::<P>()$($wait)*?;
+                Ok(P::decode_with(raw, with).into_result()?)
+            }
+
+            /// Writes a value to a parameter.
+            ///
+            /// # Errors
+            /// Whatever [`ClientError`] tells.
+            pub $($async)? fn write<P>(&mut self, value: P::Value) -> Result<(), ClientError<T::Error>>
+            where
+                P: Writable<With = ()> + Whole + Parameter,
+            {
+                self.write_with::<P>(value, ())$($wait)*
+            }
+
+            /// Writes a value to a parameter, by the raw numbers that its scale and its limits need.
+            ///
+            /// Several words go out one by one: when one fails, those before it are written.
+            ///
+            /// # Errors
+            /// Whatever [`ClientError`] tells.
+            pub $($async)? fn write_with<P>(
+                &mut self,
+                value: P::Value,
+                with: P::With,
+            ) -> Result<(), ClientError<T::Error>>
+            where
+                P: Writable + Whole + Parameter,
+            {
+                let words = P::encode_with(value, with)?.into_words();
+                for (word, address) in words.as_ref().iter().zip(P::ADDRESSES) {
+                    self.write_word(*address, *word)$($wait)*?;
+                }
+                Ok(())
+            }
+
+            /// Writes a value to a group of bits: reads the word, replaces the bits, writes the word back.
+            ///
+            /// # Errors
+            /// Whatever [`ClientError`] tells.
+            pub $($async)? fn update<P>(&mut self, value: P::Value) -> Result<(), ClientError<T::Error>>
+            where
+                P: Readable + Writable<With = ()> + BitGroup + Parameter,
+            {
+                let raw = P::encode(value)?;
+                let word = self.read_word(P::ADDRESS)$($wait)*?;
+                self.write_word(P::ADDRESS, P::insert(word, raw))$($wait)*
+            }
+
+            /// Waits for a frame, and gives it to the listener.
+            ///
+            /// # Errors
+            /// Whatever [`ClientError`] tells.
+            pub $($async)? fn listen(&mut self) -> Result<(), ClientError<T::Error>> {
+                let frame = self.transport.receive()$($wait)*.map_err(ClientError::Transport)?;
+                self.listener.hear(&frame);
+                Ok(())
+            }
+
+            /// The value of a point of a telegram: listens until all its words came again and belong together.
+            ///
+            /// What was heard before is at the listener: `client.listener().raw::<P>()`.
+            ///
+            /// # Errors
+            /// Whatever [`ClientError`] tells.
+            pub $($async)? fn receive<P>(&mut self) -> Result<P::Value, ClientError<T::Error>>
+            where
+                P: Received<Factors = ()>,
+                L: AsRef<Receiver<P::Telegram>>,
+            {
+                self.receive_with::<P>(())$($wait)*
+            }
+
+            /// The same by the raw numbers that the point's scale needs.
+            ///
+            /// # Errors
+            /// Whatever [`ClientError`] tells.
+            pub $($async)? fn receive_with<P>(
+                &mut self,
+                with: P::Factors,
+            ) -> Result<P::Value, ClientError<T::Error>>
+            where
+                P: Received,
+                L: AsRef<Receiver<P::Telegram>>,
+            {
+                let taken = self.listener.as_ref().taken();
+                let mut found = Err(ReceiveError::Missing);
+                for _ in 0..self.unit.patience {
+                    self.listen()$($wait)*?;
+                    let receiver = self.listener.as_ref();
+                    if receiver.came_since::<P>(taken) {
+                        found = receiver.raw::<P>();
+                    }
+                    if found.is_ok() {
+                        break;
+                    }
+                }
+                let raw = found.map_err(ClientError::Telegram)?;
+                Ok(P::decode_with(raw, with).into_result()?)
+            }
+        }
+    };
+}
+
+client!(
+    Client,
+    Transport,
+    "One unit behind a transport that blocks.",
+    [],
+    []
+);
+client!(AsyncClient, AsyncTransport, "One unit behind a transport that does not block.", [async], [.await]);

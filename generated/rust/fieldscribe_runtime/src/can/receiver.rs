@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: 0BSD
+//! Telegrams that come frame by frame.
+
+use core::fmt;
+
+use super::{Frame, Message, ReceiveError, LENGTH};
+use crate::point::joined;
+use crate::{Raw, Readable};
+
+/// A cyclic layout of words that the frames of a message carry.
+pub trait Telegram {
+    /// The name in the description.
+    const NAME: &'static str;
+    /// How many words there are.
+    const WORDS: u16;
+    /// The message whose frames carry them.
+    const MESSAGE: &'static Message;
+    /// A slot for each frame that the words fill.
+    type Slots: Copy + AsRef<[Slot]> + AsMut<[Slot]> + fmt::Debug;
+    /// The slots before anything came.
+    const EMPTY: Self::Slots;
+}
+
+/// A point whose words are in a telegram that the device sends.
+pub trait Received: Readable {
+    /// The telegram.
+    type Telegram: Telegram;
+}
+
+/// The words of the frames with one multiplexer: the last ones and those before them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Slot {
+    now: Part,
+    before: Part,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Part {
+    words: [u16; LENGTH / 2],
+    /// When they came, in counted frames; 0 is never.
+    at: u64,
+}
+
+impl Slot {
+    /// A slot into which nothing came.
+    pub const EMPTY: Self = Self {
+        now: Part::EMPTY,
+        before: Part::EMPTY,
+    };
+}
+
+impl Part {
+    const EMPTY: Self = Self {
+        words: [0; LENGTH / 2],
+        at: 0,
+    };
+
+    fn word(&self, place: usize) -> u16 {
+        self.words.get(place).copied().unwrap_or_default()
+    }
+}
+
+/// Takes the frames of a telegram from one unit, and gives its words once they came.
+#[derive(Clone, Copy, Debug)]
+pub struct Receiver<T: Telegram> {
+    unit: u8,
+    clock: u64,
+    slots: T::Slots,
+}
+
+impl<T: Telegram> Receiver<T> {
+    /// A receiver for the telegram of that unit.
+    #[must_use]
+    pub const fn new(unit: u8) -> Self {
+        Self {
+            unit,
+            clock: 0,
+            slots: T::EMPTY,
+        }
+    }
+
+    /// Whether the frame belongs to the telegram; if so its words are kept.
+    pub fn take(&mut self, frame: &Frame) -> bool {
+        let Some((multiplexer, words)) = T::MESSAGE.part(self.unit, frame) else {
+            return false;
+        };
+        let Some(slot) = self.slots.as_mut().get_mut(usize::from(multiplexer)) else {
+            return false;
+        };
+        self.clock = self.clock.saturating_add(1);
+        let at = self.clock;
+        slot.before = slot.now;
+        slot.now = Part { words, at };
+        true
+    }
+
+    /// How many frames were taken.
+    #[must_use]
+    pub const fn taken(&self) -> u64 {
+        self.clock
+    }
+
+    /// Whether all words of a point came again since so many frames were taken.
+    #[must_use]
+    pub fn came_since<P: Received<Telegram = T>>(&self, taken: u64) -> bool {
+        let came =
+            |position: &u16| matches!(self.place(*position), Ok((slot, _)) if slot.now.at > taken);
+        P::ADDRESSES.iter().all(came)
+    }
+
+    /// The word at a position of the telegram, from 0.
+    ///
+    /// # Errors
+    /// [`ReceiveError::Missing`].
+    pub fn word(&self, position: u16) -> Result<u16, ReceiveError> {
+        let (slot, place) = self.place(position)?;
+        Ok(slot.now.word(place))
+    }
+
+    /// A point's raw number.
+    ///
+    /// # Errors
+    /// [`ReceiveError::Missing`]; [`ReceiveError::Torn`] if the number is in two frames and its high word did not stay
+    /// the same from before to after the low one.
+    pub fn raw<P: Received<Telegram = T>>(&self) -> Result<P::Raw, ReceiveError> {
+        let mut words = P::Raw::MIN.into_words();
+        match (P::ADDRESSES, words.as_mut()) {
+            ([high, low], [first, second]) => {
+                let [a, b] = self.pair(*high, *low)?;
+                *first = a;
+                *second = b;
+            }
+            (positions, places) => {
+                for (place, position) in places.iter_mut().zip(positions) {
+                    *place = self.word(*position)?;
+                }
+            }
+        }
+        Ok(joined::<P>(words))
+    }
+
+    /// Two words that belong together.
+    fn pair(&self, high: u16, low: u16) -> Result<[u16; 2], ReceiveError> {
+        let (above, high) = self.place(high)?;
+        let (below, low) = self.place(low)?;
+        let word = above.now.word(high);
+        if above.now.at == below.now.at {
+            return Ok([word, below.now.word(low)]);
+        }
+        // The low word is believed if it came between two frames with the same high word.
+        let (from, to) = (above.before.at, above.now.at);
+        let between = |part: &Part| from != 0 && from < part.at && part.at < to;
+        if word != above.before.word(high) {
+            Err(ReceiveError::Torn)
+        } else if between(&below.now) {
+            Ok([word, below.now.word(low)])
+        } else if between(&below.before) {
+            Ok([word, below.before.word(low)])
+        } else {
+            Err(ReceiveError::Torn)
+        }
+    }
+
+    /// The slot of a position, into which something came, and the place of the word in it.
+    fn place(&self, position: u16) -> Result<(&Slot, usize), ReceiveError> {
+        let (position, words) = (usize::from(position), T::MESSAGE.words());
+        let slot = position.checked_div(words);
+        let place = position.checked_rem(words);
+        let slot = slot.and_then(|slot| self.slots.as_ref().get(slot));
+        match (slot, place) {
+            (Some(slot), Some(place)) if slot.now.at != 0 => Ok((slot, place)),
+            _ => Err(ReceiveError::Missing),
+        }
+    }
+}
+
+impl<T: Telegram> AsRef<Receiver<T>> for Receiver<T> {
+    fn as_ref(&self) -> &Receiver<T> {
+        self
+    }
+}

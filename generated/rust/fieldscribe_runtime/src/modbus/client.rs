@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: 0BSD
+//! Reading and writing points of a Modbus device over a transport that the caller brings.
+
+use core::fmt;
+
+use super::{BuildError, Framing, Profile, Reply, ReplyError, Request, LONGEST};
+use crate::client::{AsyncTransport, Transport};
+use crate::{BitGroup, Decoded, Error, Readable, Whole, Writable};
+
+/// Why a point could not be read or written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ClientError<E> {
+    /// The number could not be encoded or decoded.
+    Point(Error),
+    /// The request could not be built.
+    Build(BuildError),
+    /// The reply was none, or the device refused.
+    Reply(ReplyError),
+    /// The transport failed.
+    Transport(E),
+}
+
+impl<E> From<Error> for ClientError<E> {
+    fn from(error: Error) -> Self {
+        Self::Point(error)
+    }
+}
+
+impl<E> From<BuildError> for ClientError<E> {
+    fn from(error: BuildError) -> Self {
+        Self::Build(error)
+    }
+}
+
+impl<E> From<ReplyError> for ClientError<E> {
+    fn from(error: ReplyError) -> Self {
+        Self::Reply(error)
+    }
+}
+
+impl<E: fmt::Display> fmt::Display for ClientError<E> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Point(error) => error.fmt(formatter),
+            Self::Build(error) => error.fmt(formatter),
+            Self::Reply(error) => error.fmt(formatter),
+            Self::Transport(error) => error.fmt(formatter),
+        }
+    }
+}
+
+impl<E: core::error::Error + 'static> core::error::Error for ClientError<E> {
+    fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
+        match self {
+            Self::Point(error) => Some(error),
+            Self::Build(error) => Some(error),
+            Self::Reply(error) => Some(error),
+            Self::Transport(error) => Some(error),
+        }
+    }
+}
+
+/// One unit of a bus: numbers the requests and keeps the frames.
+#[derive(Debug)]
+struct Unit {
+    profile: &'static Profile,
+    framing: Framing,
+    number: u8,
+    transaction: u16,
+    sent: [u8; LONGEST],
+    received: [u8; LONGEST],
+}
+
+impl Unit {
+    const fn new(profile: &'static Profile, framing: Framing, number: u8) -> Self {
+        Self {
+            profile,
+            framing,
+            number,
+            transaction: 0,
+            sent: [0; LONGEST],
+            received: [0; LONGEST],
+        }
+    }
+
+    /// The request in this unit's framing, as its next transaction.
+    fn next<'a>(&mut self, request: Request<'a>) -> Request<'a> {
+        match self.framing {
+            Framing::Rtu => request,
+            Framing::Tcp => {
+                self.transaction = self.transaction.wrapping_add(1);
+                request.tcp(self.transaction)
+            }
+        }
+    }
+
+    /// The frame to send and the space for its reply: none if the request goes to all units.
+    fn frames(&mut self, request: &Request<'_>) -> Result<(&[u8], &mut [u8]), BuildError> {
+        let length = request.build(self.profile, &mut self.sent)?;
+        let sent = self.sent.get(..length).ok_or(BuildError::BufferTooSmall)?;
+        if self.profile.is_broadcast(request.unit()) {
+            Ok((sent, &mut []))
+        } else {
+            Ok((sent, &mut self.received))
+        }
+    }
+
+    fn reply(&self, request: &Request<'_>, length: usize) -> Result<Option<Reply<'_>>, ReplyError> {
+        if self.profile.is_broadcast(request.unit()) {
+            return Ok(None);
+        }
+        let received = self.received.get(..length).ok_or(ReplyError::LongFrame)?;
+        request.parse(received).map(Some)
+    }
+}
+
+/// The same client twice: what differs is how it waits for the transport.
+macro_rules! client {
+    ($client:ident, $transport:ident, $about:literal, [$($async:ident)?], [$($wait:tt)*]) => {
+        #[doc = $about]
+        #[derive(Debug)]
+        pub struct $client<T> {
+            transport: T,
+            unit: Unit,
+        }
+
+        impl<T> $client<T> {
+            /// The unit of that number behind a transport; the profile is the device's own.
+            pub const fn new(transport: T, profile: &'static Profile, framing: Framing, unit: u8) -> Self {
+                Self { transport, unit: Unit::new(profile, framing, unit) }
+            }
+
+            /// The transport back.
+            pub fn into_transport(self) -> T {
+                self.transport
+            }
+        }
+
+        impl<T: $transport> $client<T> {
+            /// The reply to a request, or none if the request goes to all units.
+            ///
+            /// # Errors
+            /// Whatever [`ClientError`] tells.
+            pub $($async)? fn exchange(
+                &mut self,
+                request: Request<'_>,
+            ) -> Result<Option<Reply<'_>>, ClientError<T::Error>> {
+                let request = self.unit.next(request);
+                let (sent, space) = self.unit.frames(&request)?;
+                let answer = self.transport.exchange(sent, space)$($wait)*;
+                let length = answer.map_err(ClientError::Transport)?;
+                Ok(self.unit.reply(&request, length)?)
+            }
+
+            /// A point's raw number.
+            ///
+            /// # Errors
+            /// Whatever [`ClientError`] tells.
+            pub $($async)? fn read_raw<P: Readable>(&mut self) -> Result<P::Raw, ClientError<T::Error>> {
+                let request = Request::read::<P>(self.unit.number);
+                let reply = self.exchange(request)$($wait)*?;
+                let reply = reply.ok_or(ClientError::Reply(ReplyError::ShortFrame))?;
+                Ok(reply.raw::<P>()?)
+            }
+
+            /// A point's value.
+            ///
+            /// # Errors
+            /// Whatever [`ClientError`] tells.
+            pub $($async)? fn read<P>(&mut self) -> Result<P::Value, ClientError<T::Error>>
+            where
+                P: Readable<Factors = ()>,
+            {
+                self.read_with::<P>(())$($wait)*
+            }
+
+            /// A point's value, by the raw numbers that its scale needs.
+            ///
+            /// # Errors
+            /// Whatever [`ClientError`] tells.
+            pub $($async)? fn read_with<P: Readable>(
+                &mut self,
+                with: P::Factors,
+            ) -> Result<P::Value, ClientError<T::Error>> {
+                let raw = self.read_raw::<P>()$($wait)*?;
+                Ok(P::decode_with(raw, with).into_result()?)
+            }
+
+            /// Writes a value to a point.
+            ///
+            /// # Errors
+            /// Whatever [`ClientError`] tells.
+            pub $($async)? fn write<P>(&mut self, value: P::Value) -> Result<(), ClientError<T::Error>>
+            where
+                P: Writable<With = ()> + Whole,
+            {
+                self.write_with::<P>(value, ())$($wait)*
+            }
+
+            /// Writes a value to a point, by the raw numbers that its scale and its limits need.
+            ///
+            /// # Errors
+            /// Whatever [`ClientError`] tells.
+            pub $($async)? fn write_with<P: Writable + Whole>(
+                &mut self,
+                value: P::Value,
+                with: P::With,
+            ) -> Result<(), ClientError<T::Error>> {
+                let words = P::to_words(P::encode_with(value, with)?);
+                let request = Request::write_words::<P>(self.unit.number, words.as_ref());
+                self.exchange(request)$($wait)*?;
+                Ok(())
+            }
+
+            /// Writes a value to a group of bits: reads the word, replaces the bits, writes the word back.
+            ///
+            /// # Errors
+            /// Whatever [`ClientError`] tells.
+            pub $($async)? fn update<P>(&mut self, value: P::Value) -> Result<(), ClientError<T::Error>>
+            where
+                P: Readable + Writable<With = ()> + BitGroup,
+            {
+                let raw = P::encode(value)?;
+                let read = Request::read::<P>(self.unit.number);
+                let reply = self.exchange(read)$($wait)*?;
+                let word = reply.and_then(|reply| reply.item(0));
+                let word = word.ok_or(ClientError::Reply(ReplyError::ShortFrame))?;
+                let write = Request::update::<P>(self.unit.number, word, raw);
+                self.exchange(write)$($wait)*?;
+                Ok(())
+            }
+        }
+    };
+}
+
+client!(
+    Client,
+    Transport,
+    "One unit behind a transport that blocks.",
+    [],
+    []
+);
+client!(AsyncClient, AsyncTransport, "One unit behind a transport that does not block.", [async], [.await]);

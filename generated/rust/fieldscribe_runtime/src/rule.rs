@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: 0BSD
+//! Scales whose factors are read at run time.
+
+use crate::arithmetic::to_f64;
+use crate::pattern::{Magnitude, Quotient};
+use crate::Error;
+
+/// A scale with factors that are read at run time: `raw = value * num / den + offset`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Rule {
+    num: i64,
+    den: i64,
+    offset_num: i64,
+    offset_den: i64,
+    /// Whether all factors are integers.
+    whole: bool,
+    times: Magnitude,
+    over: Magnitude,
+}
+
+impl Rule {
+    /// `raw = value * num / den`; the denominator is positive.
+    #[must_use]
+    #[inline]
+    pub const fn new(num: i64, den: i64) -> Self {
+        Self {
+            num,
+            den,
+            offset_num: 0,
+            offset_den: 1,
+            whole: true,
+            times: Magnitude::ONE,
+            over: Magnitude::ONE,
+        }
+    }
+
+    /// The rule plus `num / den`; the denominator is positive.
+    #[must_use]
+    #[inline]
+    pub const fn plus(self, num: i64, den: i64) -> Self {
+        Self {
+            offset_num: num,
+            offset_den: den,
+            ..self
+        }
+    }
+
+    /// The rule with one more factor.
+    ///
+    /// # Errors
+    /// [`Error::ZeroFactor`] if it is zero; [`Error::Overflow`].
+    #[inline]
+    pub fn times(self, factor: i64) -> Result<Self, Error> {
+        if factor == 0 {
+            return Err(Error::ZeroFactor);
+        }
+        self.limited_by(factor)
+    }
+
+    /// The rule of a limit with one more factor, which may be zero.
+    ///
+    /// # Errors
+    /// [`Error::Overflow`].
+    #[inline]
+    pub fn limited_by(self, factor: i64) -> Result<Self, Error> {
+        let num = self.num.checked_mul(factor).ok_or(Error::Overflow)?;
+        Ok(Self { num, ..self })
+    }
+
+    /// The rule with one more divisor.
+    ///
+    /// # Errors
+    /// [`Error::ZeroFactor`] if it is zero; [`Error::Overflow`].
+    #[inline]
+    pub fn over(self, divisor: i64) -> Result<Self, Error> {
+        if divisor == 0 {
+            return Err(Error::ZeroFactor);
+        }
+        let den = self.den.checked_mul(divisor).ok_or(Error::Overflow)?;
+        Ok(Self { den, ..self })
+    }
+
+    /// The rule with one more factor, the binary32 number of that pattern.
+    ///
+    /// # Errors
+    /// [`Error::ZeroFactor`] if it is zero, infinite or not a number; [`Error::Overflow`].
+    #[inline]
+    pub fn times_f32(self, bits: u32) -> Result<Self, Error> {
+        let (negative, magnitude) = Magnitude::of_f32(bits).ok_or(Error::ZeroFactor)?;
+        let times = self.times.times(magnitude).ok_or(Error::Overflow)?;
+        Ok(Self {
+            num: signed(negative, self.num)?,
+            whole: false,
+            times,
+            ..self
+        })
+    }
+
+    /// The rule of a limit with one more factor, the binary32 number of that pattern; what is no number counts as zero.
+    ///
+    /// # Errors
+    /// [`Error::Overflow`].
+    #[inline]
+    pub fn limited_by_f32(self, bits: u32) -> Result<Self, Error> {
+        match self.times_f32(bits) {
+            Err(Error::ZeroFactor) => Ok(Self { num: 0, ..self }),
+            other => other,
+        }
+    }
+
+    /// The rule with one more divisor, the binary32 number of that pattern.
+    ///
+    /// # Errors
+    /// [`Error::ZeroFactor`] if it is zero, infinite or not a number; [`Error::Overflow`].
+    #[inline]
+    pub fn over_f32(self, bits: u32) -> Result<Self, Error> {
+        let (negative, magnitude) = Magnitude::of_f32(bits).ok_or(Error::ZeroFactor)?;
+        let over = self.over.times(magnitude).ok_or(Error::Overflow)?;
+        Ok(Self {
+            den: signed(negative, self.den)?,
+            whole: false,
+            over,
+            ..self
+        })
+    }
+
+    /// The rule times ten to the power of `exponent`.
+    ///
+    /// # Errors
+    /// [`Error::Overflow`].
+    #[inline]
+    pub fn times_ten_to(self, exponent: i64) -> Result<Self, Error> {
+        let digits = u32::try_from(exponent.unsigned_abs()).map_err(|_| Error::Overflow)?;
+        let power = 10_i64.checked_pow(digits).ok_or(Error::Overflow)?;
+        if exponent < 0 {
+            self.over(power)
+        } else {
+            self.times(power)
+        }
+    }
+
+    /// The rule divided by ten to the power of `exponent`.
+    ///
+    /// # Errors
+    /// [`Error::Overflow`].
+    #[inline]
+    pub fn over_ten_to(self, exponent: i64) -> Result<Self, Error> {
+        self.times_ten_to(exponent.checked_neg().ok_or(Error::Overflow)?)
+    }
+
+    /// The raw number before rounding; each step is rounded to binary64.
+    #[must_use]
+    #[inline]
+    pub fn encode(self, value: f64) -> f64 {
+        let product = value * (to_f64(self.num) * self.times.to_f64());
+        let quotient = product / (to_f64(self.den) * self.over.to_f64());
+        quotient + to_f64(self.offset_num) / to_f64(self.offset_den)
+    }
+
+    /// The value: the binary64 number nearest to the exact one.
+    ///
+    /// # Errors
+    /// [`Error::Overflow`]; [`Error::ZeroFactor`].
+    #[inline]
+    pub fn decode(self, raw: i64) -> Result<f64, Error> {
+        let (num, den) = self.turned(raw, 1)?;
+        Ok(to_f64(num) * self.over.to_f64() / (to_f64(den) * self.times.to_f64()))
+    }
+
+    /// The raw number of a count of `1 / PER_UNIT` units.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] if the raw number is beyond every type.
+    #[inline]
+    pub fn encode_count<const PER_UNIT: i64>(self, count: i64) -> Result<i64, Error> {
+        if !self.whole {
+            return self.raw_of(count, PER_UNIT).ok_or(Error::OutOfRange);
+        }
+        let den = product([self.den, PER_UNIT, self.offset_den]);
+        let scaled = product([count, self.num, self.offset_den]);
+        let offset = product([self.offset_num, self.den, PER_UNIT]);
+        let sum = scaled
+            .zip(offset)
+            .and_then(|(scaled, offset)| scaled.checked_add(offset));
+        sum.zip(den)
+            .and_then(|(sum, den)| divide(sum, den))
+            .ok_or(Error::OutOfRange)
+    }
+
+    /// The value in counts of `1 / PER_UNIT` units.
+    ///
+    /// # Errors
+    /// [`Error::Overflow`]; [`Error::ZeroFactor`].
+    #[inline]
+    pub fn decode_count<const PER_UNIT: i64>(self, raw: i64) -> Result<i64, Error> {
+        if !self.whole {
+            return self.count_of(raw, PER_UNIT);
+        }
+        let (num, den) = self.turned(raw, PER_UNIT)?;
+        divide(num, den).ok_or(Error::Overflow)
+    }
+
+    /// The rule applied to 1, rounded: a limit.
+    ///
+    /// # Errors
+    /// [`Error::Overflow`].
+    #[inline]
+    pub fn limit(self) -> Result<i64, Error> {
+        if !self.whole {
+            return self.raw_of(1, 1).ok_or(Error::Overflow);
+        }
+        let den = product([self.den, self.offset_den, 1]);
+        let scaled = product([self.num, self.offset_den, 1]);
+        let offset = product([self.offset_num, self.den, 1]);
+        let sum = scaled
+            .zip(offset)
+            .and_then(|(scaled, offset)| scaled.checked_add(offset));
+        sum.zip(den)
+            .and_then(|(sum, den)| divide(sum, den))
+            .ok_or(Error::Overflow)
+    }
+
+    /// The raw number of a count, with factors of any size.
+    fn raw_of(self, count: i64, per_unit: i64) -> Option<i64> {
+        let dividend = [count, self.num, self.offset_den];
+        let divisor = [self.den, per_unit, 1];
+        let scaled = Quotient {
+            negative: is_negative(dividend) != is_negative(divisor),
+            dividend: magnitude(dividend, self.times)?,
+            divisor: magnitude(divisor, self.over)?,
+            exponent: self.times.exponent.checked_sub(self.over.exponent)?,
+        };
+        scaled.plus_over(self.offset_num, self.offset_den)
+    }
+
+    /// The count of a raw number, with factors of any size.
+    fn count_of(self, raw: i64, per_unit: i64) -> Result<i64, Error> {
+        if self.num == 0 {
+            return Err(Error::ZeroFactor);
+        }
+        let shifted =
+            product([raw, self.offset_den, 1]).and_then(|raw| raw.checked_sub(self.offset_num));
+        let dividend = [shifted.ok_or(Error::Overflow)?, self.den, per_unit];
+        let divisor = [self.num, self.offset_den, 1];
+        let quotient = || {
+            let value = Quotient {
+                negative: is_negative(dividend) != is_negative(divisor),
+                dividend: magnitude(dividend, self.over)?,
+                divisor: magnitude(divisor, self.times)?,
+                exponent: self.over.exponent.checked_sub(self.times.exponent)?,
+            };
+            value.plus_over(0, 1)
+        };
+        quotient().ok_or(Error::Overflow)
+    }
+
+    /// `(raw - offset) * den * times / num` as a fraction with a positive denominator.
+    #[inline]
+    fn turned(self, raw: i64, times: i64) -> Result<(i64, i64), Error> {
+        if self.num == 0 {
+            return Err(Error::ZeroFactor);
+        }
+        let shifted =
+            product([raw, self.offset_den, 1]).and_then(|raw| raw.checked_sub(self.offset_num));
+        let num =
+            product([shifted.ok_or(Error::Overflow)?, self.den, times]).ok_or(Error::Overflow)?;
+        let den = product([self.num, self.offset_den, 1]).ok_or(Error::Overflow)?;
+        if den < 0 {
+            let num = num.checked_neg().ok_or(Error::Overflow)?;
+            Ok((num, den.checked_neg().ok_or(Error::Overflow)?))
+        } else {
+            Ok((num, den))
+        }
+    }
+}
+
+#[inline]
+fn product([a, b, c]: [i64; 3]) -> Option<i64> {
+    a.checked_mul(b)?.checked_mul(c)
+}
+
+/// The quotient, rounded to nearest, halves away from zero; none for a zero divisor or a result beyond the type.
+#[inline]
+fn divide(dividend: i64, divisor: i64) -> Option<i64> {
+    let half = divisor.unsigned_abs() / 2;
+    let sum = dividend.unsigned_abs().checked_add(half)?;
+    let quotient = sum.checked_div(divisor.unsigned_abs())?;
+    if (dividend < 0) == (divisor < 0) {
+        i64::try_from(quotient).ok()
+    } else {
+        0_i64.checked_sub_unsigned(quotient)
+    }
+}
+
+/// `number`, or its negative.
+#[inline]
+fn signed(negative: bool, number: i64) -> Result<i64, Error> {
+    if negative {
+        number.checked_neg().ok_or(Error::Overflow)
+    } else {
+        Ok(number)
+    }
+}
+
+fn is_negative(factors: [i64; 3]) -> bool {
+    factors
+        .iter()
+        .fold(false, |negative, factor| negative != (*factor < 0))
+}
+
+/// The magnitude of a product with a mantissa.
+fn magnitude(factors: [i64; 3], more: Magnitude) -> Option<u128> {
+    let start = u128::from(more.mantissa);
+    factors.iter().try_fold(start, |product, factor| {
+        product.checked_mul(u128::from(factor.unsigned_abs()))
+    })
+}

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: 0BSD
+//! Texts in words: two characters a word, the first in the high byte, filled up with blanks.
+
+use core::fmt;
+
+use crate::Error;
+
+/// A text of at most `N` characters of one byte each, without the blanks at its end.
+///
+/// ```
+/// use fieldscribe_runtime::{Error, Text};
+///
+/// let text: Text<16> = "Generator 1".try_into()?;
+/// assert_eq!(text.as_str(), Some("Generator 1"));
+/// assert_eq!(Text::<4>::new("too long"), Err(Error::OutOfRange));
+/// # Ok::<(), Error>(())
+/// ```
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Text<const N: usize> {
+    bytes: [u8; N],
+    length: usize,
+}
+
+impl<const N: usize> Text<N> {
+    /// No character.
+    pub const EMPTY: Self = Self {
+        bytes: [BLANK; N],
+        length: 0,
+    };
+
+    /// The text of that string, whose characters up to `U+00FF` are bytes of Latin-1.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] if it is longer than `N` characters or has one that is no such byte.
+    pub fn new(text: &str) -> Result<Self, Error> {
+        let mut found = Self::EMPTY;
+        let mut places = found.bytes.iter_mut();
+        for character in text.chars() {
+            let place = places.next().ok_or(Error::OutOfRange)?;
+            *place = u8::try_from(character).map_err(|_| Error::OutOfRange)?;
+        }
+        Ok(found.measured())
+    }
+
+    /// The text of these bytes, which are characters whatever they are.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] if there are more than `N`.
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, Error> {
+        let mut found = Self::EMPTY;
+        let places = found.bytes.get_mut(..bytes.len());
+        places.ok_or(Error::OutOfRange)?.copy_from_slice(bytes);
+        Ok(found.measured())
+    }
+
+    /// The text in words; what is more than `N` characters is not looked at.
+    #[must_use]
+    pub fn from_words(words: &[u16]) -> Self {
+        let mut found = Self::EMPTY;
+        let received = words.iter().flat_map(|word| word.to_be_bytes());
+        for (place, byte) in found.bytes.iter_mut().zip(received) {
+            *place = byte;
+        }
+        found.measured()
+    }
+
+    /// The words of the text, filled up with blanks.
+    #[must_use]
+    pub fn into_words<const W: usize>(self) -> [u16; W] {
+        let mut words = [u16::from_be_bytes([BLANK, BLANK]); W];
+        for (word, pair) in words.iter_mut().zip(self.bytes.chunks(2)) {
+            *word = match *pair {
+                [high, low] => u16::from_be_bytes([high, low]),
+                [high] => u16::from_be_bytes([high, BLANK]),
+                _ => *word,
+            };
+        }
+        words
+    }
+
+    /// The characters as bytes.
+    #[must_use]
+    pub fn as_bytes(&self) -> &[u8] {
+        self.bytes.get(..self.length).unwrap_or(&self.bytes)
+    }
+
+    /// The text as a string, if it is all ASCII; [`fmt::Display`] shows the others as Latin-1 has them.
+    #[must_use]
+    pub fn as_str(&self) -> Option<&str> {
+        let bytes = self.as_bytes();
+        if bytes.is_ascii() {
+            core::str::from_utf8(bytes).ok()
+        } else {
+            None
+        }
+    }
+
+    /// The characters, those above `7Fh` as Latin-1 has them.
+    pub fn chars(&self) -> impl Iterator<Item = char> + '_ {
+        self.as_bytes().iter().copied().map(char::from)
+    }
+
+    fn measured(self) -> Self {
+        let last = self.bytes.iter().rposition(|byte| *byte != BLANK);
+        Self {
+            length: last.map_or(0, |place| place.saturating_add(1)),
+            ..self
+        }
+    }
+}
+
+const BLANK: u8 = b' ';
+
+impl<const N: usize> Default for Text<N> {
+    fn default() -> Self {
+        Self::EMPTY
+    }
+}
+
+impl<const N: usize> TryFrom<&str> for Text<N> {
+    type Error = Error;
+
+    fn try_from(text: &str) -> Result<Self, Error> {
+        Self::new(text)
+    }
+}
+
+impl<const N: usize> TryFrom<&[u8]> for Text<N> {
+    type Error = Error;
+
+    fn try_from(bytes: &[u8]) -> Result<Self, Error> {
+        Self::from_bytes(bytes)
+    }
+}
+
+impl<const N: usize> AsRef<[u8]> for Text<N> {
+    fn as_ref(&self) -> &[u8] {
+        self.as_bytes()
+    }
+}
+
+impl<const N: usize> fmt::Display for Text<N> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.chars()
+            .try_for_each(|character| fmt::Write::write_char(formatter, character))
+    }
+}
+
+impl<const N: usize> fmt::Debug for Text<N> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(formatter, "\"")?;
+        for character in self.chars() {
+            write!(formatter, "{}", character.escape_debug())?;
+        }
+        write!(formatter, "\"")
+    }
+}
+
+/// Whether all bytes of the words are printable ASCII.
+#[must_use]
+pub fn is_ascii(words: &[u16]) -> bool {
+    all_bytes(words, |byte| matches!(byte, 0x20..=0x7E))
+}
+
+/// Whether all bytes of the words are printable characters of Latin-1.
+#[must_use]
+pub fn is_latin_1(words: &[u16]) -> bool {
+    all_bytes(words, |byte| matches!(byte, 0x20..=0x7E | 0xA0..))
+}
+
+fn all_bytes(words: &[u16], holds: impl Fn(u8) -> bool) -> bool {
+    words.iter().flat_map(|word| word.to_be_bytes()).all(holds)
+}

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: 0BSD
+//! What the telegrams need to know of a device, as constants of the generated code, and how a link is set.
+
+use super::{Sent, VARIABLE};
+
+/// How a link is set: its words of the parameter part (0, 3, 4 or 127 for variable) and of process data.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Link {
+    pub(super) pkw: u8,
+    pub(super) pzd: u8,
+    single_first: bool,
+}
+
+impl Link {
+    /// A link with so many words of the parameter part and of process data.
+    #[must_use]
+    pub const fn new(pkw: u8, pzd: u8) -> Self {
+        Self {
+            pkw,
+            pzd,
+            single_first: false,
+        }
+    }
+
+    /// The same link to firmware that keeps single words in the first value word of a parameter part of four words.
+    #[must_use]
+    pub const fn single_first(self) -> Self {
+        Self {
+            single_first: true,
+            ..self
+        }
+    }
+
+    /// How many words of the parameter part a master sends.
+    pub(super) const fn sent(self) -> usize {
+        match self.pkw {
+            0 => 0,
+            3 => 3,
+            _ => 4,
+        }
+    }
+
+    /// Whether a single word stands in the second value word.
+    pub(super) const fn single_last(self) -> bool {
+        self.pkw == 4 && !self.single_first
+    }
+
+    /// Whether an answer may have a parameter part of so many words.
+    pub(super) fn takes(self, words: usize) -> bool {
+        if self.pkw == VARIABLE {
+            words >= 3
+        } else {
+            words == usize::from(self.pkw)
+        }
+    }
+}
+
+/// A task that a device knows, with the responses that say it is done.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Task {
+    number: u8,
+    answers: &'static [u8],
+}
+
+impl Task {
+    /// A task and the responses to it.
+    #[must_use]
+    pub const fn new(number: u8, answers: &'static [u8]) -> Self {
+        Self { number, answers }
+    }
+}
+
+/// The bits of a word of process data that are always sent as a constant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FixedBits {
+    pub(super) position: u16,
+    pub(super) bits: u16,
+}
+
+impl FixedBits {
+    /// Those that a point has.
+    #[must_use]
+    pub const fn of<P: Sent>() -> Self {
+        let [_, _, high, low] = P::FIXED_BITS.to_be_bytes();
+        Self {
+            position: P::ADDRESS,
+            bits: u16::from_be_bytes([high, low]),
+        }
+    }
+}
+
+/// What the telegrams need to know of a device.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Profile {
+    tasks: &'static [Task],
+    pub(super) units: (u8, u8),
+    pkw: &'static [u8],
+    pzd: (u8, u8),
+    pub(super) broadcast: Option<u8>,
+    pub(super) fixed: &'static [FixedBits],
+}
+
+impl Profile {
+    /// The tasks, the least and the greatest unit, the lengths of the parameter part, the least and the greatest number
+    /// of words of process data, the address that means all units, and the fixed bits of the process data.
+    #[must_use]
+    pub const fn new(
+        tasks: &'static [Task],
+        units: (u8, u8),
+        pkw: &'static [u8],
+        pzd: (u8, u8),
+        broadcast: Option<u8>,
+        fixed: &'static [FixedBits],
+    ) -> Self {
+        Self {
+            tasks,
+            units,
+            pkw,
+            pzd,
+            broadcast,
+            fixed,
+        }
+    }
+
+    pub(super) fn knows(&self, task: u8) -> bool {
+        self.tasks.iter().any(|one| one.number == task)
+    }
+
+    pub(super) fn answers(&self, task: u8, response: u8) -> bool {
+        let fits = |one: &Task| one.number == task && one.answers.contains(&response);
+        self.tasks.iter().any(fits)
+    }
+
+    pub(super) fn takes_pkw(&self, link: Link) -> bool {
+        self.pkw.contains(&link.pkw)
+    }
+
+    pub(super) fn takes_pzd(&self, link: Link, words: &[u16]) -> bool {
+        let (least, greatest) = self.pzd;
+        (least..=greatest).contains(&link.pzd) && words.len() == usize::from(link.pzd)
+    }
+}

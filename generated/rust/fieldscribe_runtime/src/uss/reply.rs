@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: 0BSD
+//! Answers out of telegrams.
+
+use super::request::is_sound;
+use super::{element, Link, ParseError, Profile, Request, Value, START};
+use crate::{Error, Point, Raw};
+
+/// What a drive answered: a response with a value, and words of process data.
+#[derive(Clone, Copy, Debug)]
+pub struct Reply<'a> {
+    response: u8,
+    value: Value,
+    words: &'a [u8],
+}
+
+impl Reply<'_> {
+    /// The number of the response; 0 if there is none.
+    #[must_use]
+    pub const fn response(&self) -> u8 {
+        self.response
+    }
+
+    /// The value; nothing if there was no task.
+    #[must_use]
+    pub const fn value(&self) -> Value {
+        self.value
+    }
+
+    /// The words of process data.
+    pub fn words(&self) -> impl Iterator<Item = u16> + '_ {
+        words(self.words)
+    }
+
+    /// The value as one word.
+    ///
+    /// # Errors
+    /// [`Error::WrongLength`] if it is none.
+    pub const fn word(&self) -> Result<u16, Error> {
+        match self.value {
+            Value::Word(word) => Ok(word),
+            _ => Err(Error::WrongLength),
+        }
+    }
+
+    /// The raw number of a point that the value is.
+    ///
+    /// # Errors
+    /// [`Error::WrongLength`] if the point has another number of words.
+    pub fn raw<P: Point>(&self) -> Result<P::Raw, Error> {
+        let mut found = P::Raw::MIN.into_words();
+        match (self.value, found.as_mut()) {
+            (Value::Word(word), [only]) => *only = word,
+            (Value::Double(value), [high, low]) => {
+                let [a, b, c, d] = value.to_be_bytes();
+                *high = u16::from_be_bytes([a, b]);
+                *low = u16::from_be_bytes([c, d]);
+            }
+            _ => return Err(Error::WrongLength),
+        }
+        Ok(crate::point::joined::<P>(found))
+    }
+}
+
+impl Request {
+    /// What bytes say as the answer to this request. Any bytes at any length are safe.
+    ///
+    /// # Errors
+    /// Why the bytes are no such answer, or that the drive refused.
+    pub fn parse<'b>(
+        &self,
+        profile: &Profile,
+        link: Link,
+        bytes: &'b [u8],
+    ) -> Result<Reply<'b>, ParseError> {
+        let (part, process) = self.unwrap(link, bytes)?;
+        let mut reply = Reply {
+            response: 0,
+            value: Value::Nothing,
+            words: process,
+        };
+        if link.pkw == 0 {
+            return Ok(reply);
+        }
+        let mut part = words(part);
+        let mut next = || part.next().ok_or(ParseError::WrongLength);
+        let (number, index, first, second) = (next()?, next()?, next()?, next());
+        let [high, _] = number.to_be_bytes();
+        reply.response = high >> 4;
+        if self.task == 0 {
+            return Ok(reply);
+        }
+        if reply.response == 0 {
+            return Err(ParseError::NoAnswer);
+        }
+        if [number & 0x0FFF, index] != element(self.parameter, self.index) {
+            return Err(ParseError::WrongParameter);
+        }
+        match reply.response {
+            7 => return Err(ParseError::Refused(first)),
+            8 => return Err(ParseError::NoRights),
+            response if !profile.answers(self.task, response) => {
+                return Err(ParseError::WrongResponse);
+            }
+            2 | 5 => reply.value = Value::Double(u32::from(first) << 16 | u32::from(second?)),
+            _ if link.single_last() => reply.value = Value::Word(second?),
+            _ => reply.value = Value::Word(first),
+        }
+        Ok(reply)
+    }
+
+    /// The parameter part and the process data of a telegram that fits the link.
+    fn unwrap<'b>(&self, link: Link, bytes: &'b [u8]) -> Result<(&'b [u8], &'b [u8]), ParseError> {
+        if bytes.first() != Some(&START) {
+            return Err(ParseError::WrongStart);
+        }
+        let &[_, length, unit, ref data @ .., _] = bytes else {
+            return Err(ParseError::WrongLength);
+        };
+        let whole = usize::from(length).checked_add(2) == Some(bytes.len()) && data.len() % 2 == 0;
+        let process = usize::from(link.pzd) * 2;
+        let split = data.len().checked_sub(process).filter(|_| whole);
+        let parts = split.and_then(|split| data.split_at_checked(split));
+        let (part, process) = parts.ok_or(ParseError::WrongLength)?;
+        if !link.takes(part.len() / 2) {
+            return Err(ParseError::WrongLength);
+        }
+        if !is_sound(bytes) {
+            return Err(ParseError::WrongCheck);
+        }
+        if unit != self.unit {
+            return Err(ParseError::WrongUnit);
+        }
+        Ok((part, process))
+    }
+}
+
+fn words(bytes: &[u8]) -> impl Iterator<Item = u16> + '_ {
+    bytes.chunks(2).map(|pair| {
+        pair.iter()
+            .fold(0, |word: u16, byte| word << 8 | u16::from(*byte))
+    })
+}

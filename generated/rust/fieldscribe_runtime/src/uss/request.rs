@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: 0BSD
+//! Requests and their telegrams.
+
+use super::{check_byte, element, BuildError, Link, Parameter, Profile, LAST_PARAMETER, START};
+use crate::{BitGroup, Point, Raw, Readable, Whole, Writable};
+
+/// What a parameter part carries as a value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Value {
+    /// Nothing.
+    Nothing,
+    /// One word.
+    Word(u16),
+    /// Two words.
+    Double(u32),
+}
+
+impl Value {
+    /// The value of a point's words, which are one or two.
+    fn of(words: &[u16]) -> Option<Self> {
+        match *words {
+            [word] => Some(Self::Word(word)),
+            [high, low] => Some(Self::Double(u32::from(high) << 16 | u32::from(low))),
+            _ => None,
+        }
+    }
+}
+
+/// What is asked of which unit: a task for an element of a parameter. It is built into a telegram, and it parses the
+/// answer to that telegram.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Request {
+    pub(super) unit: u8,
+    pub(super) task: u8,
+    pub(super) parameter: u16,
+    pub(super) index: u16,
+    value: Value,
+}
+
+impl Request {
+    /// A task without a value, as reading is.
+    #[must_use]
+    pub const fn new(unit: u8, task: u8, parameter: u16, index: u16) -> Self {
+        Self {
+            unit,
+            task,
+            parameter,
+            index,
+            value: Value::Nothing,
+        }
+    }
+
+    /// No task: process data alone.
+    #[must_use]
+    pub const fn cyclic(unit: u8) -> Self {
+        Self::new(unit, 0, 0, 0)
+    }
+
+    /// The same with a value.
+    #[must_use]
+    pub const fn with(self, value: Value) -> Self {
+        Self { value, ..self }
+    }
+
+    /// A request that reads a parameter.
+    #[must_use]
+    pub fn read<P: Readable + Parameter>(unit: u8) -> Self {
+        Self::new(unit, 1, P::ADDRESS, index::<P>())
+    }
+
+    /// A request that changes a parameter's raw number until the power is off.
+    #[must_use]
+    pub fn write<P: Writable + Whole + Parameter>(unit: u8, raw: P::Raw) -> Self {
+        Self::change::<P>(unit, raw.into_words().as_ref(), false)
+    }
+
+    /// A request that changes a parameter's raw number in the EEPROM too, which stands so many writes only.
+    #[must_use]
+    pub fn store<P: Writable + Whole + Parameter>(unit: u8, raw: P::Raw) -> Self {
+        Self::change::<P>(unit, raw.into_words().as_ref(), true)
+    }
+
+    /// A request that writes a word back with a group of its bits replaced, until the power is off.
+    #[must_use]
+    pub fn update<P: Writable + BitGroup + Parameter>(unit: u8, word: u16, raw: P::Raw) -> Self {
+        Self::change::<P>(unit, &[P::insert(word, raw)], false)
+    }
+
+    /// As [`Request::update`], in the EEPROM too.
+    #[must_use]
+    pub fn store_update<P: Writable + BitGroup + Parameter>(
+        unit: u8,
+        word: u16,
+        raw: P::Raw,
+    ) -> Self {
+        Self::change::<P>(unit, &[P::insert(word, raw)], true)
+    }
+
+    fn change<P: Point>(unit: u8, words: &[u16], keep: bool) -> Self {
+        let value = Value::of(words);
+        let task = match (value, P::INDEX.is_some(), keep) {
+            (Some(Value::Word(_)), false, false) => 2,
+            (Some(Value::Word(_)), false, true) => 14,
+            (Some(Value::Word(_)), true, false) => 7,
+            (Some(Value::Word(_)), true, true) => 12,
+            (Some(Value::Double(_)), false, false) => 3,
+            (Some(Value::Double(_)), false, true) => 13,
+            (Some(Value::Double(_)), true, false) => 8,
+            (Some(Value::Double(_)), true, true) => 11,
+            // No task carries so many words; this one is no task of any device.
+            _ => u8::MAX,
+        };
+        let value = value.unwrap_or(Value::Nothing);
+        Self::new(unit, task, P::ADDRESS, index::<P>()).with(value)
+    }
+
+    /// Writes the telegram with these words of process data into `buffer` and gives its length in bytes.
+    ///
+    /// # Errors
+    /// Whatever the device would not take, and a buffer that is too small.
+    pub fn build(
+        &self,
+        profile: &Profile,
+        link: Link,
+        words: &[u16],
+        buffer: &mut [u8],
+    ) -> Result<usize, BuildError> {
+        self.check(profile, link, words)?;
+        let [number, index] = element(self.parameter, self.index);
+        let [first, second] = match self.value {
+            Value::Nothing => [0, 0],
+            Value::Word(word) if link.single_last() => [0, word],
+            Value::Word(word) => [word, 0],
+            Value::Double(value) => {
+                let [a, b, c, d] = value.to_be_bytes();
+                [u16::from_be_bytes([a, b]), u16::from_be_bytes([c, d])]
+            }
+        };
+        let part = [u16::from(self.task) << 12 | number, index, first, second];
+        let part = part.get(..link.sent()).unwrap_or(&part);
+        telegram(self.unit, part, words, buffer)
+    }
+
+    fn check(&self, profile: &Profile, link: Link, words: &[u16]) -> Result<(), BuildError> {
+        let (least, greatest) = profile.units;
+        if !profile.takes_pkw(link) || !profile.takes_pzd(link, words) {
+            Err(BuildError::BadLink)
+        } else if !(least..=greatest).contains(&self.unit) {
+            Err(BuildError::BadUnit)
+        } else if !profile.knows(self.task) || (link.pkw == 0 && self.task != 0) {
+            Err(BuildError::BadTask)
+        } else if self.parameter > LAST_PARAMETER {
+            Err(BuildError::BadParameter)
+        } else if self.index > 255 {
+            Err(BuildError::BadIndex)
+        } else if matches!(self.value, Value::Double(_)) && link.sent() < 4 {
+            Err(BuildError::BadValue)
+        } else {
+            Ok(())
+        }
+    }
+}
+
+/// Writes a telegram to all units into `buffer`: which bits of which words are meant, and the words of process data.
+///
+/// No unit answers.
+///
+/// # Errors
+/// [`BuildError::BadLink`], [`BuildError::BufferTooSmall`].
+pub fn broadcast(
+    profile: &Profile,
+    link: Link,
+    masks: [u16; 4],
+    words: &[u16],
+    buffer: &mut [u8],
+) -> Result<usize, BuildError> {
+    let address = profile.broadcast.ok_or(BuildError::BadLink)?;
+    if !profile.takes_pzd(link, words) {
+        return Err(BuildError::BadLink);
+    }
+    telegram(address, &masks, words, buffer)
+}
+
+fn index<P: Point>() -> u16 {
+    P::INDEX.map_or(0, u16::from)
+}
+
+fn telegram(
+    address: u8,
+    part: &[u16],
+    words: &[u16],
+    buffer: &mut [u8],
+) -> Result<usize, BuildError> {
+    let count = part.len().saturating_add(words.len());
+    let behind = count.saturating_mul(2).saturating_add(2);
+    let length = behind.saturating_add(2);
+    let behind = u8::try_from(behind).map_err(|_| BuildError::BadLink)?;
+    let frame = buffer.get_mut(..length).ok_or(BuildError::BufferTooSmall)?;
+    let data = part.iter().chain(words).flat_map(|word| word.to_be_bytes());
+    let bytes = [START, behind, address].into_iter().chain(data);
+    let mut check = 0;
+    for (place, byte) in frame.iter_mut().zip(bytes) {
+        *place = byte;
+        check ^= byte;
+    }
+    if let Some(last) = frame.last_mut() {
+        *last = check;
+    }
+    Ok(length)
+}
+
+/// Whether a whole telegram has the right check byte.
+pub(super) fn is_sound(bytes: &[u8]) -> bool {
+    check_byte(bytes) == 0
+}

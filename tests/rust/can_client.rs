@@ -1,0 +1,230 @@
+//! CAN clients over a bus of canned frames: what is sent, what comes out, what receivers make of the frames between.
+
+use std::collections::VecDeque;
+use std::future::Future;
+use std::pin::pin;
+use std::sync::Arc;
+use std::task::{Context, Poll, Wake, Waker};
+
+use fieldscribe_runtime::can::{
+    AsyncClient, AsyncTransport, BuildError, Client, ClientError, Frame, ReceiveError, Receiver, Transport,
+};
+use fieldscribe_runtime::Text;
+use odd_can::{enums, flags, messages, points, telegrams, with, Error, PROFILE};
+
+/// A device that answers from its memory, with other frames before each answer.
+#[derive(Default)]
+struct Bus {
+    sent: Vec<String>,
+    memory: std::collections::BTreeMap<u16, u16>,
+    waiting: VecDeque<Frame>,
+    noise: Vec<Frame>,
+    later: VecDeque<Frame>,
+}
+
+impl Bus {
+    fn new(words: &[(u16, u16)], noise: Vec<Frame>) -> Self {
+        Self { memory: words.iter().copied().collect(), noise, ..Self::default() }
+    }
+
+    /// The same bus with frames that come when all others have come.
+    fn then(self, frames: &[Frame]) -> Self {
+        Self { later: frames.iter().copied().collect(), ..self }
+    }
+
+    fn answer(&mut self, frame: &Frame) {
+        self.sent.push(frame.bytes().iter().map(|byte| format!("{byte:02x}")).collect());
+        self.waiting.extend(self.noise.drain(..));
+        let unit = frame.bytes()[1];
+        let message = if let Ok(content) = messages::WRITE_REQUEST.parse(unit, frame) {
+            self.memory.insert(content.address, content.raw);
+            messages::WRITE_ANSWER
+        } else {
+            messages::READ_ANSWER
+        };
+        let address = u16::from_be_bytes([frame.bytes()[2], frame.bytes()[3]]);
+        if let Some(word) = self.memory.get(&address) {
+            // An answer about another address comes first.
+            self.waiting.push_back(message.build(&PROFILE, unit, address + 1, 7).unwrap());
+            self.waiting.push_back(message.build(&PROFILE, unit, address, *word).unwrap());
+        }
+    }
+
+    fn next(&mut self) -> Result<Frame, &'static str> {
+        self.waiting.pop_front().or_else(|| self.later.pop_front()).ok_or("nothing came")
+    }
+}
+
+impl Transport for Bus {
+    type Error = &'static str;
+
+    fn send(&mut self, frame: &Frame) -> Result<(), Self::Error> {
+        self.answer(frame);
+        Ok(())
+    }
+
+    fn receive(&mut self) -> Result<Frame, Self::Error> {
+        self.next()
+    }
+}
+
+struct Slow(Bus);
+
+async fn pause() {
+    let mut waited = false;
+    std::future::poll_fn(|context| {
+        context.waker().wake_by_ref();
+        if std::mem::replace(&mut waited, true) { Poll::Ready(()) } else { Poll::Pending }
+    })
+    .await;
+}
+
+impl AsyncTransport for Slow {
+    type Error = &'static str;
+
+    async fn send(&mut self, frame: &Frame) -> Result<(), Self::Error> {
+        pause().await;
+        self.0.answer(frame);
+        Ok(())
+    }
+
+    async fn receive(&mut self) -> Result<Frame, Self::Error> {
+        pause().await;
+        self.0.next()
+    }
+}
+
+struct Busy;
+
+impl Wake for Busy {
+    fn wake(self: Arc<Self>) {}
+}
+
+fn finish<T>(future: impl Future<Output = T>) -> T {
+    let waker = Waker::from(Arc::new(Busy));
+    let mut future = pin!(future);
+    loop {
+        if let Poll::Ready(value) = future.as_mut().poll(&mut Context::from_waker(&waker)) {
+            return value;
+        }
+    }
+}
+
+fn part(multiplexer: u8, words: [u16; 3]) -> Frame {
+    let mut data = vec![0xDD, multiplexer];
+    data.extend(words.iter().flat_map(|word| word.to_be_bytes()));
+    Frame::new(0x325, &data)
+}
+
+fn parameters_are_read_and_written() {
+    let mut memory: Vec<(u16, u16)> = (732..740).map(|address| (address, 0)).collect();
+    memory.extend([(507, 200), (10, 0x0064), (19, 0xC0F0), (404, 1050), (407, 9), (30, 0)]);
+    let mut client = Client::new(Bus::new(&memory, vec![part(0, [5000, 0, 0])]), &PROFILE, 5);
+    assert_eq!(client.read::<points::Ratio>(), Ok(200));
+    assert_eq!(client.read_with::<points::Level>(with::Level { ratio: 200 }), Ok(200.0));
+    assert_eq!(client.write_with::<points::Level>(400.0, with::Level { ratio: 200 }), Ok(()));
+    assert_eq!(client.write::<points::Target>(45.0), Ok(()));
+    assert_eq!(client.write::<points::Target>(90.0), Err(ClientError::Point(Error::OutOfRange)));
+    assert_eq!(client.read::<points::Mode>(), Ok(3));
+    assert_eq!(client.update::<points::Mode>(0), Ok(()));
+    assert_eq!(client.write::<points::Control>(flags::Control(0x8000)), Ok(()));
+    let digits = client.read::<points::Delays>().unwrap();
+    assert_eq!(digits.map(u16::from), [1, 0, 5, 0]);
+    assert_eq!(client.write::<points::Delays>([enums::Digit::Late; 4]), Ok(()));
+    let unknown = client.write::<points::Delays>([enums::Digit::from(3); 4]);
+    assert_eq!(unknown, Err(ClientError::Point(Error::UnknownValue)));
+    assert_eq!(client.write::<points::Name>("Genset 1".try_into().unwrap()), Ok(()));
+    let read = client.read::<points::Name>().unwrap();
+    assert_eq!((read.as_str(), read.to_string().as_str()), (Some("Genset 1"), "Genset 1"));
+    assert_eq!(format!("{read:?}"), "\"Genset 1\"");
+    let umlaut = client.write::<points::Name>(Text::new("Gerät").unwrap());
+    assert_eq!(umlaut, Err(ClientError::Point(Error::OutOfRange)));
+    assert_eq!(client.write::<points::Password>(1234), Ok(()));
+    assert_eq!(client.read_word(999), Err(ClientError::Transport("nothing came")));
+    let bus = client.into_transport();
+    assert_eq!(bus.sent[0], "ff0501fb0000fefe");
+    assert!(bus.sent.contains(&"ee05000b2d00c30e".to_owned()));
+    assert_eq!(bus.memory[&10], 200);
+    assert_eq!(bus.memory[&19], 0x0001);
+    assert_eq!(bus.memory[&30], 0x8406);
+    assert_eq!(bus.memory[&404], 5555);
+    assert_eq!((bus.memory[&739], bus.memory[&736], bus.memory[&732]), (0x4765, 0x2031, 0x2020));
+}
+
+fn receivers_hear_what_others_are_told() {
+    let noise = vec![part(0, [5000, 7, 0xFE00]), part(2, [0, 0, 4]), part(1, [0, 0, 1]), part(2, [9, 0, 4])];
+    let later = [part(1, [0, 0, 1]), part(0, [4900, 7, 0xFE00]), part(0, [4900, 8, 0xFF00]), part(0, [0, 9, 0])];
+    let bus = Bus::new(&[(407, 1)], noise).then(&later);
+    let mut client = Client::new(bus, &PROFILE, 5).listening(Receiver::<telegrams::Measured>::new(5));
+    assert_eq!(client.read::<points::Actual>(), Ok(1));
+    assert_eq!(client.listener().raw::<points::Frequency>(), Ok(5000));
+    // Its high word came once: nobody knows whether it was the same before the low one.
+    assert_eq!(client.listener().raw::<points::Hours>(), Err(ReceiveError::Torn));
+    assert_eq!(client.listener().raw::<points::Starts>(), Err(ReceiveError::Missing));
+    // What was heard before is not taken for what is true now.
+    assert_eq!(client.receive::<points::Frequency>(), Ok(49.0));
+    assert_eq!(client.listener().raw::<points::Hours>(), Ok(0x0001_0009));
+    let exponent = client.receive::<points::Exponent>().unwrap();
+    assert_eq!(client.receive_with::<points::Power>(with::Power { exponent }), Ok(0.9));
+    assert_eq!(client.receive::<points::Hours>(), Err(ClientError::Transport("nothing came")));
+    let mut client = client.patient(0);
+    assert_eq!(client.receive::<points::Hours>(), Err(ClientError::Telegram(ReceiveError::Missing)));
+    assert_eq!(client.read_word(407), Err(ClientError::NoAnswer));
+}
+
+fn numbers_of_two_frames_are_waited_for() {
+    let [high, low] = [part(1, [0, 0, 1]), part(2, [9, 0, 0])];
+    let bus = Bus::default().then(&[low, high, low, high, low]);
+    let mut client = Client::new(bus, &PROFILE, 5).listening(Receiver::<telegrams::Measured>::new(5));
+    assert_eq!(client.receive::<points::Hours>(), Ok(0x0001_0009));
+    let bus = client.into_transport();
+    assert_eq!(bus.later.len(), 1);
+    let bus = Bus::default().then(&[low, high, part(2, [9, 0, 0]), part(1, [0, 0, 2])]);
+    let mut client = Client::new(bus, &PROFILE, 5).listening(Receiver::<telegrams::Measured>::new(5)).patient(4);
+    assert_eq!(client.receive::<points::Hours>(), Err(ClientError::Telegram(ReceiveError::Torn)));
+}
+
+/// A device that takes the nearest number it likes.
+fn other_numbers_are_told() {
+    let mut bus = Bus::new(&[(507, 1)], vec![]);
+    bus.waiting.push_back(messages::WRITE_ANSWER.build(&PROFILE, 5, 507, 399).unwrap());
+    let mut client = Client::new(bus, &PROFILE, 5);
+    assert_eq!(client.write::<points::Ratio>(400), Err(ClientError::EchoMismatch(399)));
+}
+
+fn listeners_are_lent_and_paired() {
+    let mut receiver = Receiver::<telegrams::Measured>::new(5);
+    let mut bus = Bus::new(&[(407, 1)], vec![part(3, [1, 2, 3]), Frame::new(1, &[0; 9])]);
+    let pair = (&mut receiver, Receiver::<telegrams::Telegram>::new(5));
+    let mut client = Client::new(&mut bus, &PROFILE, 5).listening(pair);
+    assert_eq!(client.read::<points::Actual>(), Ok(1));
+    assert_eq!(receiver.raw::<points::Starts>(), Ok(0x0001_0002));
+    assert_eq!(receiver.word(9), Ok(1));
+    assert_eq!(receiver.word(19), Err(ReceiveError::Missing));
+    assert_eq!(receiver.word(u16::MAX), Err(ReceiveError::Missing));
+}
+
+fn units_are_checked() {
+    let mut client = Client::new(Bus::default(), &PROFILE, 31);
+    assert_eq!(client.read::<points::Ratio>(), Err(ClientError::Build(BuildError::BadUnit)));
+    assert!(client.into_transport().sent.is_empty());
+}
+
+fn waits_without_blocking() {
+    let bus = Bus::new(&[(507, 200)], vec![]).then(&[part(0, [100, 0, 0])]);
+    let mut client = AsyncClient::new(Slow(bus), &PROFILE, 5).listening(Receiver::<telegrams::Measured>::new(5));
+    assert_eq!(finish(client.read::<points::Ratio>()), Ok(200));
+    assert_eq!(finish(client.write::<points::Ratio>(300)), Ok(()));
+    assert_eq!(finish(client.receive::<points::Frequency>()), Ok(1.0));
+    assert_eq!(client.into_transport().0.memory[&507], 300);
+}
+
+fn main() {
+    parameters_are_read_and_written();
+    receivers_hear_what_others_are_told();
+    numbers_of_two_frames_are_waited_for();
+    other_numbers_are_told();
+    listeners_are_lent_and_paired();
+    units_are_checked();
+    waits_without_blocking();
+}

@@ -1,0 +1,9 @@
+// error: E0277
+// Nobody answers when a point of a telegram is asked for as a parameter.
+
+use fieldscribe_runtime::can::{Client, Transport};
+use odd_can::points::Frequency;
+
+pub fn wrong<T: Transport>(client: &mut Client<T>) {
+    let _ = client.read::<Frequency>();
+}

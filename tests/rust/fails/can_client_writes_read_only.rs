@@ -1,0 +1,9 @@
+// error: E0277
+// A client of a CAN device offers no write of what is only read.
+
+use fieldscribe_runtime::can::{Client, Transport};
+use odd_can::points::Actual;
+
+pub fn wrong<T: Transport>(client: &mut Client<T>) {
+    let _ = client.write::<Actual>(1);
+}

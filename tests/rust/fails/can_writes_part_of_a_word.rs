@@ -1,0 +1,9 @@
+// error: E0277
+// A group of bits is not written as if the word were its own: that is an update.
+
+use fieldscribe_runtime::can::{Client, Transport};
+use odd_can::points::Mode;
+
+pub fn wrong<T: Transport>(client: &mut Client<T>) {
+    let _ = client.write::<Mode>(3);
+}

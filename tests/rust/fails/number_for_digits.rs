@@ -1,0 +1,8 @@
+// error: E0308
+// Digits are given by what they mean, not as a number.
+
+use odd_can::{points::Delays, Error, Writable};
+
+pub fn wrong() -> Result<u16, Error> {
+    Delays::encode(1111)
+}
