@@ -261,7 +261,10 @@ class AsyncCanUnit:
 
 
 class UssDrive:
-    """A drive on a USS line: parameters are words (one or two) by number and index, `answer` its process data."""
+    """A drive on a USS line: parameters are words (one or two) by number and index, `answer` its process data.
+
+    Whatever is written, parameters in `keeps` get those words. The next `late` tasks are not answered yet.
+    """
 
     def __init__(self, pkw: int = 4, pzd: int = 2) -> None:
         self.pkw, self.pzd = pkw, pzd
@@ -272,6 +275,8 @@ class UssDrive:
         self.refuses: dict[int, int] = {}
         self.log: list[str] = []
         self.change: Callable[[bytes], bytes] = bytes
+        self.keeps: dict[int, tuple[int, ...]] = {}
+        self.late = 0
 
     def exchange(self, request: bytes) -> bytes:
         """The reply to a request."""
@@ -290,7 +295,8 @@ class UssDrive:
         task, low = words[0] >> 12, words[0] & 0x07FF
         page = sum((words[1] >> place & 1) << bit for bit, place in enumerate((15, 12, 13, 14)))
         number, index = low + 2000 * page, words[1] & 0xFF
-        if task == 0:
+        if task == 0 or self.late:
+            self.late -= task != 0
             return [0] * len(words)
         if number in self.refuses:
             return [0x7000 | low, words[1], self.refuses[number], 0][: len(words)]
@@ -298,6 +304,7 @@ class UssDrive:
         if task != 1:
             double = task in (3, 8, 11, 13)
             value = tuple(words[2:4]) if double else (words[3 if single_last else 2],)
+            value = self.keeps.get(number, value)
             self.ram[number, index] = value
             if task > 8:
                 self.eeprom[number, index] = value

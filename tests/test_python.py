@@ -13,11 +13,11 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import pytest
-from fieldscribe.model import Place
+from fieldscribe.model import Fixed, Flag, Place
 from fieldscribe.resources import templates_dir
 from fieldscribe.targets import python as target
 from fieldscribe.targets.python.identifiers import DEVICE_MEMBERS, HELPERS, WORD_MEMBERS
-from models import STATUS_FLAGS, plain_points, point, sample_device, titles, trip_device
+from models import HERTZ, STATUS_FLAGS, entry, plain_points, point, sample_device, titles, trip_device
 from python_package import AsyncSlave, Slave, imported, typed_findings, write_package
 
 if TYPE_CHECKING:
@@ -124,6 +124,41 @@ def test_errors_say_what_is_wrong(
     assert status(package.SampleDrive.POINTS[item].encode, value, raws) == expected
 
 
+def test_values_of_the_wrong_type_are_refused_by_name(package: Any) -> None:
+    for item, label in (
+        ("base_frequency", "A020 base_frequency"),
+        ("float_setpoint", "float_setpoint"),
+        ("frequency_source", "A001 frequency_source"),
+        ("voltage_ratio", "voltage_ratio"),
+        ("run_command", "run_command"),
+    ):
+        for value in (None, "40", b"", [1]):
+            found, text = status(package.SampleDrive.POINTS[item].encode, value)
+            assert (found, text.partition(":")[0]) == ("wrong_type", label), (item, value)
+        if item != "run_command":
+            assert status(package.SampleDrive.POINTS[item].encode, True) == (
+                "wrong_type",
+                f"{label}: takes a number, not True",
+            )
+    with pytest.raises(TypeError):
+        package.SampleDrive.base_frequency.encode(None)
+    assert package.SampleDrive.run_command.encode(True) == package.SampleDrive.run_command.encode(1) == 1
+    package.SampleDrive.run_command.check(True)
+    assert status(package.SampleDrive.base_frequency.check, True)[0] == "wrong_type"
+
+
+def test_numbers_without_limits(tmp_path: Path) -> None:
+    points = (point("anything", 1, "f32", unit=HERTZ), point("everything", 3, "f64"))
+    folder = write_package(replace(sample_device(points), errata=(), blocks={}, id="unlimited"), tmp_path)
+    for package in imported(folder, "unlimited"):
+        anything, everything = package.Unlimited.anything, package.Unlimited.everything
+        assert status(anything.encode, math.inf) == ("out_of_range", "anything: inf Hz is no finite binary32")
+        assert status(anything.encode, -1e39) == ("out_of_range", "anything: -1e+39 Hz is no finite binary32")
+        assert status(anything.check, 0x7F800000) == ("out_of_range", "anything: raw 2139095040 is no finite binary32")
+        assert status(everything.encode, 10**400)[1].endswith(" is no finite binary64")
+        assert anything.decode(anything.encode(-40.0)) == -40.0
+
+
 def test_unknown_numbers_survive(package: Any) -> None:
     drive = package.SampleDrive
     assert drive.frequency_source.decode(10) is package.FrequencySource.LOGIC
@@ -142,6 +177,87 @@ def test_flags_read_by_name(package: Any) -> None:
     assert package.StatusWord(0x0018).fault is False
     assert package.StatusWord(0x0010).mode == 1
     assert package.StatusWord.mode.place(3) == package.StatusWord.MODE
+
+
+def test_flags_are_shown_and_composed_by_meaning(tmp_path: Path) -> None:
+    flags = (
+        Flag(0, 1, "on", titles("On"), 1, (entry(0, "zero", "off"), entry(1, "one", "on"))),
+        Flag(1, 1, "quick_stop", titles("Quick stop"), 0, (entry(0, "zero", "stop"), entry(1, "one", "no stop"))),
+        Flag(2, 1, "off2", titles("off2"), 0, ()),
+        Flag(3, 1, "class", titles("Class"), 1, ()),
+        Flag(4, 2, "set", titles("Set"), 1, (entry(1, "second"),)),
+        Flag(6, 2, "of", titles("Of"), 1, ()),
+        Flag(10, 1, "valid", titles("Valid"), 1, ()),
+    )
+    points = (
+        point("command", 1, flags=flags, fixed=Fixed(0x0C00, 0x0400)),
+        point("status", 2, access="r", flags=flags),
+    )
+    folder = write_package(replace(sample_device(points), errata=(), blocks={}, id="flagged"), tmp_path)
+    text = (folder / "flagged" / "enums.py").read_text("utf-8")
+    assert '"""Quick stop (0: stop; 1: no stop). True while the bit is 0."""' in text
+    assert '"""off2. True while the bit is 0."""' in text
+    assert text.count("def of(") == 1  # nobody makes a word that is only read
+    for package in imported(folder, "flagged"):
+        word = package.Command
+        assert word.of() == 0x0406
+        assert word.of(on=True, class_=True, set=package.CommandSet.SECOND, of_=2) == 0x0406 | 0x0001 | 0x0008 | 0x90
+        assert word.of(quick_stop=True) == 0x0404
+        assert str(word.of(on=True, off2=True)) == "0x0403 (on, off2, set=0, of_=0, valid)"
+        assert repr(word(0x0416)) == "<Command 0x0416 (set=second, of_=0, valid)>"
+        assert repr(package.Status(0)) == "<Status 0x0000 (quick_stop, off2, set=0, of_=0)>"
+        assert f"{word(0x0406):04X} {word(6)}" == "0406 0x0006 (set=0, of_=0)"
+        assert package.Flagged.command.encode(word.of(on=True)) == 0x0407
+        assert status(package.Flagged.command.encode, package.Status(1))[0] == "unknown_value"
+        with pytest.raises(ValueError, match="2 bits"):
+            word.of(set=4)
+    ruff("check", folder)
+    ruff("format", "--diff", folder / "flagged")
+
+
+def test_points_that_are_only_documented_have_an_address(tmp_path: Path) -> None:
+    unsettled: dict[str, Any] = {"generated": False, "reason": "the manual does not settle its type"}
+    points = (
+        point("known", 1),
+        point("ramp", 0x1980, code="P102", **unsettled),
+        point("wide", 0x2000, "u32", **unsettled),
+        point("reserved", 0x3000, generated=False, reason="reserved by the maker"),
+        point("nowhere", None),
+    )
+    folder = write_package(replace(sample_device(points), errata=(), blocks={}, id="open_ends"), tmp_path)
+    for package in imported(folder, "open_ends"):
+        lines = sys.modules["open_ends.points"].Points.__doc__.splitlines()
+        assert [line.strip() for line in lines if "- " in line] == [
+            "- P102 ramp: 'holding', 0x1980",
+            "- wide: 'holding', 0x2000, 0x2001",
+        ]
+        assert any("`read_at` and `write_at`" in line for line in lines)
+        assert package.OpenEnds(Slave(), unit=1).read_at("holding", 0x1980) == (0,)
+    ruff("check", folder)
+    ruff("format", "--diff", folder / "open_ends")
+
+
+def test_points_may_be_called_like_steps(tmp_path: Path) -> None:
+    names = ("get_steps", "put_steps", "read_steps", "taken", "run", "handle", "command", "require", "ask")
+    points = tuple(point(name, number) for number, name in enumerate(names, 1))
+    folder = write_package(replace(sample_device(points), errata=(), blocks={}, commands=(), id="odd_names"), tmp_path)
+    slave = Slave()
+    for package in imported(folder, "odd_names"):
+        drive = package.OddNames(slave, unit=1)
+        for number, name in enumerate(names, 1):
+            getattr(drive, name).write(number)
+        assert drive.read_many("main") == {name: number for number, name in enumerate(names, 1)}
+        own = {name for name in dir(drive) if not name.startswith("_") and name.islower()} - set(names)
+        assert own == {"forget", "point", "read_at", "read_many", "transport", "unit", "variants", "write_at"}
+
+
+def test_a_factor_that_needs_a_variant_says_so(package: Any, slave: Slave) -> None:
+    drive = package.SampleDrive(slave, unit=5)
+    assert status(drive.point, "dc_level") == (
+        "no_access",
+        "dc_level depends on voltage_class: pass it when the device is made",
+    )
+    assert status(drive.read_many, ["nothing"]) == ("no_access", "nothing is no point of this device")
 
 
 def test_read_and_write(drive: Any, slave: Slave) -> None:
@@ -199,6 +315,8 @@ def test_remembered_until_forgotten(tmp_path: Path) -> None:
         asked = 0
         for action, count in (
             (drive.voltage_setpoint.read, 2),
+            (drive.voltage_setpoint.read, 1),
+            (partial(drive.voltage_setpoint.write, 1.0), 2),  # what is written must not follow from old numbers
             (drive.voltage_setpoint.read, 1),
             (drive.forget, 0),
             (drive.voltage_setpoint.read, 2),
@@ -261,7 +379,7 @@ def test_tcp_commands_and_refusals(package: Any) -> None:
     slave.refuses[0x1028] = 0x21
     assert status(drive.base_frequency.read) == (
         "exception",
-        "the device answered exception 21h (value_out_of_range)",
+        "A020 base_frequency: the device answered exception 21h (value_out_of_range)",
     )
     assert status(package.SampleDrive(Slave(), unit=33).base_frequency.read)[0] == "bad_unit"
     with pytest.raises(AttributeError):
@@ -304,6 +422,7 @@ def test_tables_of_taken_names_are_complete(package: Any) -> None:
     runtime = sys.modules["fieldscribe_runtime"]
     can, uss = (importlib.import_module(f"fieldscribe_runtime.{family}") for family in ("can", "uss"))
     can.CanSession.PROFILE = can.Profile((0, 1), 11, ())
+    uss.UssSession.PROFILE = uss.Profile((0, 1), (4,), (0, 2), {})
     link = uss.Link(4, 2)
     devices = (
         *(runtime.Device(Slave(), 1), runtime.AsyncDevice(AsyncSlave(Slave()), 1)),

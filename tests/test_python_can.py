@@ -111,6 +111,8 @@ def test_digits(mpu: Any, package: Any, unit: CanUnit) -> None:
     assert error(mpu.delays.write, (1, 2, 3, 5)).status == "unknown_value"
     assert error(mpu.delays.write, (1, 2, package.Switch.OFF, 5)).status == "unknown_value"
     assert error(mpu.delays.write, (1, 2)).status == "wrong_length"
+    assert str(error(mpu.delays.write, None)) == "delays: takes 4 digits, not None"
+    assert error(mpu.delays.write, (1, 2, True, 5)).status == "wrong_type"
     assert error(mpu.delays.check, 1234).status == "unknown_value"
     assert mpu.delays.name_of(5) == "step_5"
     unit.parameters[404] = 1
@@ -131,18 +133,30 @@ def test_points_of_other_variants(package: Any, unit: CanUnit) -> None:
 def test_factors_are_kept_until_what_changes_them_is_written(mpu: Any, unit: CanUnit) -> None:
     unit.parameters.update({507: 200, 510: 100})
     assert mpu.voltage_setpoint.read() == 200.0
-    mpu.voltage_setpoint.write(100.0)
-    assert unit.parameters[510] == 50
+    assert mpu.voltage_setpoint.read() == 200.0
     assert len(unit.log) == 3  # the factor was read once
-    mpu.limited.write(400)
-    assert len(unit.log) == 4
     mpu.transformer.write(1)
     unit.parameters[507] = 400
-    assert mpu.voltage_setpoint.read() == 50.0
-    assert len(unit.log) == 7
+    assert mpu.voltage_setpoint.read() == 100.0
+    assert len(unit.log) == 6
     mpu.write_at("parameter", 508, 2)
-    assert error(mpu.limited.write, 801).status == "out_of_range"
+    assert mpu.voltage_setpoint.read() == 100.0
     assert len(unit.log) == 9
+
+
+def test_factors_are_read_anew_before_each_write(mpu: Any, unit: CanUnit) -> None:
+    unit.parameters.update({507: 200, 510: 100})
+    assert mpu.voltage_setpoint.read() == 200.0
+    unit.parameters[507] = 100  # somebody turns a knob
+    mpu.voltage_setpoint.write(100.0)
+    assert unit.parameters[510] == 25
+    assert len(unit.log) == 4
+    assert mpu.voltage_setpoint.read() == 100.0
+    assert len(unit.log) == 5  # and the new one is kept
+    unit.parameters[507] = 300
+    mpu.limited.write(600)
+    assert error(mpu.limited.write_raw, 601).status == "out_of_range"
+    assert len(unit.log) == 8
 
 
 def test_telegrams_are_listened_to(mpu: Any, unit: CanUnit) -> None:
@@ -197,7 +211,7 @@ def test_frames_of_others_are_passed_on(mpu: Any, unit: CanUnit, can: Any) -> No
 def test_failures_say_what_they_are(mpu: Any, package: Any, unit: CanUnit) -> None:
     unit.silent = True
     failure = error(mpu.transformer.read)
-    assert (failure.status, str(failure)) == ("timeout", "read_answer for 508 did not come")
+    assert (failure.status, str(failure)) == ("timeout", "transformer: read_answer for 508 did not come")
     assert isinstance(failure, TimeoutError)
     unit.silent = False
     unit.spoils = 1
@@ -205,12 +219,89 @@ def test_failures_say_what_they_are(mpu: Any, package: Any, unit: CanUnit) -> No
     assert (failure.status, failure.__cause__.status) == ("timeout", "wrong_check")
     assert mpu.transformer.read() == 0  # and the device goes on
     unit.most[508] = 9
-    assert error(mpu.transformer.write, 10).status == "echo_mismatch"
+    failure = error(mpu.transformer.write, 10)
+    assert (failure.status, failure.written, failure.answered) == ("echo_mismatch", (10,), (9,))
+    assert str(failure) == "transformer: 10 was written, and the device answered 9"
+    unit.parameters[507], unit.most[510] = 200, 5
+    failure = error(mpu.voltage_setpoint.write, 100.0)
+    assert str(failure) == "voltage_setpoint: 100 V was written, and the device answered 10 V"
+    failure = error(mpu.voltage_setpoint.write_raw, 6)
+    assert str(failure) == "voltage_setpoint: raw 6 was written, and the device answered raw 5"
+    unit.most[19] = 0x00FF
+    assert error(mpu.controller.write, 3).status == "echo_mismatch"
+    unit.most[737] = 1
+    failure = error(mpu.fault_text.write, "Low oil")
+    assert (failure.status, failure.point, failure.answered) == ("echo_mismatch", "fault_text", (1,))
     assert error(mpu.frequency.read).status == "timeout"
     assert error(package.SampleCan(unit, 31).transformer.read).status == "bad_unit"
     mpu.patience = -1.0
     failure = error(mpu.transformer.read)
-    assert (failure.status, str(failure)) == ("timeout", "read_answer for 508 did not come within -1 s")
+    text = "transformer: read_answer for 508 did not come within -1 s"
+    assert (failure.status, str(failure)) == ("timeout", text)
+
+
+class LateUnit(CanUnit):
+    """A unit whose answers come only after the master gave up, while `late`."""
+
+    late: Any = None
+
+    def receive(self) -> Any:
+        """The next frame, unless it is held back."""
+        if self.late is not None:
+            self.late += self.waiting
+            self.waiting = []
+        return super().receive()
+
+
+class WaitingUnit(CanUnit):
+    """A unit behind a transport that tells what has come already."""
+
+    def receive_waiting(self) -> Any:
+        """The next frame that is there."""
+        return self.waiting.pop(0) if self.waiting else None
+
+
+def test_late_answers_are_no_answers(package: Any, can: Any) -> None:
+    unit = LateUnit(can.Frame, 5)
+    mpu = package.SampleCan(unit, 5)
+    unit.parameters[508], unit.late = 3, []
+    assert error(mpu.transformer.read).status == "timeout"
+    (unit.waiting, unit.late), unit.parameters[508] = (unit.late, None), 4
+    unit.waiting.append(unit.words(0, 5000))
+    assert mpu.transformer.read() == 4
+    assert mpu.frequency.read() == 50.0  # what else came meanwhile counts
+    unit.late = []
+    assert error(mpu.transformer.write, 7).status == "timeout"
+    (unit.waiting, unit.late) = (unit.late, None)
+    mpu.transformer.write(8)
+    assert unit.parameters[508] == 8
+
+
+def test_the_queue_is_cleared_before_a_request(package: Any, can: Any) -> None:
+    unit = WaitingUnit(can.Frame, 5)
+    mpu = package.SampleCan(unit, 5)
+    assert isinstance(unit, can.WaitingCanTransport)
+    unit.parameters[508] = 9
+    unit.waiting = [can.Frame(0x325, bytes.fromhex("ff0501fc0001fef8")), unit.words(0, 4000)]
+    assert can.parse(mpu.PROFILE.message("read_answer"), 5, unit.waiting[0]) == (508, 1)
+    assert mpu.transformer.read() == 9
+    assert mpu.frequency.read() == 40.0
+
+    class AsyncWaitingUnit(AsyncCanUnit):
+        def receive_waiting(self) -> Any:
+            return unit.receive_waiting()
+
+    async def work() -> Any:
+        unit.waiting = [can.Frame(0x325, bytes.fromhex("ff0501fc0001fef8"))]
+        return await package.SampleCanAsync(AsyncWaitingUnit(unit), 5).transformer.read()
+
+    assert asyncio.run(work()) == 9
+
+
+def test_words_of_a_telegram_by_place(mpu: Any, unit: CanUnit) -> None:
+    mpu.take(unit.words(2, 7, 8, 9))
+    assert mpu.read_at("measurements", 6, 3) == (7, 8, 9)
+    assert error(mpu.write_at, "measurements", 1, 1).status == "bad_space"
 
 
 def test_receiver(can: Any, package: Any, unit: CanUnit) -> None:
@@ -275,7 +366,7 @@ def test_async_twin(package: Any, unit: CanUnit) -> None:
 TYPED = """
 from collections.abc import Sequence
 from typing import assert_type
-from sample_can import Delay, SampleCan, SampleCanAsync, Switch
+from sample_can import CommandWord, Delay, SampleCan, SampleCanAsync, Switch
 from fieldscribe_runtime.can import CanTransport, Frame
 
 class Silent:
@@ -293,6 +384,8 @@ def use(transport: CanTransport) -> None:
     assert_type(mpu.frequency.read(), float)
     assert_type(mpu.take(Frame(0x325, bytes(8))), bool)
     mpu.controller.write(Switch.ON)
+    mpu.command_word.write(CommandWord.of())
+    CommandWord.of(start=True)  # E: call-arg
     mpu.frequency.write(5.0)  # E: attr-defined
     mpu.fault_text.write(5)  # E: arg-type
     mpu.fault_text.write("Oil", keep=True)  # E: call-arg

@@ -6,6 +6,7 @@ import json
 import re
 import shutil
 from collections import Counter
+from dataclasses import replace
 from fractions import Fraction
 from functools import partial
 from math import floor
@@ -14,12 +15,19 @@ from typing import TYPE_CHECKING
 
 import pytest
 from c_device import kitchen
+from fieldscribe.diagnostics import Report
+from fieldscribe.model import Flag
+from fieldscribe.pipeline import load_device
+from fieldscribe.render import render
+from fieldscribe.resources import templates_dir
+from fieldscribe.targets import rust
+from fieldscribe.targets.rust.documentation import left_out
 from fieldscribe.targets.rust.families import family_traits
 from fieldscribe.targets.rust.identifiers import identifiers
-from fieldscribe.targets.rust.layout import assignment, binding, short_array
+from fieldscribe.targets.rust.layout import assignment, binding, calls, comparison, short_array
 from fieldscribe.targets.rust.rules import count_path
 from fieldscribe.targets.rust.subjects import scope_of
-from models import kitchen_sink, linear, point, sample_device, trip_device
+from models import entry, kitchen_sink, linear, point, sample_device, titles, trip_device
 from rust_crates import can_device, odd_device, rare_device, uss_device, write_crate
 from toolchains import run, succeed, tool
 
@@ -45,6 +53,8 @@ MODELS: dict[str, Callable[[], Device]] = {
     "odd_can": can_device,
     "odd_uss": uss_device,
 }
+GATEWAYS = ("siemens_mm4", "woodward_mpu2s")
+"""Real devices that programs of users are written for."""
 
 
 @pytest.fixture(scope="session")
@@ -69,8 +79,14 @@ def workspace(tmp_path_factory: pytest.TempPathFactory, request: pytest.FixtureR
 def libraries(workspace: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The crates of the models, compiled with optimization and checked arithmetic, as libraries and objects."""
     out = tmp_path_factory.mktemp("libraries")
-    for name in ("fieldscribe_runtime", *MODELS):
-        done = rustc(workspace / name / "src/lib.rs", out, "--crate-name", name, "--emit=link,metadata,obj")
+    described = tmp_path_factory.mktemp("described")
+    for name in GATEWAYS:
+        device = load_device(ROOT / "descriptions" / name / "device.yaml", Report())
+        assert device is not None
+        write_crate(device, described)
+    for name in ("fieldscribe_runtime", *MODELS, *GATEWAYS):
+        folder = described / "rust" if name in GATEWAYS else workspace
+        done = rustc(folder / name / "src/lib.rs", out, "--crate-name", name, "--emit=link,metadata,obj")
         assert done.returncode == 0, done.stderr
     return out
 
@@ -130,6 +146,10 @@ def test_long_lines_break_as_rustfmt_breaks_them() -> None:
     assert assignment(4, f"const {name}: A", ("A::new(", "    1,", ")"))[0].endswith("A::new(")
     assert binding(4, f"const {name}: &'static str", '"abc"') == (f'const {name}: &\'static str = "abc";',)
     assert assignment(4, f"const {name}: {name}", ("A::new(", "    1,", ")"))[0].endswith("=")
+    assert calls(4, "const A: B", [("C", ("1",))]) == ("const A: B = &[C(1)];",)
+    assert calls(4, "const A: B", [("C", (name, name))])[2] == f"        {name},"
+    assert comparison(8, name, "== 0") == (f"{name} == 0",)
+    assert comparison(36, name, "== 0") == (name, "    == 0")
 
 
 def clashes(device: Device) -> list[str]:
@@ -140,6 +160,58 @@ def clashes(device: Device) -> list[str]:
 def test_clashing_names_are_found() -> None:
     assert not any(clashes(make()) for make in MODELS.values())
     assert clashes(sample_device((point("a_b1", 0), point("a_b_1", 1)))) == ["AB1"]
+    low = Flag(0, 1, "off", titles("Off"), 0, ())
+    assert clashes(
+        sample_device((point("word", 0, flags=(low, replace(low, low=1, name="off_active_low", active=1))),))
+    )
+    assert clashes(sample_device((point("word", 0, flags=(replace(low, name="all_false", active=1),)),)))
+
+
+def sources(device: Device) -> dict[str, str]:
+    """The sources of a crate by the name of the file."""
+    return {Path(path).name: text for path, text in rust.outputs(device, render)}
+
+
+def test_active_low_bits_say_so() -> None:
+    low = Flag(1, 1, "motor_overload", titles("Overload"), 0, (entry(0, "zero"), entry(1, "one")))
+    flags = (low, replace(low, low=0, name="ready", active=1))
+    text = sources(sample_device((point("status", 0, flags=flags),)))["flags.rs"]
+    assert "pub const ALL_FALSE: Self = Self(0x0002);" in text
+    assert "pub const MOTOR_OVERLOAD_ACTIVE_LOW: u16 = 0x0002;" in text
+    assert "pub const READY: u16 = 0x0001;" in text
+    documented = (
+        "/// Motor overload.",
+        "///",
+        "/// True while the bit is 0.",
+        "#[must_use]",
+        "pub const fn motor_overload(",
+    )
+    assert "\n    ".join(documented) in text
+    assert "ZERO" not in text
+
+
+def test_what_is_only_documented_has_its_address() -> None:
+    settled = point("speed", 5)
+    device = sample_device((settled, replace(settled, name="ramp", code="P1", generated=False)))
+    assert left_out(device) == ("`ramp`, `P1`, holding 0005h (5)",)
+    assert "//! - `ramp`, `P1`, holding 0005h (5)" in sources(device)["points.rs"]
+    drive = load_device(ROOT / "descriptions/nord_sk5xxe/device.yaml", Report())
+    assert drive is not None
+    known = ["h (" in line for line in left_out(drive)]
+    assert known == [bool(one.places) for one in drive.points if not one.generated]
+    assert any(known)
+
+
+def test_all_crates_name_the_compiler_that_they_need() -> None:
+    """Checked by clippy's `incompatible_msrv` beside; Debian bookworm's `rustc-web` is 1.85 or later."""
+    runtime = (templates_dir() / "rust/runtime/fieldscribe_runtime/Cargo.toml").read_text("utf-8")
+    named = {
+        re.search(r'rust-version = "1\.(\d+)"', text) for text in (runtime, sources(sample_device())["Cargo.toml"])
+    }
+    versions = {int(found[1]) for found in named if found}
+    assert len(named) == 2
+    assert len(versions) == 1
+    assert max(versions) <= 85
 
 
 @pytest.mark.parametrize("device", [*MODELS, *SHIPPED])
@@ -164,7 +236,7 @@ def test_a_wrong_vector_is_noticed(workspace: Path, tmp_path: Path, monkeypatch:
 
 
 def test_clippy_has_nothing_to_say(workspace: Path) -> None:
-    flags = ("--", "-Dwarnings", "-Wclippy::pedantic")
+    flags = ("--", "-Dwarnings", "-Wclippy::pedantic", "-Wclippy::incompatible_msrv")
     done = cargo(workspace, "clippy", "--quiet", "--workspace", "--all-targets", *flags)
     assert done.returncode == 0, done.stderr
 
@@ -203,6 +275,8 @@ def test_misuse_does_not_compile(libraries: Path, name: str, tmp_path: Path) -> 
         ("can_client", "odd_can"),
         ("uss_client", "odd_uss"),
         ("trips", "trips"),
+        ("mm4_gateway", "siemens_mm4"),
+        ("mpu2s_gateway", "woodward_mpu2s"),
     ],
 )
 def test_programs_run(libraries: Path, source: str, device: str, tmp_path: Path) -> None:
@@ -243,6 +317,7 @@ impl Transport for Line {
     type Error = ();
     fn send(&mut self, _: &Frame) -> Result<(), ()> { Err(()) }
     fn receive(&mut self) -> Result<Frame, ()> { Err(()) }
+    fn pending(&mut self) -> Result<Option<Frame>, ()> { Err(()) }
 }""",
     "uss": """use fieldscribe_runtime::{client::Transport, uss::Client};
 pub struct Line;

@@ -5,10 +5,20 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
+from fieldscribe.diagnostics import Report
 from fieldscribe.families.uss import Link, Request, broadcast, build, check_byte, parameter_words, parse, telegram
 from fieldscribe.model import Bus, Code
+from fieldscribe.pipeline import load_device
+from fieldscribe.resources import descriptions_dir
 from hypothesis import given
 from hypothesis import strategies as st
+
+
+def test_variants_may_take_fewer_words() -> None:
+    """Maximale PZD-Länge, section on BiCo: 4 words for the 410 and 420, 8 for the 430 and 440."""
+    device = load_device(descriptions_dir() / "siemens_mm4/device.yaml", Report())
+    assert device is not None
+    assert dict(device.bus.variant_pzd) == {"model=mm410": 4, "model=mm420": 4, "model=mm430": 8, "model=mm440": 8}
 
 
 def task(number: int, *answers: int) -> Code:

@@ -504,6 +504,8 @@ class Bus:
     """USS: the lengths in words that the parameter part may have; 127 is variable."""
     pzd: tuple[int, int] = (0, 0)
     """USS: how many words of process data there may be."""
+    variant_pzd: tuple[tuple[str, int], ...] = ()
+    """USS: variants ("axis=value") that take at most so many words of process data."""
     bitrate: int | None = None
     identifier_bits: int | None = None
 

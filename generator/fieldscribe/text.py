@@ -15,6 +15,10 @@ _SPACES = re.compile(r"\s+")
 _QUERIES = re.compile(r"\?(?=\?)")
 _NUMBERS = re.compile(r"[-+]?[0-9][-0-9.,| ]*")
 _AUTOLINKS = (("://", "&#58;//"), ("www.", "www&#46;"), ("@", "&#64;"), ("$", "&#36;"))
+_TYPEWRITER = str.maketrans(
+    {"\u201e": '"', "\u201c": '"', "\u201d": '"', "\u2019": "'", "\u2013": "-", "\u2026": "..."}
+)
+"""Signs of printers that errata quote, as every editor of firmware shows them."""
 _DROPPED_CATEGORIES = frozenset({"Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp"})
 
 
@@ -30,7 +34,7 @@ def line(text: str) -> str:
 @lru_cache(maxsize=65536)
 def c_comment(text: str) -> str:
     """Text for inside a C block comment: no end or start of comment, no trigraph, no line splice."""
-    cleaned = line(text).replace("*/", "* /").replace("/*", "/ *")
+    cleaned = line(text).translate(_TYPEWRITER).replace("*/", "* /").replace("/*", "/ *")
     return _QUERIES.sub("? ", cleaned).rstrip("\\ ")
 
 

@@ -66,6 +66,10 @@ impl Transport for Bus {
     fn receive(&mut self) -> Result<Frame, Self::Error> {
         self.next()
     }
+
+    fn pending(&mut self) -> Result<Option<Frame>, Self::Error> {
+        Ok(self.waiting.pop_front())
+    }
 }
 
 struct Slow(Bus);
@@ -91,6 +95,10 @@ impl AsyncTransport for Slow {
     async fn receive(&mut self) -> Result<Frame, Self::Error> {
         pause().await;
         self.0.next()
+    }
+
+    async fn pending(&mut self) -> Result<Option<Frame>, Self::Error> {
+        Ok(self.0.waiting.pop_front())
     }
 }
 
@@ -186,8 +194,8 @@ fn numbers_of_two_frames_are_waited_for() {
 
 /// A device that takes the nearest number it likes.
 fn other_numbers_are_told() {
-    let mut bus = Bus::new(&[(507, 1)], vec![]);
-    bus.waiting.push_back(messages::WRITE_ANSWER.build(&PROFILE, 5, 507, 399).unwrap());
+    let nearest = messages::WRITE_ANSWER.build(&PROFILE, 5, 507, 399).unwrap();
+    let bus = Bus::new(&[(507, 1)], vec![nearest]);
     let mut client = Client::new(bus, &PROFILE, 5);
     assert_eq!(client.write::<points::Ratio>(400), Err(ClientError::EchoMismatch(399)));
 }
@@ -210,16 +218,34 @@ fn units_are_checked() {
     assert!(client.into_transport().sent.is_empty());
 }
 
+fn is_send<T: Send>(_: &T) {}
+
 fn waits_without_blocking() {
     let bus = Bus::new(&[(507, 200)], vec![]).then(&[part(0, [100, 0, 0])]);
     let mut client = AsyncClient::new(Slow(bus), &PROFILE, 5).listening(Receiver::<telegrams::Measured>::new(5));
     assert_eq!(finish(client.read::<points::Ratio>()), Ok(200));
     assert_eq!(finish(client.write::<points::Ratio>(300)), Ok(()));
     assert_eq!(finish(client.receive::<points::Frequency>()), Ok(1.0));
+    is_send(&client.write::<points::Ratio>(300));
+    is_send(&client.receive::<points::Frequency>());
     assert_eq!(client.into_transport().0.memory[&507], 300);
 }
 
+fn a_late_answer_is_not_taken_for_the_next() {
+    let late = messages::READ_ANSWER.build(&PROFILE, 5, 407, 1).unwrap();
+    let mut bus = Bus::new(&[(407, 2)], vec![]);
+    bus.waiting.extend([late, part(0, [5000, 0, 0])]);
+    let mut client = Client::new(&mut bus, &PROFILE, 5).listening(Receiver::<telegrams::Measured>::new(5));
+    assert_eq!(client.read::<points::Actual>(), Ok(2));
+    assert_eq!(client.listener().raw::<points::Frequency>(), Ok(5000));
+    let mut bus = Bus::new(&[(407, 2)], vec![]);
+    bus.waiting.push_back(late);
+    let mut client = AsyncClient::new(Slow(bus), &PROFILE, 5);
+    assert_eq!(finish(client.read::<points::Actual>()), Ok(2));
+}
+
 fn main() {
+    a_late_answer_is_not_taken_for_the_next();
     parameters_are_read_and_written();
     receivers_hear_what_others_are_told();
     numbers_of_two_frames_are_waited_for();

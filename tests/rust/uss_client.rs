@@ -7,7 +7,9 @@ use std::sync::Arc;
 use std::task::{Context, Poll, Wake, Waker};
 
 use fieldscribe_runtime::client::{AsyncTransport, Transport};
-use fieldscribe_runtime::uss::{check_byte, AsyncClient, BuildError, Client, ClientError, Link, ParseError, Request};
+use fieldscribe_runtime::uss::{
+    check_byte, AsyncClient, BuildError, Client, ClientError, Link, ParseError, Request, Value,
+};
 use odd_uss::{exceptions, flags, points, tasks, with, Error, PROFILE};
 
 /// A drive with one or two words for each element, which sends its process data and refuses what it does not have.
@@ -18,6 +20,10 @@ struct Drive {
     actual: Vec<u16>,
     sent: Vec<Vec<u8>>,
     longer: bool,
+    /// How many telegrams are taken and not answered.
+    lost: usize,
+    /// What a write changes the first word of a value to, if it is not taken as it is.
+    changes: Option<u16>,
 }
 
 fn word(bytes: &[u8], place: usize) -> u16 {
@@ -42,6 +48,10 @@ impl Drive {
         if self.longer {
             words.push(0);
         }
+        if self.lost > 0 {
+            self.lost -= 1;
+            return Err("nothing came");
+        }
         let mut bytes = vec![2, u8::try_from(2 * words.len() + 2).unwrap(), request[2]];
         bytes.extend(words.iter().flat_map(|word| word.to_be_bytes()));
         bytes.push(check_byte(&bytes));
@@ -59,6 +69,7 @@ impl Drive {
         if task != 1 {
             let length = held.len();
             held.copy_from_slice(&value[..length]);
+            held[0] = self.changes.unwrap_or(held[0]);
         }
         if matches!(task, 11..=14) {
             self.kept.push(task);
@@ -154,6 +165,9 @@ fn refusals_and_wrong_answers_are_told() {
     assert_eq!(client.cycle(), Err(ClientError::Reply(ParseError::WrongLength)));
     let mut client = Client::new(&mut drive, &PROFILE, LINK, 32);
     assert_eq!(client.cycle(), Err(ClientError::Build(BuildError::BadUnit)));
+    let mut client = Client::new(&mut drive, &PROFILE, LINK, 3);
+    let other = client.exchange(Request::cyclic(4)).err();
+    assert_eq!(other, Some(ClientError::Build(BuildError::BadUnit)));
     let mut client = Client::new(&mut drive, &PROFILE, Link::new(127, 200), 3);
     assert_eq!(client.cycle(), Err(ClientError::Build(BuildError::BadLink)));
     assert_eq!(client.broadcast([0; 4]), Err(ClientError::Build(BuildError::BadLink)));
@@ -162,7 +176,7 @@ fn refusals_and_wrong_answers_are_told() {
 fn process_data_go_both_ways() {
     let fifty = 0x4248_0000;
     let mut client = Client::new(drive(), &PROFILE, LINK, 3);
-    assert_eq!(client.heard::<points::StatusWord>(), Err(Error::WrongLength));
+    assert_eq!(client.heard::<points::StatusWord>(), Err(Error::NotHeard));
     assert_eq!(client.cycle(), Ok(()));
     assert_eq!(client.heard::<points::StatusWord>(), Ok(flags::StatusWord(0x0331)));
     assert_eq!(client.heard::<points::Energy>(), Ok(0x0001_0002));
@@ -180,7 +194,6 @@ fn process_data_go_both_ways() {
     assert_eq!(client.exchange(Request::new(3, tasks::TASK_1, 700, 0)).unwrap().word(), Ok(2));
     assert_eq!(client.broadcast([6, 0xFFFF, 0, 0]), Ok(()));
     let sent = client.into_transport().sent;
-    let data = |telegram: &[u8]| (4..8).map(|place| word(telegram, place)).collect::<Vec<_>>();
     // Until something is set nothing is: a control word of fixed bits alone would stop the drive.
     assert_eq!(data(&sent[0]), [0, 0, 0, 0]);
     assert_eq!(data(&sent[1]), [0x047F, 0x2000, 0, 0x8002]);
@@ -188,34 +201,163 @@ fn process_data_go_both_ways() {
     assert_eq!((sent[4][2], word(&sent[4], 1)), (32, 0xFFFF));
 }
 
-fn what_failed_is_not_sent_again() {
-    let mut line = drive();
-    line.longer = true;
-    let mut client = Client::new(&mut line, &PROFILE, Link::new(3, 4), 3);
-    assert!(client.send::<points::ControlWord>(flags::ControlWord(0x047F)).is_err());
-    assert!(client.send_bits::<points::Jog>(1).is_err());
-    assert!(client.cycle().is_err());
-    let word_of = |place: usize| u16::from_be_bytes([line.sent[place][9], line.sent[place][10]]);
-    assert_eq!([word_of(0), word_of(1), word_of(2)], [0x047F, 0x0400, 0]);
-    line.longer = false;
-    let mut client = Client::new(&mut line, &PROFILE, Link::new(3, 4), 3);
-    assert_eq!(client.send_bits::<points::Jog>(1), Ok(()));
-    assert_eq!(client.cycle(), Ok(()));
-    assert_eq!(line.sent[4][9..17], [0x04, 0, 0, 0, 0, 0, 0x80, 1]);
+fn data(telegram: &[u8]) -> [u16; 4] {
+    [4, 5, 6, 7].map(|place| word(telegram, place))
 }
+
+/// Sends what starts the drive, and has the answer.
+fn started<T: Transport>(line: T) -> Client<T>
+where
+    T::Error: std::fmt::Debug + PartialEq,
+{
+    let mut client = Client::new(line, &PROFILE, LINK, 3);
+    client.set::<points::ControlWord>(flags::ControlWord(0x047F)).unwrap();
+    client.send_bits::<points::Jog>(2).unwrap();
+    assert_eq!(client.words(), [0x047F, 0, 0, 0x8002]);
+    client
+}
+
+fn neither_old_nor_new_words_are_repeated_after_a_failure() {
+    let mut line = drive();
+    let mut client = started(&mut line);
+    client.transport().lost = 1;
+    let lost = Err(ClientError::Transport("nothing came"));
+    assert_eq!(client.send::<points::ControlWord>(flags::ControlWord(0x047E)), lost);
+    assert_eq!(client.words(), [0; 4]);
+    assert_eq!(client.read::<points::Source>(), Ok(2));
+    client.transport().lost = 1;
+    client.set::<points::ControlWord>(flags::ControlWord(0x047E)).unwrap();
+    assert_eq!(client.write::<points::Source>(3), lost);
+    assert_eq!(client.cycle(), Ok(()));
+    // A telegram that was not sent changes nothing.
+    assert_eq!(client.send::<points::ControlWord>(flags::ControlWord(0x047E)), Ok(()));
+    assert_eq!(client.exchange(Request::new(3, 9, 1, 0)).err(), Some(ClientError::Build(BuildError::BadTask)));
+    assert_eq!(client.words(), [0x047E, 0, 0, 0]);
+    let sent: Vec<_> = line.sent.iter().map(|telegram| data(telegram)).collect();
+    let stop = [0x047E, 0, 0, 0];
+    assert_eq!(sent[1..], [[0x047E, 0, 0, 0x8002], [0; 4], stop, [0; 4], stop]);
+}
+
+fn words_that_the_drive_has_are_repeated() {
+    let mut line = drive();
+    let mut client = started(&mut line);
+    client.transport().lost = 1;
+    assert!(client.cycle().is_err());
+    assert_eq!(client.heard::<points::StatusWord>(), Err(Error::NotHeard));
+    client.set::<points::ControlWord>(flags::ControlWord(0x047F)).unwrap();
+    client.transport().lost = 1;
+    assert!(client.cycle().is_err());
+    assert_eq!(client.words(), [0x047F, 0, 0, 0x8002]);
+}
+
+fn a_refused_task_brings_process_data() {
+    let mut line = drive();
+    line.memory.clear();
+    let mut client = started(&mut line);
+    client.set::<points::ControlWord>(flags::ControlWord(0x047E)).unwrap();
+    let refused = ClientError::Reply(ParseError::Refused(exceptions::NOT_NOW));
+    client.transport().actual[0] = 0x0008;
+    assert_eq!(client.read::<points::Source>(), Err(refused));
+    assert_eq!(client.heard::<points::StatusWord>(), Ok(flags::StatusWord(8)));
+    assert_eq!(client.words(), [0x047E, 0, 0, 0x8002]);
+}
+
+fn constant_bits_come_with_their_own_word() {
+    let mut client = Client::new(drive(), &PROFILE, LINK, 3);
+    let setpoint = with::MainSetpoint { reference: 0x4248_0000 };
+    assert_eq!(client.send_with::<points::MainSetpoint>(25.0, setpoint), Ok(()));
+    assert_eq!(client.send::<points::ControlWord>(flags::ControlWord(1)), Ok(()));
+    assert_eq!(client.set_word(3, 7), Ok(()));
+    assert_eq!(client.set_word(4, 7), Err(Error::WrongLength));
+    assert_eq!(client.cycle(), Ok(()));
+    assert_eq!((client.heard_word(3), client.heard_word(4)), (Ok(1), Err(Error::WrongLength)));
+    let sent = client.into_transport().sent;
+    assert_eq!(data(&sent[0]), [0, 0x2000, 0, 0]);
+    assert_eq!(data(&sent[2]), [0x0401, 0x2000, 0, 7]);
+}
+
+fn answers_are_held_against_what_was_written() {
+    let mut line = drive();
+    line.changes = Some(0);
+    let mut client = Client::new(&mut line, &PROFILE, LINK, 3);
+    assert_eq!(client.write::<points::Source>(4), Err(ClientError::EchoMismatch(Value::Word(0))));
+    assert_eq!(client.store::<points::Source>(4), Err(ClientError::EchoMismatch(Value::Word(0))));
+    assert_eq!(client.update::<points::LowBits>(3), Err(ClientError::EchoMismatch(Value::Word(0))));
+    let far = client.write::<points::Reference>(60.0).unwrap_err();
+    assert_eq!(far.to_string(), "the drive answered 0 to a write");
+    // 33.33 is 0x420551EC; a drive may round: 0x4205_47AE is 33.32, 0x4204_0000 is 33.
+    client.transport().changes = Some(0x4205);
+    assert_eq!(client.write::<points::Reference>(33.33), Ok(()));
+    client.transport().changes = Some(0x4204);
+    assert!(client.write::<points::Reference>(33.33).is_err());
+    client.transport().changes = Some(0x7FC0);
+    assert!(client.write::<points::Reference>(33.33).is_err());
+}
+
+fn all_units_are_sent_valid_words() {
+    let mut line = drive();
+    let mut client = Client::new(&mut line, &PROFILE, LINK, 3);
+    let bad = Err(ClientError::Build(BuildError::BadMask));
+    // Nobody set the control word, whose constant bit makes it valid; it does not matter where it is not meant.
+    assert_eq!(client.broadcast([6, 0xFFFF, 0, 0]), bad);
+    assert_eq!(client.broadcast([4, 0, 0, 0]), Ok(()));
+    client.set::<points::ControlWord>(flags::ControlWord(0)).unwrap();
+    assert_eq!(client.broadcast([2, 0x0001, 0, 0]), bad);
+    assert_eq!(client.broadcast([2, 0x0401, 0, 0]), Ok(()));
+    // No unit confirms it.
+    client.transport().lost = 1;
+    assert!(client.cycle().is_err());
+    assert_eq!(client.words(), [0; 4]);
+    assert_eq!(data(&line.sent[1]), [0x0400, 0, 0, 0]);
+}
+
+fn is_send<T: Send>(_: &T) {}
 
 fn waits_without_blocking() {
     let mut client = AsyncClient::new(drive(), &PROFILE, LINK, 3);
     assert_eq!(finish(client.read::<points::Source>()), Ok(2));
     assert_eq!(finish(client.store::<points::Source>(1)), Ok(()));
     assert_eq!(finish(client.receive::<points::StatusWord>()), Ok(flags::StatusWord(0x0331)));
+    // A task of a runtime with several threads may hold it.
+    is_send(&client.send::<points::ControlWord>(flags::ControlWord(0)));
+    is_send(&client.read::<points::Source>());
     assert_eq!(client.into_transport().kept, [14]);
+}
+
+/// A drive whose answers nobody waits for.
+struct Silent(Drive, bool);
+
+impl AsyncTransport for Silent {
+    type Error = &'static str;
+
+    async fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Self::Error> {
+        let length = self.0.answer(request, reply)?;
+        if self.1 { std::future::pending().await } else { Ok(length) }
+    }
+}
+
+fn a_dropped_exchange_is_a_failed_one() {
+    let mut client = AsyncClient::new(Silent(drive(), false), &PROFILE, LINK, 3);
+    assert_eq!(finish(client.send::<points::ControlWord>(flags::ControlWord(0x047F))), Ok(()));
+    client.transport().1 = true;
+    {
+        let mut stop = pin!(client.send::<points::ControlWord>(flags::ControlWord(0x047E)));
+        let waker = Waker::from(Arc::new(Busy));
+        assert!(stop.as_mut().poll(&mut Context::from_waker(&waker)).is_pending());
+    }
+    assert_eq!(client.words(), [0; 4]);
 }
 
 fn main() {
     parameters_are_read_and_written();
     refusals_and_wrong_answers_are_told();
     process_data_go_both_ways();
-    what_failed_is_not_sent_again();
+    neither_old_nor_new_words_are_repeated_after_a_failure();
+    words_that_the_drive_has_are_repeated();
+    a_refused_task_brings_process_data();
+    constant_bits_come_with_their_own_word();
+    answers_are_held_against_what_was_written();
+    all_units_are_sent_valid_words();
+    a_dropped_exchange_is_a_failed_one();
     waits_without_blocking();
 }

@@ -2,8 +2,10 @@
 
 manual.py      the text: its lines, sections, table rows, and the numbers in them
 claims.py      what a description takes from the manual, and which line it names for that
+placement.py   where cited lines stand in an edition that changed
 comparison.py  the two held against each other
 outcome.py     what was found, as plain data
+report.py      the same for people, as lines of text or a page
 """
 
 from fieldscribe.audit.comparison import audit

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from bisect import bisect_right
+from bisect import bisect_left, bisect_right
 from typing import TYPE_CHECKING
 
 from fieldscribe.audit.claims import Claim, PrintedErratum, claims_of, errata_of, looked_through_of
@@ -12,7 +12,8 @@ from fieldscribe.audit.outcome import Audit, Missing, Moved, Uncited, Unprinted,
 from fieldscribe.audit.placement import placement
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Iterator
+    from fractions import Fraction
 
     from fieldscribe.checks.subject import Subject
 
@@ -179,19 +180,30 @@ class _Comparison:
                 Extent(min(one.first, two.first), max(one.last, two.last), "section")
                 for one, two in zip(cited, sections, strict=True)
             ]
-        tokens = [token for extent in extents for token in self._tokens(extent)]
         absent = False
-        for number in erratum.numbers:
-            hits = [token for token in tokens if abs(number) in token.readings]
+        for number in map(abs, erratum.numbers):
+            hits = [token for extent in extents for token in self._with(number, extent)]
             near = (token for token in hits if any(token.line in extent for extent in cited))
             self.used.update((token.line, token.column) for token in near)
             absent = absent or not hits
-        text = " ".join(" ".join(self._text(extent) for extent in extents).split())
-        if absent or any(" ".join(one.split()) not in text for one in erratum.texts):
+        if absent or (erratum.texts and self._lacks(erratum.texts, extents)):
             first = extents[0].first
             places = [place for number in erratum.numbers for place in self.manual.lines_of.get(abs(number), ())]
             nearest = min(places, key=lambda place: (abs(place - first), place), default=None)
             self.found.unprinted.append(Unprinted(erratum.id, erratum.shown, erratum.cited[0][0], nearest))
+
+    def _with(self, number: Fraction, extent: Extent) -> Iterator[Token]:
+        """The tokens of an extent that can mean a number."""
+        lines = self.manual.lines_of.get(number, [])
+        for line in lines[bisect_left(lines, extent.first) : bisect_right(lines, extent.last)]:
+            yield from (token for token in self._of_line(line) if number in token.readings)
+        for line, cell in self.manual.merged_cells(extent.first):
+            yield from (token for token in tokens_of(cell, line) if number in token.readings)
+
+    def _lacks(self, texts: Iterable[str], extents: list[Extent]) -> bool:
+        """Whether one of the texts does not stand in the extents."""
+        there = " ".join(" ".join(self._text(extent) for extent in extents).split())
+        return any(" ".join(one.split()) not in there for one in texts)
 
     def _lies_in(self, section: str, line: int) -> bool:
         """Whether a line lies in a section: below its heading, and above the next that does not belong to it."""

@@ -64,7 +64,9 @@ def _candidates(line: int, anchors: list[_Anchor]) -> dict[int, None]:
     """Shifts that lead from a line to places of its anchors, the nearest of each."""
     shifts: dict[int, None] = {}
     for anchor in anchors:
-        nearest = sorted(anchor.places, key=lambda place: (abs(place - line), place))[:_NEAREST]
+        at = bisect_left(anchor.places, line)
+        around = anchor.places[max(0, at - _NEAREST) : at + _NEAREST]  # they are in order
+        nearest = sorted(around, key=lambda place: (abs(place - line), place))[:_NEAREST]
         shifts.update(dict.fromkeys(place - line for place in nearest))
     return shifts
 

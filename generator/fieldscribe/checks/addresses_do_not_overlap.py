@@ -22,6 +22,7 @@ Taken = dict[_Key, list[Resolved]]
 def check(subject: Subject) -> None:
     """Overlapping points, points in gaps, commands on points or in gaps."""
     taken: Taken = {}
+    told: set[int] = set()
     for resolved in subject.resolved:
         if subject.report.full:
             return
@@ -30,7 +31,9 @@ def check(subject: Subject) -> None:
         for address in resolved.point.addresses:
             others = taken.setdefault(_key(subject, resolved.point, address), [])
             for other in others:
-                _compare(subject, resolved, other, address)
+                row = _row(resolved, other)
+                if row not in told and _compare(subject, resolved, other, address) and row is not None:
+                    told.add(row)
             if len(others) < 64:  # more than the bits of a word and its variants: compared enough
                 others.append(resolved)
             _gap(subject, resolved, address)
@@ -51,13 +54,20 @@ def _place(subject: Subject, point: Point, address: int) -> str:
     return f"{point.space} {address} ({address:04X}h)"
 
 
-def _compare(subject: Subject, mine: Resolved, other: Resolved, address: int) -> None:
+def _row(mine: Resolved, other: Resolved) -> int | None:
+    """The row that both are elements of, if they are: where its rule is wrong, one finding is enough."""
+    one, another = mine.draft.element, other.draft.element
+    return id(one.at) if one is not None and another is not None and one.at is another.at else None
+
+
+def _compare(subject: Subject, mine: Resolved, other: Resolved, address: int) -> bool:
+    """Report it if the two take the same bits; whether they do."""
     if _never_meet(mine.point, other.point):
-        return
+        return False
     high, low = mine.point.bits or _WHOLE
     other_high, other_low = other.point.bits or _WHOLE
     if low > other_high or other_low > high:
-        return
+        return False
     related = [(other.draft.span("at"), f"`{other.point.name}` stands here")]
     place = _place(subject, mine.point, address)
     if mine.point.bits and other.point.bits:
@@ -69,7 +79,10 @@ def _compare(subject: Subject, mine: Resolved, other: Resolved, address: int) ->
         hint = "correct one `at`, or give both `bits` of the word"
         if len(mine.point.addresses) > 1 or len(other.point.addresses) > 1:
             hint = "a point of 32 bits takes two addresses, one of 64 bits four: correct one `at` or `type`"
+        elif _row(mine, other) is not None:
+            hint = "`addressing` must give each set and index an address of its own: correct it, or the row"
         subject.report.error("address-taken", message, mine.draft.span("at"), hint, related)
+    return True
 
 
 def _never_meet(mine: Point, other: Point) -> bool:

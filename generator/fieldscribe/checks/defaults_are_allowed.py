@@ -42,7 +42,19 @@ def _fault(point: Point, default: Fraction) -> str | None:
         return f"it lies between two raw numbers{f' (raw {shown})' if len(shown) < _LONGEST else ''}"
     if any(special.low <= raw <= special.high for special in point.specials):
         return None
-    return None if inside(raw.numerator, point.allowed) else f"the range does not allow its raw number {raw}"
+    return _forbidden(point, raw.numerator)
+
+
+def _forbidden(point: Point, raw: int) -> str | None:
+    if not inside(raw, point.allowed):
+        return f"the range does not allow its raw number {raw}"
+    if point.digits is not None:
+        names = {str(entry.raw) for entry in point.digits.enum.entries}
+        wrong = next((digit for digit in str(raw).zfill(point.digits.count) if digit not in names), None)
+        return None if wrong is None else f"no digit is {wrong}"
+    if point.fixed is not None and point.bits is None and raw & point.fixed.mask != point.fixed.bits:
+        return f"its bits {point.fixed.mask:04X}h are always written as {point.fixed.bits:04X}h"
+    return None
 
 
 def _report(subject: Subject, resolved: Resolved, fault: str) -> None:

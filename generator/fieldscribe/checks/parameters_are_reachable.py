@@ -14,6 +14,8 @@ if TYPE_CHECKING:
     from fieldscribe.model import Message, Point
 
 _READ = 1
+_SHORT = 3
+"""The length of a parameter part that has room for one word of a value."""
 
 
 def check(subject: Subject) -> None:
@@ -57,6 +59,15 @@ def _carries(message: Message, kind: str) -> bool:
 def _tasks(subject: Subject, points: list[Point]) -> Iterator[tuple[int, str, str]]:
     known = {code.number for code in subject.bus.functions}
     hint = "list the task under `functions`, or correct `access` or `keeps`"
+    lengths = set(subject.bus.pkw)
+    if lengths == {0}:
+        yield len(points), "no telegram has a parameter part", "correct `pkw`, which lists its lengths in words"
+        return
+    if lengths and lengths <= {0, _SHORT}:
+        wide = sum(point.words > 1 for point in points)
+        hint = "correct `pkw`, or the types"
+        yield wide, f"a parameter part of {_SHORT} words carries no value of 32 bits", hint
+        hint = "list the task under `functions`, or correct `access` or `keeps`"
     if _READ not in known:
         yield sum(one.readable for one in points), f"the device has no task {_READ}, which reads a value", hint
     needed: dict[int, int] = {}

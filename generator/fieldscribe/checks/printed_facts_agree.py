@@ -177,7 +177,8 @@ def _pairs(subject: Subject, resolved: Resolved, pairs: Map) -> None:
     point = resolved.point
     rule = fixed_rule(point)
     if rule is None or point.info.floating:
-        message = f"the pairs of `{point.name}` cannot be checked: its scale is not fixed"
+        why = "it is a floating-point number" if point.info.floating else "its scale is not fixed"
+        message = f"the pairs of `{point.name}` cannot be checked: {why}"
         subject.report.error("bad-formula", message, pairs.span(), "leave them out, or say them in a `note`")
         return
     multiply, add, divide = rule
@@ -185,6 +186,11 @@ def _pairs(subject: Subject, resolved: Resolved, pairs: Map) -> None:
         raw = integer(key, pairs.key_span(key), subject.report)
         given = number(value, pairs.span(key), subject.report)
         if raw is None or given is None:
+            continue
+        if not -(1 << point.width >> 1) <= raw < 1 << point.width:
+            message = f"{key} does not fit into the {point.width} bits of `{point.name}`"
+            hint = "correct the raw number, or the type"
+            subject.report.error("range-outside-type", message, pairs.key_span(key), hint)
             continue
         if raw > point.greatest and raw < 1 << point.width:
             raw -= 1 << point.width  # a pattern of a signed number

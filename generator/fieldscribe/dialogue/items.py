@@ -9,6 +9,7 @@ from fieldscribe.dialogue import Item
 from fieldscribe.dialogue.codec import setting_of
 from fieldscribe.dialogue.meanings import meaning_of, range_remark, raw_text
 from fieldscribe.dialogue.selection import label, same_meaning
+from fieldscribe.families import FAMILIES
 from fieldscribe.text import line
 from fieldscribe.wording import title_text
 
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
     from fieldscribe.model import Device, Point
 
 Where = tuple[str, int, int]
-"""(the space or the telegram, the address, the index or 0)."""
+"""(the space or the telegram, the address, the index that travels beside it or 0)."""
 
 Base = tuple[str, int, int]
 """(space, address, count): where an item is."""
@@ -34,10 +35,12 @@ class Directory:
 
     def __init__(self, device: Device) -> None:
         self._at: dict[Where, list[Point]] = {}
+        indexed = FAMILIES[device.family].indexed
         for point in device.points:
             for place in point.places:
+                index = (point.index or 0) if place.space in indexed else 0
                 for address in place.addresses:
-                    here = self._at.setdefault((point.telegram or place.space, address, point.index or 0), [])
+                    here = self._at.setdefault((point.telegram or place.space, address, index), [])
                     if point not in here:
                         here.append(point)
         self._places: dict[str, set[tuple[tuple[int, ...], int | None]]] = {}

@@ -26,7 +26,12 @@ class UnclearError(Exception):
 
 def choose_variants(device: Device, chosen: Iterable[str]) -> Device:
     """The device with only the points of the chosen variants, each given as `axis=value`."""
-    wanted = dict(_variant(device, one) for one in chosen)
+    wanted: dict[str, str] = {}
+    for axis, value in (_variant(device, one) for one in chosen):
+        if wanted.setdefault(axis, value) != value:
+            raise UnclearError(
+                f"`{axis}` is said to be `{wanted[axis]}` and `{value}`", "choose one value of each axis"
+            )
     if not wanted:
         return device
     points = tuple(point for point in device.points if _stays(point, wanted))

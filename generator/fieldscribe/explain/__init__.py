@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from fieldscribe import wording
 from fieldscribe.explain.lookup import Match, find, near
 from fieldscribe.explain.requests import read_text, write_text
+from fieldscribe.families import FAMILIES
 from fieldscribe.model import UNSETTLED_TYPE
 from fieldscribe.text import line
 from fieldscribe.wording.exact import hex_text, number_text
@@ -84,7 +85,7 @@ def _identity_rows(device: Device, point: Point) -> Iterator[Row]:
     group = next((one for one in device.groups if one.name == point.group), None)
     yield "Group", f"{point.group}: {wording.title_text(group.title)}" if group else point.group
     yield "Variant", point.variant or ""
-    where = "not printed in the manual" if point.address is None else _where(point)
+    where = "not printed in the manual" if point.address is None else _where(device, point)
     yield "Wire address", f"{where}, space {point.space}" if point.telegram is None else where
     for key, printed in point.references.items():
         as_hex = f" ({hex_text(printed)})" if isinstance(printed, int) and printed <= 0x10000 else ""
@@ -97,13 +98,14 @@ def _identity_rows(device: Device, point: Point) -> Iterator[Row]:
     yield "Access", wording.access_text(point.access)
 
 
-def _where(point: Point) -> str:
+def _where(device: Device, point: Point) -> str:
     """The address, with the index or the telegram beside it."""
     address = point.address or 0
     if point.telegram is not None:
         return f"word {address} of the telegram {point.telegram}, counted from 0"
     first = point.addresses[0] if point.text is not None else address
-    index = "" if point.index is None else f", index {point.index}"
+    beside = point.index is not None and point.space in FAMILIES[device.family].indexed
+    index = f", index {point.index}" if beside else ""
     return f"{wording.address_text(first)}{index}"
 
 
@@ -165,6 +167,8 @@ def _behaviour_rows(device: Device, point: Point) -> Iterator[Row]:
     yield "Until", point.until or ""
     yield "Changes", point.changes or ""
     yield "Record", point.record or ""
+    alone = point.index is None or point.space in FAMILIES[device.family].indexed
+    yield "Index", "" if alone else str(point.index)
     yield "Set", "" if point.set is None else str(point.set)
     yield "Changes with", ", ".join(point.changes_with)
     yield "Old names", ", ".join(point.was)

@@ -6,6 +6,7 @@ import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from fieldscribe.families import FAMILIES
 from fieldscribe.text import line
 from fieldscribe.wording.exact import hex_text
 
@@ -118,7 +119,7 @@ def _by_wire(device: Device, number: int) -> Iterator[Match]:
                 told = f"{reading}, {place.space}{purpose}"
                 if point.telegram is not None:
                     told = f"word {number} of the telegram {line(point.telegram)}"
-                elif point.index is not None:
+                elif point.index is not None and place.space in FAMILIES[device.family].indexed:
                     told += f", index {point.index}"
                 yield Match(told, point, word_text(place.addresses, number, text=point.text is not None))
                 break

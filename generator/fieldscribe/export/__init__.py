@@ -69,6 +69,7 @@ def _limits(bus: Bus) -> dict[str, object]:
         "timing": dict(bus.timing),
         "pkw": list(bus.pkw),
         "pzd": list(bus.pzd),
+        "variant_pzd": dict(bus.variant_pzd),
         "bitrate": bus.bitrate,
         "identifier_bits": bus.identifier_bits,
     }

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
     from fieldscribe.diagnostics import Span
     from fieldscribe.resolve.drafts import Draft
+    from fieldscribe.resolve.elements import Element
     from fieldscribe.resolve.scope import Scope
 
 _FORMULA = re.compile(r"[A-Za-z0-9_)]\s*[-+*/]|\(|\bbase\b")
@@ -25,6 +26,9 @@ _MOST_WORDS = 125
 _ACCESS = {"request": "w", "response": "r", "cyclic": "r"}
 _VERBS = {"w": "written", "r": "read"}
 
+
+_LAST_INDEX = 255
+_RULE_KNOWS = "a rule knows number, index, set, sets and indices"
 
 _TOLD_APART = 2
 """Two words in two frames can be told to belong together; more cannot."""
@@ -40,6 +44,7 @@ class Places:
         bus = scope.bus
         self.order = None if bus is None else bus.get("words")
         self._numberings = Numberings(scope.report)
+        self._wrong_rules: set[int] = set()
 
     def place(self, draft: Draft, space: str, type_name: str, bits: tuple[int, int] | None) -> Place | None:
         """The words of a point, the one with the high part (of a text: the first characters) first.
@@ -171,17 +176,37 @@ class Places:
         group = draft.group
         rule: str | None = group.get("addressing")
         if rule is not None:
-            known = "a rule knows number, index, set, sets and indices"
-            return self._whole(rule, element.values, group.span("addressing"), known)
+            return self._ruled(draft, element, rule)
+        if "addressing" in group.broken:
+            return None
         indexed = draft.get("space") in self.scope.family.indexed
-        if (element.set_number is not None or (element.index is not None and not indexed)) and (
-            "addressing" not in group.broken
-        ):
+        if indexed and element.index is not None and element.index > _LAST_INDEX:
+            message = f"the index {element.index} does not fit beside the address"
+            key = "indices" if "indices" in raw else "index"
+            self.report.error("address-outside-space", message, raw.span(key), f"indices are 0..{_LAST_INDEX}")
+            return None
+        if element.set_number is not None or (element.index is not None and not indexed):
             message = "nothing says how the address follows from the number, the set and the index"
             hint = "add `addressing: …` to the group, such as `number * 64 + (index - 1) * sets + (set - 1)`"
             self.report.error("missing-key", message, draft.span("at"), hint)
             return None
         return element.number
+
+    def _ruled(self, draft: Draft, element: Element, rule: str) -> int | None:
+        """What the group's rule gives; what is wrong with the rule is one finding, not one for each element."""
+        span = draft.group.span("addressing")
+        if id(draft.group) in self._wrong_rules:
+            return None
+        exact = formula_value(rule, element.values, span, self.report, _RULE_KNOWS)
+        if exact is None:
+            self._wrong_rules.add(id(draft.group))
+            return None
+        if exact.denominator != 1:
+            self._wrong_rules.add(id(draft.group))
+            message = f"the address of `{draft.name}` would be {number_text(exact)}, which is no whole number"
+            self.report.error("bad-number", message, span, "correct the rule, or the number, set or index of the row")
+            return None
+        return exact.numerator
 
     def _whole(self, text: str, known: Mapping[str, Fraction], span: Span, unknown: str) -> int | None:
         exact = formula_value(text, known, span, self.report, unknown)

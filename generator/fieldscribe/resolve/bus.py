@@ -14,7 +14,7 @@ from fieldscribe.resolve.scope import Scope, titles
 from fieldscribe.resolve.values import integer, interval
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterator, Mapping
 
 NO_BUS = Bus((), (0, 0), None, (), (), {}, None, {}, {}, {})
 _LAST_UNIT = 255
@@ -23,20 +23,22 @@ _MOST_PZD = 16
 
 @dataclass(frozen=True, slots=True)
 class _Rules:
-    """What a family needs under `bus`, what it knows besides, and how far its codes go."""
+    """What a family needs under `bus`, what it knows besides, how far its codes and units go, its one broadcast."""
 
     needed: tuple[str, ...]
     known: frozenset[str]
     last_function: int
     last_exception: int
     first_code: int = 0
+    last_unit: int = 255
+    broadcast: int | None = None
 
 
 _OF_ALL = frozenset({"units", "exceptions", "timing", "serial", "note", "source", "line", "words", "gaps"})
 _FAMILIES = {
     "modbus": _Rules(("framings", "functions"), _OF_ALL | {"broadcast", "pad_coil_bytes"}, 127, 255, 1),
     "can": _Rules((), _OF_ALL | {"bitrate", "identifier_bits", "broadcast"}, 0, 255),
-    "uss": _Rules(("pkw", "pzd", "functions", "responses"), _OF_ALL | {"broadcast", "bitrate"}, 15, 255),
+    "uss": _Rules(("pkw", "pzd", "functions", "responses"), _OF_ALL | {"broadcast", "bitrate"}, 15, 255, 0, 31, 32),
 }
 
 
@@ -58,12 +60,16 @@ def bus_of(scope: Scope) -> Bus:
         codes(scope, raw.get(key) if key in rules.needed else None, rules.first_code, rules.last_function)
         for key in ("functions", "responses")
     )
+    if rules.broadcast is not None and raw.get("broadcast", rules.broadcast) != rules.broadcast:
+        message = f"{raw['broadcast']} is no broadcast of the family {scope.header['family']}"
+        hint = f"write {rules.broadcast}: bit 5 of the address byte, or leave it out"
+        scope.report.error("wrong-choice", message, raw.span("broadcast"), hint)
     if scope.header["family"] == "modbus":
         _counts(scope, raw, functions)
         _broadcasts(scope, raw, functions)
     return Bus(
         framings=tuple(raw.get("framings", ())),
-        units=_numbers(scope, raw, "units", "are no unit addresses", _LAST_UNIT),
+        units=_numbers(scope, raw, "units", "are no unit addresses", rules.last_unit),
         broadcast=raw.get("broadcast"),
         functions=functions,
         exceptions=codes(scope, raw.get("exceptions"), rules.first_code, rules.last_exception),
@@ -75,9 +81,24 @@ def bus_of(scope: Scope) -> Bus:
         responses=responses,
         pkw=tuple(dict.fromkeys(raw.get("pkw", ()))),
         pzd=_numbers(scope, raw, "pzd", "is no count of words", _MOST_PZD),
+        variant_pzd=tuple(_variant_pzd(scope)) if "pzd" in raw else (),
         bitrate=raw.get("bitrate"),
         identifier_bits=raw.get("identifier_bits"),
     )
+
+
+def _variant_pzd(scope: Scope) -> Iterator[tuple[str, int]]:
+    """The variants whose property `pzd` says that they take fewer words of process data than the product as a whole."""
+    for axis, entry in scope.axes.items():
+        for value, properties in entry["values"].items():
+            if "pzd" not in properties:
+                continue
+            most = integer(properties["pzd"], properties.span("pzd"), scope.report)
+            if most is not None and not 0 <= most <= _MOST_PZD:
+                message = f"{most} is no count of words"
+                scope.report.error("address-outside-space", message, properties.span("pzd"), f"write 0..{_MOST_PZD}")
+            elif most is not None:
+                yield f"{axis}={value}", most
 
 
 def _of_family(scope: Scope, raw: Map, rules: _Rules) -> None:

@@ -105,7 +105,8 @@ def _facts_of_families(device: Device) -> Iterator[object]:
     bus = device.bus
     codes = [(code.number, code.answers, code.refusals) for code in (*bus.functions, *bus.exceptions)]
     if bus.pkw or bus.responses:
-        yield bus.pkw, bus.pzd, codes, [(code.number, code.name, code.answers) for code in bus.responses]
+        responses = [(code.number, code.name, code.answers) for code in bus.responses]
+        yield bus.pkw, bus.pzd, bus.variant_pzd, codes, responses
     if bus.identifier_bits is not None:
         yield bus.identifier_bits
     for message in device.messages:

@@ -96,7 +96,15 @@ def _elements(scope: Scope, group: Map, point: Map) -> Iterator[Draft]:
         scope.report.error("two-meanings", "the sets are said twice", point.key_span("sets"), hint)
     elements = elements_of(scope, point["at"])
     each: Map = point.get("each") or Map(point.file, point.at)
-    overrides = {_key(key): each[key] for key in each}
+    overrides: dict[str, Map] = {}
+    spelt: dict[str, str] = {}
+    for key in each:
+        if _key(key) in overrides:
+            first = [(each.key_span(spelt[_key(key)]), "first given here")]
+            message = f"the element {key} is given twice"
+            scope.report.error("duplicate-name", message, each.key_span(key), "say it once", first)
+        spelt.setdefault(_key(key), key)
+        overrides.setdefault(_key(key), each[key])
     known = dict.fromkeys(key for element in elements for key in reversed(element.keys))
     for key in each:
         if elements and _key(key) not in known:

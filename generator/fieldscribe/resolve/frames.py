@@ -47,7 +47,7 @@ def frames_of(scope: Scope, bus: Bus, index: Index, points: Mapping[str, Point])
         seen[name] = raw.span("name")
         answers = raw.get("answers")
         if answers is not None and answers not in result:
-            if answers not in seen:
+            if answers == name or answers not in seen:
                 hint = "the request stands above its answer"
                 scope.unknown("frame", answers, raw.span("answers"), list(result), hint)
             continue

@@ -24,6 +24,7 @@ LENGTH = 8
 _HOW = "write a number, unit, address, raw, multiplexer, words, or xor 0..5"
 _WIDEST = {"unit": 2, "address": 2, "raw": 2, "multiplexer": 1, "words": LENGTH}
 _ELEVEN = 11
+_UNITS = 256
 _BYTES = re.compile(r"([0-7])(?:\.\.([0-7]))?")
 
 
@@ -72,14 +73,14 @@ def _identifier(scope: Scope, bus: Bus, raw: Map) -> tuple[int, bool] | None:
     span, text = raw.span("can_id"), str(raw["can_id"])
     try:
         expression = parse_expression(text)
-        at = [evaluate(expression, {"unit": Fraction(unit)}) for unit in (0, 1, 255)]
+        at = [evaluate(expression, {"unit": Fraction(unit)}) for unit in range(_UNITS)]
     except FormulaError as error:
         if "is not known" in error.message:
             error.hint = "an identifier is a number, or a number + unit"
         formula_finding(error, span, scope.report)
         return None
     slope = at[1] - at[0]
-    if at[0].denominator != 1 or slope not in (0, 1) or at[2] - at[0] != 255 * slope:
+    if at[0].denominator != 1 or slope not in (0, 1) or at != [at[0] + unit * slope for unit in range(_UNITS)]:
         hint = "write it as `33Fh`, or `320h + unit`"
         scope.report.error("bad-formula", f"`{text}` is no identifier", span, hint)
         return None

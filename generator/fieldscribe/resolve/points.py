@@ -86,7 +86,7 @@ def _point(scope: Scope, draft: Draft, shape: Shape, places: Places, ranges: Ran
     enum = None if draft.text else enum_of(scope, draft, closed=not ranged and not said_open)
     allowed = ranges.allowed(draft, enum)
     if digits is not None and not ranged:
-        allowed = allowed_digits(digits)
+        allowed = allowed_digits(scope, draft, digits, shape.holds[1])
     if enum is not None and not said_open and _all_named(allowed, enum):
         enum = enum_of(scope, draft, closed=True)
     cases = _cases(draft, ranges.bounds)
@@ -223,6 +223,9 @@ def _changes_with(draft: Draft, index: Index) -> tuple[str, ...]:
         used = index.all(word)
         if not used:
             index.unknown(word, words.span(place))
+        if draft in used:
+            message = f"`{draft.name}` cannot change with itself"
+            index.scope.report.error("two-meanings", message, words.span(place), "name the points that change it")
         found.update(dict.fromkeys(one.name for one in used))
     return tuple(found)
 

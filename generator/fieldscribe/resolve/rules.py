@@ -51,6 +51,7 @@ class Scales:
         if used is None:
             self.index.unknown(name, place)
             raise UnknownError
+        self._settled(used, name, part, place)
         if used.floating:
             self._floating(used, name, part, place, in_scale=in_scale)
             return Affine(self._named(draft, used, place), Fraction(1), Fraction(0))
@@ -67,6 +68,15 @@ class Scales:
                 place, f"the scale of `{name}` differs by variant", f"use `{name}.raw`, or give `variants` here too"
             )
         return Affine(self._named(draft, used, place), 1 / rule.ratio, -rule.offset / rule.ratio)
+
+    def _settled(self, used: Draft, name: str, part: Part, place: Span) -> None:
+        """A finding unless the point is a number, and one that the manual settles."""
+        if used.text:
+            self._refuse(place, f"`{name}` is a text", "name a number")
+        for key in ("type",) if part == "raw" else ("type", "scale"):
+            if used.layer(key) is not None and used.get(key) is None and key not in used.failed:
+                hint = "a formula needs what is settled: write `scale: ~` here too, or settle it"
+                self._refuse(place, f"the {key} of `{name}` is not settled", hint)
 
     def _named(self, draft: Draft, used: Draft, place: Span) -> str:
         """What the model calls a point that `draft` uses: its item in the same variant, else the name of all."""

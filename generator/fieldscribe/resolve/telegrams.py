@@ -43,6 +43,7 @@ def telegrams_of(scope: Scope, messages: tuple[Message, ...]) -> Telegrams:
             continue
         seen[name] = raw.span("name")
         carried = _carried(scope, raw, by_name)
+        _fits(scope, raw, by_name, [telegram for telegram, _ in result.values()])
         telegram = Telegram(
             name=name,
             title=titles(raw.get("title"), humanised(name)),
@@ -70,10 +71,52 @@ def telegram_of(scope: Scope, telegrams: Telegrams, draft: Draft) -> tuple[Teleg
     return found
 
 
+def _fits(scope: Scope, raw: Map, messages: Mapping[str, Message], before: list[Telegram]) -> None:
+    """Findings for a telegram that nothing carries, that goes another way than its message, or shares it."""
+    name, direction, carrier = str(raw["name"]), raw["direction"], raw.get("message")
+    if scope.header["family"] == "uss":
+        _of_uss(scope, raw, before)
+        return
+    if carrier is None:
+        if "message" not in raw.broken:
+            text = f"nothing says which message carries `{name}`"
+            scope.report.error("missing-key", text, raw.span("name"), "add `message: …`")
+        return
+    message, other = messages.get(carrier), next((one for one in before if one.message == carrier), None)
+    if message is not None and message.direction != direction:
+        text = f"`{name}` is said to be {direction}, its message `{carrier}` is {message.direction}"
+        scope.report.error("wrong-choice", text, raw.span("direction"), f"write `direction: {message.direction}`")
+    elif other is not None:
+        text = f"the message `{carrier}` carries `{other.name}` already"
+        hint = "nobody could tell whose words they are: give each telegram its own message, or make them one"
+        scope.report.error("two-meanings", text, raw.span("message"), hint)
+
+
+def _of_uss(scope: Scope, raw: Map, before: list[Telegram]) -> None:
+    """Findings for what the process data of the family uss cannot be."""
+    name, direction = str(raw["name"]), raw["direction"]
+    if "message" in raw:
+        hint = "leave it out: the frames of uss are known"
+        scope.report.error("family-key", "messages are for the family can", raw.key_span("message"), hint)
+    if direction not in ("request", "response"):
+        hint = "write `direction: request` for what the master sends, `response` for what the device sends"
+        scope.report.error("wrong-choice", f"process data are no {direction} telegram", raw.span("direction"), hint)
+    other = next((one for one in before if one.direction == direction), None)
+    if other is not None:
+        text = f"`{other.name}` and `{name}` are both of direction {direction}"
+        hint = "a telegram has process data once in each direction: make them one, or points with `when`"
+        scope.report.error("two-meanings", text, raw.span("direction"), hint)
+    bus = scope.bus
+    longest = "" if bus is None else str(bus.get("pzd", "")).rpartition("..")[2].strip()
+    if longest.isdecimal() and raw["words"] > int(longest):
+        text = f"`{name}` has {raw['words']} words, the process data at most {longest}"
+        scope.report.error("too-many-items", text, raw.span("words"), "correct `words`, or `pzd` under `bus`")
+
+
 def _carried(scope: Scope, raw: Map, messages: Mapping[str, Message]) -> int:
     """How many words one frame carries if there are several frames, else 0; findings where they cannot."""
     name = raw.get("message")
-    if name is None:
+    if name is None or scope.header["family"] != "can":
         return 0
     message = messages.get(name)
     span = raw.span("message")

@@ -66,11 +66,16 @@ def digits_of(scope: Scope, draft: Draft) -> Digits | None:
     return Digits(raw["count"], enum) if enum.entries else None
 
 
-def allowed_digits(digits: Digits) -> Allowed:
+def allowed_digits(scope: Scope, draft: Draft, digits: Digits, greatest: int) -> Allowed:
     """The numbers from all lowest to all highest digits; between them each digit is one of the enum's."""
     ones = sum(10**place for place in range(digits.count))
     numbers = [entry.raw for entry in digits.enum.entries]
-    return Allowed((Interval(min(numbers) * ones, min(max(numbers) * ones, (1 << WORD_BITS) - 1)),), False, ())
+    low = min(numbers) * ones
+    if greatest < max(low, 10 ** (digits.count - 1)) and not draft.failed & {"type", "bits", "space"}:
+        message = f"{digits.count} digits do not fit `{draft.name}`, which holds numbers up to {greatest}"
+        scope.report.error("range-outside-type", message, draft.span("digits"), "correct `count`, `type` or `bits`")
+        low = 0
+    return Allowed((Interval(low, min(max(numbers) * ones, greatest)),), False, ())
 
 
 def fixed_of(scope: Scope, draft: Draft, bits: tuple[int, int] | None, width: int) -> Fixed | None:

@@ -177,8 +177,13 @@ def flag_text(flag: Flag, point: Point | None = None) -> str:
     """One flag of a word: `bit 3 = fault (Fault), true when 0`, or `bits 5..4 = mode (Mode): 0 = stop (Stop)`."""
     head = f"{'bit' if flag.width == 1 else 'bits'} {flag_bits(flag, point)} = {flag.name} ({title_text(flag.title)})"
     inverted = ", true when 0" if flag.width == 1 and flag.active == 0 else ""
-    values = ": " + ", ".join(map(entry_text, flag.values)) if flag.values else ""
+    values = ": " + ", ".join(map(flag_value_text, flag.values)) if flag.values else ""
     return head + inverted + values
+
+
+def flag_value_text(entry: Entry) -> str:
+    """What a number of a flag means: `0 = not ready`; with its name where it has one of its own."""
+    return f"{entry.raw} = {title_text(entry.title)}" if entry.name in ("zero", "one") else entry_text(entry)
 
 
 def keeps_text(device: Device, point: Point) -> str:

@@ -213,7 +213,7 @@ def _flag_table(point: Point) -> Table:
             code(flag.name),
             cell(wording.title_text(flag.title)),
             "0" if flag.width == 1 and flag.active == 0 else "1" if flag.width == 1 else "",
-            ", ".join(cell(wording.entry_text(entry)) for entry in flag.values),
+            ", ".join(cell(wording.flag_value_text(entry)) for entry in flag.values),
         )
         for flag in point.flags
     ]

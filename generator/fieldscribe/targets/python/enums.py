@@ -14,6 +14,12 @@ if TYPE_CHECKING:
     from fieldscribe.model import Device, Entry, Flag, Point, Titles
 
 
+_WORD_DOC = (
+    "",
+    "Members are bits as they are on the wire; the names in small letters say what is true.",
+)
+
+
 @dataclass(frozen=True, slots=True)
 class Member:
     """One assignment in a class, with its docstring (empty where the name says it all)."""
@@ -24,14 +30,26 @@ class Member:
 
 
 @dataclass(frozen=True, slots=True)
+class Composer:
+    """What makes a word by meaning: its parameters (`on: bool = False`), and the expression that it returns."""
+
+    parameters: tuple[str, ...]
+    result: str
+
+
+@dataclass(frozen=True, slots=True)
 class EnumClass:
-    """One class: its head (`class Name(...):`), its docstring, its members, and for words what reads each flag."""
+    """One class: its head (`class Name(...):`), its docstring by lines, its members, and for words of flags the rest.
+
+    That is what reads each flag, and for words that are written what makes one.
+    """
 
     name: str
     head: str
-    doc: str
+    doc: tuple[str, ...]
     members: tuple[Member, ...]
-    readers: tuple[str, ...]
+    readers: tuple[str, ...] = ()
+    composer: Composer | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,6 +58,7 @@ class EnumsView:
 
     classes: tuple[EnumClass, ...]
     runtime: tuple[str, ...]
+    composes: bool
 
 
 def enums_view(device: Device, names: Identifiers) -> EnumsView:
@@ -49,12 +68,12 @@ def enums_view(device: Device, names: Identifiers) -> EnumsView:
     for point in device.points:
         if point.form == "flags" and point.generated:
             classes += _word(point, names, used)
-    return EnumsView(tuple(classes), tuple(sorted(used)))
+    return EnumsView(tuple(classes), tuple(sorted(used)), any(one.composer for one in classes))
 
 
 def _enum(name: str, title: Titles, entries: tuple[Entry, ...]) -> EnumClass:
     members = tuple(Member(upper(entry.name), str(entry.raw), _entry_doc(entry)) for entry in entries)
-    return EnumClass(name, f"class {name}(enum.IntEnum):", _sentence(title["en"]), members, ())
+    return EnumClass(name, f"class {name}(enum.IntEnum):", (_sentence(title["en"]),), members)
 
 
 def _word(point: Point, names: Identifiers, used: set[str]) -> list[EnumClass]:
@@ -66,10 +85,30 @@ def _word(point: Point, names: Identifiers, used: set[str]) -> list[EnumClass]:
         bits.append(Member(upper(flag.name), f"0x{mask:04X}", _flag_doc(flag)))
         readers.append(laid_out(_reader(point, flag, names), 4))
         used.add("Flag" if flag.width == 1 else "Field")
-    name, doc = names.word_class(point), _sentence(point.title["en"])
+    used.add("Word")
+    name, doc = names.word_class(point), (_sentence(point.title["en"]), *_WORD_DOC)
+    composer = _composer(point, names) if point.writable else None
     # what reads the flags is in a base class, because type checkers take an enum's own attributes for members
     bases = call(f"class {name}", (f"_{name}Flags", "enum.IntFlag", "boundary=enum.KEEP"))
-    return [*classes, EnumClass(name, f"{laid_out(bases, 0)}:", doc, tuple(bits), tuple(readers))]
+    return [*classes, EnumClass(name, f"{laid_out(bases, 0)}:", doc, tuple(bits), tuple(readers), composer)]
+
+
+def _composer(point: Point, names: Identifiers) -> Composer:
+    """Flags whose bits are always written as a constant have no parameter: there is no choice."""
+    mask, bits = (point.fixed.mask, point.fixed.bits) if point.fixed else (0, 0)
+    parameters, parts = [], []
+    for flag in point.flags:
+        if mask >> flag.low & (1 << flag.width) - 1 == (1 << flag.width) - 1:
+            continue
+        attribute = word_attribute(flag.name)
+        named = names.field_class(point, flag.name)
+        kind = "bool = False" if flag.width == 1 else f"{named} | int = 0" if named else "int = 0"
+        parameters.append(f"{attribute}: {kind}")
+        parts.append(f"cls.{attribute}.place({attribute})")
+    if bits:
+        parts.append(f"0x{bits:04X}")
+    composed = call("return cls", (call("cls._joined", tuple(parts)),))
+    return Composer(tuple(parameters), laid_out(composed, 8))
 
 
 def _reader(point: Point, flag: Flag, names: Identifiers) -> Node:
@@ -87,11 +126,12 @@ def _entry_doc(entry: Entry) -> str:
 
 
 def _flag_doc(flag: Flag) -> str:
-    named = "; ".join(f"{value.raw}: {value.title['en']}" for value in flag.values) if flag.width == 1 else ""
-    meaning = named or ("" if flag.active else "true when the bit is 0")
-    if not meaning and _says_the_same(flag.title, flag.name):
+    """What the bits mean; the name of a member cannot tell that its bit is 0 while the name is true."""
+    meaning = "; ".join(f"{value.raw}: {value.title['en']}" for value in flag.values) if flag.width == 1 else ""
+    if not meaning and flag.active and _says_the_same(flag.title, flag.name):
         return ""
-    return _sentence(f"{flag.title['en']} ({meaning})" if meaning else flag.title["en"])
+    text = _sentence(f"{flag.title['en']} ({meaning})" if meaning else flag.title["en"])
+    return text if flag.active else f"{text} True while the bit is 0."
 
 
 def _says_the_same(title: Titles, name: str) -> bool:

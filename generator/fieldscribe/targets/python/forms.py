@@ -16,7 +16,8 @@ if TYPE_CHECKING:
 
 
 _PLACES = {"coil": "coil", "discrete": "discrete", "holding": "holding", "input": "input_register"}
-_NUMBERED = frozenset({"parameter", "telegram"})
+NUMBERED = frozenset({"parameter", "telegram"})
+"""Spaces whose addresses manuals print in decimal."""
 
 
 def form(point: Point, scope: Scope) -> Node:
@@ -192,7 +193,7 @@ def place(keyword: str, where: Place, scope: Scope, point: Point | None = None) 
     function = [] if where.function is None else [f"function=0x{where.function:02X}"]
     index = [] if point is None or point.index is None else [f"index={point.index}"]
     addresses = [f"0x{address:04X}" for address in where.addresses]
-    if where.space in _NUMBERED:  # manuals print these in decimal
+    if where.space in NUMBERED:
         scope.used.add(where.space)
         numbers = [str(address) for address in where.addresses]
         telegram = [] if point is None or point.telegram is None else [python_string(point.telegram)]

@@ -14,36 +14,21 @@ if TYPE_CHECKING:
 
 DEVICE_MEMBERS = frozenset(
     {
-        "ask",
-        "command",
+        "broadcast",
+        "drop_process_data",
         "forget",
         "fresh_for",
-        "gather_steps",
-        "get_steps",
-        "handle",
         "link",
         "patience",
         "point",
-        "put_steps",
-        "raws_steps",
         "read_at",
         "read_many",
-        "read_many_steps",
-        "read_raw_steps",
-        "read_steps",
-        "receivers",
-        "require",
-        "run",
-        "shared_word_steps",
-        "store_steps",
+        "repeats",
         "take",
-        "taken",
         "transport",
         "unit",
         "variants",
         "write_at",
-        "write_raw_steps",
-        "write_steps",
     }
 )
 """Public members of the runtime's devices, which no point may hide (the tests hold this against the runtime)."""
@@ -56,6 +41,7 @@ WORD_MEMBERS = frozenset(
         "as_integer_ratio",
         "bit_count",
         "bit_length",
+        "cls",
         "conjugate",
         "denominator",
         "from_bytes",
@@ -64,12 +50,13 @@ WORD_MEMBERS = frozenset(
         "mro",
         "name",
         "numerator",
+        "of",
         "real",
         "to_bytes",
         "value",
     }
 )
-"""Public members of IntFlag, which no flag may hide."""
+"""Public members of IntFlag and of words of flags, which no flag may hide."""
 
 _ATTRIBUTE_TAKEN = PYTHON_RESERVED | DEVICE_MEMBERS | HELPERS
 _WORD_TAKEN = PYTHON_RESERVED | WORD_MEMBERS

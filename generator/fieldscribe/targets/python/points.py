@@ -10,7 +10,7 @@ from fieldscribe.targets.python.commands import commands, variants
 from fieldscribe.targets.python.existence import only_for
 from fieldscribe.targets.python.families import FAMILIES
 from fieldscribe.targets.python.families.family import RUNTIME, Family
-from fieldscribe.targets.python.forms import allowed, form, number, place, spans
+from fieldscribe.targets.python.forms import NUMBERED, allowed, form, number, place, spans
 from fieldscribe.targets.python.identifiers import Identifiers, attribute, sorted_imports
 from fieldscribe.targets.python.layout import WIDTH, Group, Node, assigned, comment, laid_out
 from fieldscribe.targets.python.scope import Scope
@@ -18,11 +18,12 @@ from fieldscribe.text import python_doc, python_string
 from fieldscribe.wording import range_text
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterable, Mapping
 
     from fieldscribe.model import Device, Erratum, Point
 
 _DOC = WIDTH - 4 - 6  # what an indentation and two triple quotes leave
+_UNSETTLED = "the manual does not settle"
 _BODY = 8  # the indentation of an attribute's arguments
 
 
@@ -48,9 +49,14 @@ class GroupView:
 
 @dataclass(frozen=True, slots=True)
 class PointsView:
-    """The points module. `imports` are modules of the runtime with the names taken from each."""
+    """The points module.
+
+    `imports` are modules of the runtime with the names taken from each, `open_points` the lines that say where those
+    points are that the manual does not settle.
+    """
 
     imports: list[tuple[str, list[str]]]
+    open_points: tuple[str, ...]
     uses_enums: bool
     profile: str
     blocks: str
@@ -80,6 +86,7 @@ def points_view(device: Device, names: Identifiers) -> PointsView:
     profile, blocks = family.profile(device, scope), family.blocks(device, scope)
     return PointsView(
         imports=_imports(scope.used - {"enums"}, family),
+        open_points=tuple(_open_points(device)),
         uses_enums="enums" in scope.used,
         profile=laid_out(profile, 4),
         blocks="" if blocks is None else laid_out(blocks, 4),
@@ -172,9 +179,10 @@ def _by_variant(points: list[Point], scope: Scope) -> PointView:
 def _doc(point: Point, errata: Mapping[str, Erratum], by_name: Mapping[str, Point]) -> tuple[str, ...]:
     limits = range_text(point, by_name) if point.writable and point.form in ("scaled", "float", "integer") else ""
     first = f"{point.title['en']}: {limits}" if limits else point.title["en"]
+    first = first if first.endswith(".") else f"{first}."
     if point.conditions and point.writable:
-        first += f" (when {', '.join(point.conditions)})"
-    lines = _wrapped(python_doc(first if first.endswith(".") else f"{first}."))
+        first += f" To write it takes: {', '.join(one.replace('_', ' ') for one in point.conditions)}."
+    lines = _wrapped(python_doc(first))
     for one in point.errata:
         erratum = errata[one]
         facts = f"printed: {erratum.printed.rstrip('.')}; taken: {erratum.taken.rstrip('.')}"
@@ -189,5 +197,25 @@ def _wrapped(text: str) -> list[str]:
 
 
 def _left_out(point: Point) -> str:
-    code = f"{point.code} " if point.code else ""
-    return comment(f"{code}{point.item} is only documented: {point.reason or 'no reason given'}")
+    return comment(f"{_labelled(point)} is only documented: {point.reason or 'no reason given'}")
+
+
+def _labelled(point: Point) -> str:
+    return f"{point.code} {point.item}" if point.code else point.item
+
+
+def _open_points(device: Device) -> Iterable[str]:
+    """Names and wire addresses of the points that are there but for their type or scale; item by item in a list."""
+    for point in device.points:
+        if point.generated or not point.places or not (point.reason or "").startswith(_UNSETTLED):
+            continue
+        numbered = point.space in NUMBERED
+        where = ", ".join(str(address) if numbered else f"0x{address:04X}" for address in point.addresses)
+        index = f", index={point.index}" if numbered and point.index is not None else ""
+        text = f"- {_labelled(point)}: {python_string(point.telegram or point.space)}, {where}{index}"
+        yield from _indented(python_doc(text))
+
+
+def _indented(text: str) -> list[str]:
+    """The text of an item of a list, in lines of which the later ones stand below its beginning."""
+    return textwrap.wrap(text, _DOC, subsequent_indent="  ", break_long_words=False, break_on_hyphens=False)

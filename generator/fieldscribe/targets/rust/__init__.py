@@ -25,6 +25,7 @@ _RUNTIME = (
     "src/can/receiver.rs",
     "src/client.rs",
     "src/digits.rs",
+    "src/flags.rs",
     "src/lib.rs",
     "src/modbus/client.rs",
     "src/modbus/error.rs",

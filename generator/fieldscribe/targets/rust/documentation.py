@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.text import line
-from fieldscribe.wording import access_text, address_text, raw_range_text, resolution_text
+from fieldscribe.wording import access_text, address_text, raw_range_text, resolution_text, scale_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -35,20 +35,32 @@ def point_doc(point: Point) -> tuple[str, ...]:
 
 
 def left_out(device: Device) -> tuple[str, ...]:
-    """One line for each point that is only documented."""
+    """One line for each point that is only documented, with its address on the wire if it has one."""
     return tuple(
-        f"`{point.item}`{f' ({quoted(point.code)})' if point.code else ''}"
+        f"`{point.item}`" + "".join(f", {fact}" for fact in _whereabouts(point))
         for point in device.points
         if not point.generated
     )
 
 
-def _facts(point: Point) -> Iterator[str]:
+def _whereabouts(point: Point) -> Iterator[str]:
+    addresses = point.places[0].addresses if point.places else ()
+    if point.code:
+        yield quoted(point.code)
+    if addresses:
+        yield _place(point)
+
+
+def _place(point: Point) -> str:
     space = point.space if point.telegram is None else f"telegram {quoted(point.telegram)} word"
     where = f"{space} {address_text(min(point.places[0].addresses))}"
     where += "" if point.index is None else f" index {point.index}"
-    bits = f" bits {point.bits[0]} to {point.bits[1]}" if point.bits else ""
-    yield f"{quoted(point.code)} at {where}{bits}" if point.code else f"At {where}{bits}"
+    return where + (f" bits {point.bits[0]} to {point.bits[1]}" if point.bits else "")
+
+
+def _facts(point: Point) -> Iterator[str]:
+    where = _place(point)
+    yield f"{quoted(point.code)} at {where}" if point.code else f"At {where}"
     yield f"`{point.type}`"
     if point.form == "text" and point.text is not None:
         yield f"{point.text.characters} characters of {quoted(point.text.encoding)}"
@@ -60,8 +72,11 @@ def _facts(point: Point) -> Iterator[str]:
             yield f"raw {quoted(span)}"
     if point.form in ("scaled", "float"):
         resolution = resolution_text(point)
+        scale = scale_text(point)
         if resolution:
             yield f"steps of {quoted(resolution)}"
+        elif scale:
+            yield f"value {quoted(scale)}"
     yield access_text(point.access)
     if point.variant:
         yield f"for {quoted(point.variant)}"

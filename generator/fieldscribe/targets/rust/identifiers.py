@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from fieldscribe.targets.rust.families import family_identifiers
 from fieldscribe.targets.rust.literals import type_name
 from fieldscribe.targets.rust.subjects import Subject, scope_of
-from fieldscribe.targets.rust.words import getter_name
+from fieldscribe.targets.rust.words import constant_name, getter_name
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -50,10 +50,12 @@ def _of_point(subject: Subject) -> Iterator[Identifier]:
         yield "with", subject.name, own
     if subject.factors and subject.factors != subject.arguments:
         yield "with", f"{subject.name}Factors", f"the scale of {own}"
+    if subject.point.flags:
+        yield f"flags::{item}", "ALL_FALSE", f"nothing true in {own}"
     for flag in subject.point.flags:
         named = f"flag {flag.name} of {own}"
-        yield f"flags::{item}", flag.name.upper(), named
+        yield f"flags::{item}", constant_name(flag), named
         yield f"flags::{item}", getter_name(flag.name), named
         yield f"flags::{item}", f"with_{flag.name}", named
-        for value in flag.values:
+        for value in flag.values if flag.width > 1 else ():
             yield f"flags::{item}", f"{flag.name}_{value.name}".upper(), f"{value.name} of {named}"

@@ -61,6 +61,27 @@ def short_array(indent: int, left: str, items: list[str]) -> Lines:
     return f"{left} = &[", *(f"    {line}" for line in lines), "];"
 
 
+def comparison(indent: int, left: str, right: str) -> Lines:
+    """`left right`, else with `right` on a line of its own."""
+    line = f"{left} {right}"
+    return (line,) if indent + len(line) <= _WIDTH else (left, f"    {right}")
+
+
+def calls(indent: int, left: str, items: list[tuple[str, Lines]]) -> Lines:
+    """`left = &[name(arguments), ...];`: one line, else a line per call, else a line per argument."""
+    flat = [f"{name}({', '.join(arguments)})" for name, arguments in items]
+    joined = ", ".join(flat)
+    if len(joined) <= _ARRAY_WIDTH and indent + len(left) + len(joined) + 7 <= _WIDTH:
+        return (f"{left} = &[{joined}];",)
+    lines = [f"{left} = &["]
+    for line, (name, arguments) in zip(flat, items, strict=True):
+        if indent + 4 + len(line) + 1 <= _WIDTH:
+            lines.append(f"    {line},")
+        else:
+            lines += [f"    {name}(", *(f"        {one}," for one in arguments), "    ),"]
+    return (*lines, "];")
+
+
 def fields_of_self(indent: int, type_: str, names: Lines) -> Lines:
     """A struct literal that takes its fields from `self`."""
     joined = ", ".join(f"{name}: self.{name}" for name in names)

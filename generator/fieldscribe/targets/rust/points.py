@@ -73,6 +73,8 @@ def _constants(subject: Subject, low: int, high: int) -> tuple[str, ...]:
     lines += _whereabouts(point)
     if point.words != 1:
         lines.append(f"const WORDS: u16 = {point.words};")
+    if subject.form == "float":
+        lines.append("const FLOATING: bool = true;")
     if subject.form == "scaled" and point.decimals:
         lines.append(f"const DECIMALS: u32 = {point.decimals};")
     if point.unit.symbol:

@@ -183,15 +183,22 @@ class EnumView:
 
 @dataclass(frozen=True, slots=True)
 class FlagView:
-    """A flag: its mask, how it is read and set, its named numbers (doc, constant)."""
+    """A flag: its mask, how it is read and set, its named numbers (doc, constant).
 
+    `active` is whether a single bit means the flag while it is 1; `meaning` says what else its name does not.
+    """
+
+    name: str
     doc: str
+    meaning: str
+    active: bool
     constant: str
+    constant_lines: tuple[str, ...]
     getter: str
     setter: tuple[str, ...]
     mask: str
     single: bool
-    read: str
+    read: tuple[str, ...]
     full: bool
     placed: str
     when_true: str
@@ -201,10 +208,15 @@ class FlagView:
 
 @dataclass(frozen=True, slots=True)
 class FlagsView:
-    """A word whose bits have names; the bits are held in the unsigned type beside the raw number's."""
+    """A word whose bits have names; the bits are held in the unsigned type beside the raw number's.
+
+    `false` is the word in which nothing is true, `shown` the lines that say how the word is shown.
+    """
 
     doc: str
     name: str
     raw: str
     bits: str
+    false: str
     flags: tuple[FlagView, ...]
+    shown: tuple[str, ...]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.targets.rust.documentation import sentence
-from fieldscribe.targets.rust.layout import arm, binding, fields_of_self, signature
+from fieldscribe.targets.rust.layout import arm, binding, calls, comparison, fields_of_self, signature
 from fieldscribe.targets.rust.literals import integer, mask, type_name, value_name
 from fieldscribe.targets.rust.views import ArgumentsView, EntryView, EnumView, FlagsView, FlagView
 from fieldscribe.text import rust_string
@@ -36,13 +36,35 @@ def getter_name(flag: str) -> str:
     return f"get_{flag}" if flag.startswith(("from_", "as_", "into_", "to_")) else value_name(flag)
 
 
+def constant_name(flag: Flag) -> str:
+    """The constant of a flag's bits; it says so if setting the bit makes the flag false."""
+    return flag.name.upper() + ("" if flag.active or flag.width > 1 else "_ACTIVE_LOW")
+
+
 def flags_views(scope: Scope) -> Iterator[FlagsView]:
     """The words with named bits."""
     for subject in scope.subjects:
         if subject.form == "flags":
             point, bits = subject.point, subject.raw.replace("i", "u")
             flags = tuple(_flag(flag, bits) for flag in point.flags)
-            yield FlagsView(sentence(point.item), subject.name, subject.raw, bits, flags)
+            low = sum(1 << flag.low for flag in point.flags if flag.width == 1 and not flag.active)
+            yield FlagsView(
+                doc=sentence(point.item),
+                name=subject.name,
+                raw=subject.raw,
+                bits=bits,
+                false=mask(low, bits) if low else "0",
+                flags=flags,
+                shown=(
+                    *binding(4, "const NAME: &'static str", rust_string(subject.name)),
+                    *calls(4, "const FLAGS: &'static [runtime::Flag]", [_shown(flag) for flag in flags]),
+                ),
+            )
+
+
+def _shown(flag: FlagView) -> tuple[str, tuple[str, ...]]:
+    """The call that says how a flag is shown."""
+    return f"runtime::Flag::{'new' if flag.active or not flag.single else 'active_low'}", (flag.name, flag.mask)
 
 
 def arguments_views(scope: Scope) -> Iterator[ArgumentsView]:
@@ -62,7 +84,14 @@ def arguments_views(scope: Scope) -> Iterator[ArgumentsView]:
 
 
 def _fields(names: tuple[str, ...], scope: Scope) -> tuple[tuple[str, str, str], ...]:
-    return tuple((f"The raw number of `{name}`.", value_name(name), scope.raw_types[name]) for name in names)
+    return tuple((_source(name, scope), value_name(name), scope.raw_types[name]) for name in names)
+
+
+def _source(name: str, scope: Scope) -> str:
+    """Which points an argument is the raw number of: several where variants of the device differ."""
+    types = [one.name for one in scope.subjects if name in (one.point.item, one.point.name)]
+    links = " or ".join(f"[`{one}`](crate::points::{one})" for one in types)
+    return f"The raw number of {links or f'`{name}`'}."
 
 
 def _enum(enum: Enum, raw: str) -> EnumView:
@@ -82,8 +111,8 @@ def _entry(entry: Entry, enum: str) -> EntryView:
 def _flag(flag: Flag, raw: str) -> FlagView:
     ones = (1 << flag.width) - 1
     bits = mask(ones << flag.low, raw)
-    constant = flag.name.upper()
     single = flag.width == 1
+    constant = constant_name(flag)
     full = ones << flag.low == (1 << int(raw[1:])) - 1
     masked = "self.0" if full else f"self.0 & Self::{constant}"
     number = masked if flag.low == 0 else f"({masked}) >> {flag.low}"
@@ -91,19 +120,26 @@ def _flag(flag: Flag, raw: str) -> FlagView:
     parameter = "state: bool" if single else f"number: {raw}"
     states = (f"self.0 & !Self::{constant}", f"self.0 | Self::{constant}")
     return FlagView(
+        name=rust_string(flag.name),
         doc=sentence(flag.name),
+        meaning=("" if flag.active else "True while the bit is 0.") if single else "A number.",
+        active=bool(flag.active),
         constant=constant,
+        constant_lines=binding(4, f"pub const {constant}: {raw}", bits),
         getter=getter_name(flag.name),
         setter=signature(4, f"pub const fn with_{flag.name}", ("self", parameter), "Self"),
         mask=bits,
         single=single,
-        read=f"{masked} {'!=' if flag.active else '=='} 0" if single else number,
+        read=comparison(8, masked, "!= 0" if flag.active else "== 0") if single else (number,),
         full=full,
         placed=placed,
         when_true=states[flag.active],
         when_false=states[1 - flag.active],
         values=tuple(
-            (sentence(one.name), binding(4, f"pub const {constant}_{one.name.upper()}: {raw}", integer(one.raw)))
-            for one in flag.values
+            (
+                sentence(one.name),
+                binding(4, f"pub const {flag.name.upper()}_{one.name.upper()}: {raw}", integer(one.raw)),
+            )
+            for one in (() if single else flag.values)
         ),
     )

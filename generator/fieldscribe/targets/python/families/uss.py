@@ -9,7 +9,7 @@ from fieldscribe.targets.python.layout import Group, Node, call
 from fieldscribe.text import python_string
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Mapping
 
     from fieldscribe.model import Device, Point
     from fieldscribe.targets.python.scope import Scope
@@ -34,7 +34,20 @@ def _profile(device: Device, scope: Scope) -> Node:
         arguments.append(Group("errors={", tuple(errors), "}"))
     if device.telegrams:
         arguments.append(Group("telegrams=(", telegrams(device.telegrams, scope)))
+    if fewer := _variant_pzd(device):
+        pairs = [
+            _numbers(f"({python_string(axis)}, {python_string(value)}): (", limits)
+            for (axis, value), limits in fewer.items()
+        ]
+        arguments.append(Group("variant_pzd={", tuple(pairs), "}"))
     return call("Profile", arguments)
+
+
+def _variant_pzd(device: Device) -> Mapping[tuple[str, str], tuple[int, int]]:
+    """How many words of process data variants take that take fewer than the whole product."""
+    low, high = device.bus.pzd
+    found = {tuple(variant.split("=", 1)): most for variant, most in device.bus.variant_pzd if most < high}
+    return {(axis, value): (low, most) for (axis, value), most in found.items()}
 
 
 def _numbers(head: str, numbers: Iterable[int]) -> Group:

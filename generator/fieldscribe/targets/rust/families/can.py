@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.targets.rust.documentation import sentence
-from fieldscribe.targets.rust.families.numbers import constants
+from fieldscribe.targets.rust.families.numbers import code_names, constants
 from fieldscribe.targets.rust.layout import array, assignment, binding
 from fieldscribe.targets.rust.literals import integer, mask, type_name
 from fieldscribe.text import rust_string
@@ -46,6 +46,8 @@ def can_context(device: Device) -> dict[str, object]:
     bus = device.bus
     carriers = {message.name: message for message in device.messages}
     return {
+        "exception_type": "u16",
+        "exception_names": code_names(bus.exceptions),
         "units": f"({bus.units[0]}, {bus.units[1]})",
         "identifier_bits": bus.identifier_bits or 11,
         "bitrate": "" if bus.bitrate is None else integer(bus.bitrate),

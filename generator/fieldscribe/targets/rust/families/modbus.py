@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.targets.rust.documentation import sentence
+from fieldscribe.targets.rust.families.numbers import code_names
 from fieldscribe.targets.rust.families.spaces import space
 from fieldscribe.targets.rust.layout import array
 from fieldscribe.text import rust_string
@@ -27,6 +28,8 @@ def modbus_context(device: Device) -> dict[str, object]:
     ]
     return {
         "functions": array(functions),
+        "exception_type": "u8",
+        "exception_names": code_names(bus.exceptions),
         "units": f"({bus.units[0]}, {bus.units[1]})",
         "broadcast": "None" if bus.broadcast is None else f"Some({bus.broadcast})",
         "pad": "true" if bus.pad_coil_bytes == "even" else "false",

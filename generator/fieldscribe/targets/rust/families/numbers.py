@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.targets.rust.documentation import sentence
-from fieldscribe.targets.rust.layout import binding
+from fieldscribe.targets.rust.layout import arm, binding
 from fieldscribe.targets.rust.literals import integer
+from fieldscribe.text import rust_string
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -22,3 +23,10 @@ def constants(codes: Iterable[Code], type_: str) -> tuple[Constant, ...]:
     return tuple(
         (sentence(one.name), binding(4, f"pub const {one.name.upper()}: {type_}", integer(one.number))) for one in codes
     )
+
+
+def code_names(codes: Iterable[Code]) -> tuple[str, ...]:
+    """The arms that turn a code, each once, into its name."""
+    named = {code.number: code.name for code in reversed(tuple(codes))}
+    arms = (arm(12, name.upper(), f"Some({rust_string(name)})") for _, name in sorted(named.items()))
+    return tuple(line for lines in arms for line in lines)

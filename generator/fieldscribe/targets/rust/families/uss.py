@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.targets.rust.families.numbers import constants
+from fieldscribe.targets.rust.families.numbers import code_names, constants
 from fieldscribe.targets.rust.layout import array
 from fieldscribe.targets.rust.literals import type_name
 
@@ -19,6 +19,8 @@ def uss_context(device: Device) -> dict[str, object]:
     """What the template of the family's items sees."""
     bus = device.bus
     return {
+        "exception_type": "u16",
+        "exception_names": code_names(bus.exceptions),
         "units": f"({bus.units[0]}, {bus.units[1]})",
         "pzd": f"({bus.pzd[0]}, {bus.pzd[1]})",
         "pkw": ", ".join(map(str, bus.pkw)),

@@ -1,0 +1,47 @@
+"""What a group says of its points is about points that it has: a telegram, a rule of addresses."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from fieldscribe.language.formula import FormulaError, evaluate, parse_expression
+from fieldscribe.resolve.telegrams import SPACE
+from fieldscribe.resolve.values import formula_finding
+
+if TYPE_CHECKING:
+    from fieldscribe.checks.subject import Subject
+    from fieldscribe.language.nodes import Map
+
+_KNOWN = dict.fromkeys(("number", "index", "set", "sets", "indices"), Fraction(1))
+
+
+def check(subject: Subject) -> None:
+    """A telegram whose words no point is, and a rule that no row uses and that is none."""
+    groups: dict[int, Map] = {}
+    with_words: set[int] = set()
+    with_rows: set[int] = set()
+    for one in subject.resolved:
+        group = one.draft.group
+        groups.setdefault(id(group), group)
+        if one.point.space == SPACE or "space" in one.draft.failed:
+            with_words.add(id(group))
+        if one.draft.element is not None:
+            with_rows.add(id(group))
+    for key, group in groups.items():
+        if "telegram" in group and key not in with_words and SPACE in subject.scope.family.spaces:
+            message = f"no point of the group is a word of the telegram `{group['telegram']}`"
+            hint = "write `space: telegram`, or leave `telegram` out"
+            subject.report.error("two-meanings", message, group.key_span("telegram"), hint)
+        if "addressing" in group and key not in with_rows:
+            _readable(subject, group)
+
+
+def _readable(subject: Subject, group: Map) -> None:
+    try:
+        evaluate(parse_expression(group["addressing"]), _KNOWN)
+    except FormulaError as error:
+        if "is not known" in error.message:
+            error.hint = "a rule knows number, index, set, sets and indices"
+        if "division by zero" not in error.message:  # other numbers may be fine
+            formula_finding(error, group.span("addressing"), subject.report)
