@@ -288,7 +288,7 @@ static inline woodward_mpu2s_status woodward_mpu2s_value_from_raw(const woodward
 /*
  * Telegram identification
  * 0..65535; read only.
- * Erratum telegram_identification_base (unknown): printed: The word is „1301“, with no base; taken: A bare number
+ * Erratum telegram_identification_base (unknown): printed: The word is "1301", with no base; taken: A bare number
  * that is not checked.
  */
 #define WOODWARD_MPU2S_TELEGRAM_IDENTIFICATION_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
@@ -309,8 +309,8 @@ static inline int32_t woodward_mpu2s_telegram_identification_decode(uint16_t raw
 /*
  * Generator frequency
  * 0..655.35 Hz, raw 0..65535, in steps of 0.01 Hz; read only.
- * Erratum telegram_frequency_phases (unknown): printed: „Gen-Frequenz L1/L2“, „Sammelschienenfrequenz“ (line 524)
- * and „Netzfrequenz aus L1 L2 L3“ (line 533); taken: As printed.
+ * Erratum telegram_frequency_phases (unknown): printed: "Gen-Frequenz L1/L2", "Sammelschienenfrequenz" (line 524)
+ * and "Netzfrequenz aus L1 L2 L3" (line 533); taken: As printed.
  */
 #define WOODWARD_MPU2S_GENERATOR_FREQUENCY_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
 #define WOODWARD_MPU2S_GENERATOR_FREQUENCY_ADDRESS 0x0001U
@@ -339,8 +339,8 @@ static inline woodward_mpu2s_real woodward_mpu2s_generator_frequency_decode(uint
  * Generator active power
  * raw -32768..32767; read only.
  * Erratum telegram_signed_power (likely): printed: Nothing is said about a sign; taken: type: s16.
- * Erratum telegram_power_exponent_use (certain): printed: „zusammen mit dem Leistungsexponenten aus dem
- * Busprotokoll“, without its name; taken: PGNEXPO of word 4.
+ * Erratum telegram_power_exponent_use (certain): printed: The remark speaks of the "Leistungsexponenten" without its
+ * name; taken: PGNEXPO of word 4.
  */
 #define WOODWARD_MPU2S_GENERATOR_ACTIVE_POWER_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
 #define WOODWARD_MPU2S_GENERATOR_ACTIVE_POWER_ADDRESS 0x0002U
@@ -546,7 +546,7 @@ static inline int32_t woodward_mpu2s_active_power_setpoint_factor_decode(uint16_
 /*
  * Busbar voltage l1 l2
  * raw 0..65535; read only.
- * Erratum telegram_busbar_voltage_title (certain): printed: „Sammelschienenenspannung“; taken:
+ * Erratum telegram_busbar_voltage_title (certain): printed: "Sammelschienenenspannung"; taken:
  * Sammelschienenspannung.
  */
 #define WOODWARD_MPU2S_BUSBAR_VOLTAGE_L1_L2_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
@@ -638,7 +638,7 @@ static inline woodward_mpu2s_status woodward_mpu2s_mains_voltage_l1_l2_decode(ui
 /*
  * Present fault classes
  * 0..65535; read only.
- * Erratum telegram_pairs_of_bits (likely): printed: „Doppelbits“ is what the words are called; no pattern is given a
+ * Erratum telegram_pairs_of_bits (likely): printed: "Doppelbits" is what the words are called; no pattern is given a
  * meaning; taken: 00 is inactive, 11 is active.
  */
 #define WOODWARD_MPU2S_PRESENT_FAULT_CLASSES_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
@@ -695,9 +695,9 @@ static inline uint16_t woodward_mpu2s_present_fault_classes_fault_class_0(uint16
 /*
  * Control register 2
  * 0..65535; read only.
- * Erratum telegram_pairs_of_bits (likely): printed: „Doppelbits“ is what the words are called; no pattern is given a
+ * Erratum telegram_pairs_of_bits (likely): printed: "Doppelbits" is what the words are called; no pattern is given a
  * meaning; taken: 00 is inactive, 11 is active.
- * Erratum telegram_terminal_4_breaker (unknown): printed: „Klemme 4: LS ist aus“ at bits 7 and 6, GLS at bits 15 to
+ * Erratum telegram_terminal_4_breaker (unknown): printed: "Klemme 4: LS ist aus" at bits 7 and 6, GLS at bits 15 to
  * 12; taken: A circuit breaker that is not named more closely.
  */
 #define WOODWARD_MPU2S_CONTROL_REGISTER_2_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
@@ -769,7 +769,7 @@ static inline uint16_t woodward_mpu2s_control_register_2_terminal_6_synchronisat
 /*
  * Control register 1
  * 0..65535; read only.
- * Erratum telegram_pairs_of_bits (likely): printed: „Doppelbits“ is what the words are called; no pattern is given a
+ * Erratum telegram_pairs_of_bits (likely): printed: "Doppelbits" is what the words are called; no pattern is given a
  * meaning; taken: 00 is inactive, 11 is active.
  */
 #define WOODWARD_MPU2S_CONTROL_REGISTER_1_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
@@ -1275,8 +1275,8 @@ static inline woodward_mpu2s_status woodward_mpu2s_generator_current_l3_decode(u
 /*
  * Generator reactive power
  * raw -32768..32767; read only.
- * Erratum telegram_reactive_power_exponent (unknown): printed: „Blindleistungsexponenten QGNEXPO aus dem Bus-
- * protokoll“; taken: scale: ~.
+ * Erratum telegram_reactive_power_exponent (unknown): printed: "Blindleistungsexponenten QGNEXPO" is said to come
+ * over the bus; taken: scale: ~.
  * Erratum telegram_reactive_power_sign (likely): printed: Nothing is said about a sign; taken: type: s16.
  * Not generated (generator_reactive_power): the manual does not settle its scale.
  */
@@ -1439,7 +1439,7 @@ static inline uint16_t woodward_mpu2s_generator_state_insert(uint16_t word, uint
  * Erratum telegram_exponent_sign (likely): printed: Nothing is said about the sign of an exponent; taken: type: s8.
  * Erratum telegram_exponent_range (likely): printed: No limits are given; taken: 0..5 for the power, -4..4 for
  * voltages, -3..3 for the current.
- * Erratum telegram_current_exponent_name (certain): printed: „IGNEXPO (Leistung)“; taken: Current.
+ * Erratum telegram_current_exponent_name (certain): printed: "IGNEXPO (Leistung)"; taken: Current.
  */
 #define WOODWARD_MPU2S_GENERATOR_CURRENT_EXPONENT_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
 #define WOODWARD_MPU2S_GENERATOR_CURRENT_EXPONENT_ADDRESS 0x001EU
@@ -1478,8 +1478,8 @@ static inline uint16_t woodward_mpu2s_generator_current_exponent_insert(uint16_t
 /*
  * Busbar frequency
  * 0..655.35 Hz, raw 0..65535, in steps of 0.01 Hz; read only.
- * Erratum telegram_frequency_phases (unknown): printed: „Gen-Frequenz L1/L2“, „Sammelschienenfrequenz“ (line 524)
- * and „Netzfrequenz aus L1 L2 L3“ (line 533); taken: As printed.
+ * Erratum telegram_frequency_phases (unknown): printed: "Gen-Frequenz L1/L2", "Sammelschienenfrequenz" (line 524)
+ * and "Netzfrequenz aus L1 L2 L3" (line 533); taken: As printed.
  */
 #define WOODWARD_MPU2S_BUSBAR_FREQUENCY_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
 #define WOODWARD_MPU2S_BUSBAR_FREQUENCY_ADDRESS 0x001FU
@@ -1772,8 +1772,8 @@ static inline woodward_mpu2s_status woodward_mpu2s_mains_voltage_l3_n_decode(uin
 /*
  * Mains frequency
  * 0..655.35 Hz, raw 0..65535, in steps of 0.01 Hz; read only.
- * Erratum telegram_frequency_phases (unknown): printed: „Gen-Frequenz L1/L2“, „Sammelschienenfrequenz“ (line 524)
- * and „Netzfrequenz aus L1 L2 L3“ (line 533); taken: As printed.
+ * Erratum telegram_frequency_phases (unknown): printed: "Gen-Frequenz L1/L2", "Sammelschienenfrequenz" (line 524)
+ * and "Netzfrequenz aus L1 L2 L3" (line 533); taken: As printed.
  */
 #define WOODWARD_MPU2S_MAINS_FREQUENCY_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
 #define WOODWARD_MPU2S_MAINS_FREQUENCY_ADDRESS 0x0026U
@@ -2034,7 +2034,7 @@ static inline woodward_mpu2s_real woodward_mpu2s_battery_voltage_decode(uint16_t
 /*
  * Internal faults 1
  * 0..65535; read only.
- * Erratum telegram_pairs_of_bits (likely): printed: „Doppelbits“ is what the words are called; no pattern is given a
+ * Erratum telegram_pairs_of_bits (likely): printed: "Doppelbits" is what the words are called; no pattern is given a
  * meaning; taken: 00 is inactive, 11 is active.
  */
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_1_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
@@ -2118,9 +2118,9 @@ static inline uint16_t woodward_mpu2s_internal_faults_1_reverse_power(uint16_t r
 /*
  * Internal faults 2
  * 0..65535; read only.
- * Erratum telegram_pairs_of_bits (likely): printed: „Doppelbits“ is what the words are called; no pattern is given a
+ * Erratum telegram_pairs_of_bits (likely): printed: "Doppelbits" is what the words are called; no pattern is given a
  * meaning; taken: 00 is inactive, 11 is active.
- * Erratum telegram_mains_fault_titles (certain): printed: „Netzünterfrequenz“, „Netzünterspannung“; taken:
+ * Erratum telegram_mains_fault_titles (certain): printed: "Netzünterfrequenz", "Netzünterspannung"; taken:
  * Netzunterfrequenz, Netzunterspannung.
  */
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_2_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
@@ -2204,9 +2204,9 @@ static inline uint16_t woodward_mpu2s_internal_faults_2_phase_shift(uint16_t raw
 /*
  * Internal faults 3
  * 0..65535; read only.
- * Erratum telegram_pairs_of_bits (likely): printed: „Doppelbits“ is what the words are called; no pattern is given a
+ * Erratum telegram_pairs_of_bits (likely): printed: "Doppelbits" is what the words are called; no pattern is given a
  * meaning; taken: 00 is inactive, 11 is active.
- * Erratum telegram_unbalanced_load_title (certain): printed: „Schiefast“; taken: Schieflast.
+ * Erratum telegram_unbalanced_load_title (certain): printed: "Schiefast"; taken: Schieflast.
  */
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_3_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_3_ADDRESS 0x0036U
@@ -2271,7 +2271,7 @@ static inline uint16_t woodward_mpu2s_internal_faults_3_maintenance_call(uint16_
 /*
  * Internal faults 4
  * 0..65535; read only.
- * Erratum telegram_pairs_of_bits (likely): printed: „Doppelbits“ is what the words are called; no pattern is given a
+ * Erratum telegram_pairs_of_bits (likely): printed: "Doppelbits" is what the words are called; no pattern is given a
  * meaning; taken: 00 is inactive, 11 is active.
  */
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_4_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
@@ -2364,7 +2364,7 @@ static inline uint16_t woodward_mpu2s_internal_faults_4_analog_input_4_stage_2(u
 /*
  * Internal faults 5
  * 0..65535; read only.
- * Erratum telegram_pairs_of_bits (likely): printed: „Doppelbits“ is what the words are called; no pattern is given a
+ * Erratum telegram_pairs_of_bits (likely): printed: "Doppelbits" is what the words are called; no pattern is given a
  * meaning; taken: 00 is inactive, 11 is active.
  */
 #define WOODWARD_MPU2S_INTERNAL_FAULTS_5_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
@@ -2457,9 +2457,9 @@ static inline uint16_t woodward_mpu2s_internal_faults_5_analog_input_8_stage_2(u
 /*
  * Digital input faults 1 to 8
  * 0..65535; read only.
- * Erratum telegram_pairs_of_bits (likely): printed: „Doppelbits“ is what the words are called; no pattern is given a
+ * Erratum telegram_pairs_of_bits (likely): printed: "Doppelbits" is what the words are called; no pattern is given a
  * meaning; taken: 00 is inactive, 11 is active.
- * Erratum telegram_digital_input_count (unknown): printed: „Digitaleingang 16“ is the last of them (line 556), as in
+ * Erratum telegram_digital_input_count (unknown): printed: "Digitaleingang 16" is the last of them (line 556), as in
  * event 66 (line 2620); taken: 16 flags, as printed.
  */
 #define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_1_TO_8_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
@@ -2552,9 +2552,9 @@ static inline uint16_t woodward_mpu2s_digital_input_faults_1_to_8_digital_input_
 /*
  * Digital input faults 9 to 16
  * 0..65535; read only.
- * Erratum telegram_pairs_of_bits (likely): printed: „Doppelbits“ is what the words are called; no pattern is given a
+ * Erratum telegram_pairs_of_bits (likely): printed: "Doppelbits" is what the words are called; no pattern is given a
  * meaning; taken: 00 is inactive, 11 is active.
- * Erratum telegram_digital_input_count (unknown): printed: „Digitaleingang 16“ is the last of them (line 556), as in
+ * Erratum telegram_digital_input_count (unknown): printed: "Digitaleingang 16" is the last of them (line 556), as in
  * event 66 (line 2620); taken: 16 flags, as printed.
  */
 #define WOODWARD_MPU2S_DIGITAL_INPUT_FAULTS_9_TO_16_SPACE WOODWARD_MPU2S_SPACE_TELEGRAM
@@ -2670,72 +2670,72 @@ static inline int32_t woodward_mpu2s_internal_faults_7_decode(uint16_t raw)
 /*
  * Analog input 1
  * 0..65535; read only.
- * Erratum telegram_analog_input_scale (unknown): printed: „Skalierbar“ is the unit; the value „hängt von der Art des
- * Einganges und der Skalierung ab“; taken: scale: ~.
+ * Erratum telegram_analog_input_scale (unknown): printed: "Skalierbar" is the unit; the value depends on the kind of
+ * the input and on its scaling; taken: scale: ~.
  * Not generated (analog_input_1): the manual does not settle its scale.
  */
 
 /*
  * Analog input 2
  * 0..65535; read only.
- * Erratum telegram_analog_input_scale (unknown): printed: „Skalierbar“ is the unit; the value „hängt von der Art des
- * Einganges und der Skalierung ab“; taken: scale: ~.
+ * Erratum telegram_analog_input_scale (unknown): printed: "Skalierbar" is the unit; the value depends on the kind of
+ * the input and on its scaling; taken: scale: ~.
  * Not generated (analog_input_2): the manual does not settle its scale.
  */
 
 /*
  * Analog input 3
  * 0..65535; read only.
- * Erratum telegram_analog_input_scale (unknown): printed: „Skalierbar“ is the unit; the value „hängt von der Art des
- * Einganges und der Skalierung ab“; taken: scale: ~.
+ * Erratum telegram_analog_input_scale (unknown): printed: "Skalierbar" is the unit; the value depends on the kind of
+ * the input and on its scaling; taken: scale: ~.
  * Not generated (analog_input_3): the manual does not settle its scale.
  */
 
 /*
  * Analog input 4
  * 0..65535; read only.
- * Erratum telegram_analog_input_scale (unknown): printed: „Skalierbar“ is the unit; the value „hängt von der Art des
- * Einganges und der Skalierung ab“; taken: scale: ~.
+ * Erratum telegram_analog_input_scale (unknown): printed: "Skalierbar" is the unit; the value depends on the kind of
+ * the input and on its scaling; taken: scale: ~.
  * Not generated (analog_input_4): the manual does not settle its scale.
  */
 
 /*
  * Analog input 5
  * 0..65535; read only.
- * Erratum telegram_analog_input_scale (unknown): printed: „Skalierbar“ is the unit; the value „hängt von der Art des
- * Einganges und der Skalierung ab“; taken: scale: ~.
+ * Erratum telegram_analog_input_scale (unknown): printed: "Skalierbar" is the unit; the value depends on the kind of
+ * the input and on its scaling; taken: scale: ~.
  * Not generated (analog_input_5): the manual does not settle its scale.
  */
 
 /*
  * Analog input 6
  * 0..65535; read only.
- * Erratum telegram_analog_input_scale (unknown): printed: „Skalierbar“ is the unit; the value „hängt von der Art des
- * Einganges und der Skalierung ab“; taken: scale: ~.
+ * Erratum telegram_analog_input_scale (unknown): printed: "Skalierbar" is the unit; the value depends on the kind of
+ * the input and on its scaling; taken: scale: ~.
  * Not generated (analog_input_6): the manual does not settle its scale.
  */
 
 /*
  * Analog input 7
  * 0..65535; read only.
- * Erratum telegram_analog_input_scale (unknown): printed: „Skalierbar“ is the unit; the value „hängt von der Art des
- * Einganges und der Skalierung ab“; taken: scale: ~.
+ * Erratum telegram_analog_input_scale (unknown): printed: "Skalierbar" is the unit; the value depends on the kind of
+ * the input and on its scaling; taken: scale: ~.
  * Not generated (analog_input_7): the manual does not settle its scale.
  */
 
 /*
  * Analog input 8
  * 0..65535; read only.
- * Erratum telegram_analog_input_scale (unknown): printed: „Skalierbar“ is the unit; the value „hängt von der Art des
- * Einganges und der Skalierung ab“; taken: scale: ~.
+ * Erratum telegram_analog_input_scale (unknown): printed: "Skalierbar" is the unit; the value depends on the kind of
+ * the input and on its scaling; taken: scale: ~.
  * Not generated (analog_input_8): the manual does not settle its scale.
  */
 
 /*
  * Reserved word 69
  * 0..65535; read only.
- * Erratum telegram_word_69_remark (certain): printed: „Der Übertragene Wert hängt von der Art des Einganges und der
- * Skalierung ab.“ stands here too; taken: An internal word.
+ * Erratum telegram_word_69_remark (certain): printed: The remark on the kind and the "Skalierung" of the analog
+ * inputs stands here too; taken: An internal word.
  * Not generated (reserved_word_69): reserved by the maker.
  */
 
@@ -2825,8 +2825,8 @@ static inline woodward_mpu2s_real woodward_mpu2s_generator_frequency_setpoint_de
 /*
  * Generator rated frequency
  * 50..60 Hz, raw 12800..15360, in steps of 0.00390625 Hz; read and write.
- * Erratum generator_rated_frequency_title (certain): printed: „Generatorkennfrequenz“ over the section,
- * „Generatornennfrequenz“ in the contents (line 24); taken: Generatornennfrequenz.
+ * Erratum generator_rated_frequency_title (certain): printed: "Generatorkennfrequenz" over the section,
+ * "Generatornennfrequenz" in the contents (line 24); taken: Generatornennfrequenz.
  */
 #define WOODWARD_MPU2S_GENERATOR_RATED_FREQUENCY_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
 #define WOODWARD_MPU2S_GENERATOR_RATED_FREQUENCY_ADDRESS 0x000CU
@@ -3019,8 +3019,8 @@ static inline int32_t woodward_mpu2s_busbar_voltage_transformer_secondary_400v_d
 /*
  * Busbar voltage transformer primary
  * 5..65000 V, raw 5..65000; read and write.
- * Erratum busbar_transformer_title (certain): printed: „Sammelschienen Spannungswandler“ over the section,
- * „Sammelschienenspannungswandler“ in the contents (line 28); taken: Sammelschienenspannungswandler.
+ * Erratum busbar_transformer_title (certain): printed: "Sammelschienen Spannungswandler" over the section,
+ * "Sammelschienenspannungswandler" in the contents (line 28); taken: Sammelschienenspannungswandler.
  */
 #define WOODWARD_MPU2S_BUSBAR_VOLTAGE_TRANSFORMER_PRIMARY_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
 #define WOODWARD_MPU2S_BUSBAR_VOLTAGE_TRANSFORMER_PRIMARY_ADDRESS 0x01F3U
@@ -3137,10 +3137,10 @@ static inline int32_t woodward_mpu2s_mains_voltage_transformer_primary_decode(ui
 /*
  * KWUGNSEK: Generator voltage factor
  * 0..65535; read only.
- * Erratum voltage_factors (likely): printed: „ein Faktor, der in einem 16-Bit Wort steht“ and depends on the
- * transformer ratios; its range, its sign, whether it can be written, and which of the transformer parameters change
- * it is not said; taken: u16, access: r, to be read again after any of the seven transformer parameters of 4.2.4 to
- * 4.2.9 and 4.2.12.
+ * Erratum voltage_factors (likely): printed: The factor is a "16-Bit Wort" and depends on the transformer ratios;
+ * its range, its sign, whether it can be written, and which of the transformer parameters change it is not said;
+ * taken: u16, access: r, to be read again after any of the seven transformer parameters of 4.2.4 to 4.2.9 and
+ * 4.2.12.
  */
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_FACTOR_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
 #define WOODWARD_MPU2S_GENERATOR_VOLTAGE_FACTOR_ADDRESS 0x01FBU
@@ -3501,7 +3501,7 @@ static inline woodward_mpu2s_status woodward_mpu2s_generator_rated_voltage_400v_
 /*
  * Generator current transformer ratio
  * 10..7000 A, raw 10..7000; read and write.
- * Erratum current_transformer_unit (likely): printed: „Primärstromwandlerverhältnis“ in the title; range and formula
+ * Erratum current_transformer_unit (likely): printed: "Primärstromwandlerverhältnis" in the title; range and formula
  * count ampere; taken: unit: A.
  */
 #define WOODWARD_MPU2S_GENERATOR_CURRENT_TRANSFORMER_RATIO_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
@@ -3550,7 +3550,7 @@ static inline const char *woodward_mpu2s_power_measurement_phases_name(int32_t r
 /*
  * Power measurement phases
  * 0, 1; read and write.
- * Erratum power_measurement_bit_row (certain): printed: „Bit 11 (Zählung bei 0 beginnend)“ stands in the row of the
+ * Erratum power_measurement_bit_row (certain): printed: "Bit 11 (Zählung bei 0 beginnend)" stands in the row of the
  * kind; taken: bits: 11.
  */
 #define WOODWARD_MPU2S_POWER_MEASUREMENT_PHASES_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
@@ -4275,7 +4275,7 @@ static inline uint16_t woodward_mpu2s_cos_phi_controller_insert(uint16_t word, u
  * -0.99..-0.7 or 0.7..1, raw -99..-70 or 70..100, in steps of 0.01; read and write.
  * Erratum parameter_sign (likely): printed: The ranges begin below zero (lines 755, 762, 859, 1138, 2067, 2074, 2097
  * and 2104); how a negative number is sent is not said; taken: type: s16, two's complement.
- * Erratum cos_phi_range_order (certain): printed: „-70 bis -99“, beginning with the larger number; taken: -99..-70.
+ * Erratum cos_phi_range_order (certain): printed: "-70 bis -99", beginning with the larger number; taken: -99..-70.
  */
 #define WOODWARD_MPU2S_COS_PHI_CONTROLLER_SETPOINT_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
 #define WOODWARD_MPU2S_COS_PHI_CONTROLLER_SETPOINT_ADDRESS 0x000DU
@@ -4434,8 +4434,8 @@ static inline woodward_mpu2s_real woodward_mpu2s_cos_phi_controller_proportional
 /*
  * Active power controller
  * 0, 3; read and write.
- * Erratum active_power_controller_text (certain): printed: „Wirkleistungsregler“ in the title, „Leistungsregler ist
- * aus“ and „Leistungsregler ist ein“ at the switch; taken: Wirkleistungsregler.
+ * Erratum active_power_controller_text (certain): printed: "Wirkleistungsregler" in the title, "Leistungsregler ist
+ * aus" and "Leistungsregler ist ein" at the switch; taken: Wirkleistungsregler.
  */
 #define WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
 #define WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_ADDRESS 0x0013U
@@ -4841,7 +4841,7 @@ static inline woodward_mpu2s_real woodward_mpu2s_part_load_lead_time_decode(uint
 /*
  * Control by interface x1 x5
  * 0, 3; read and write.
- * Erratum interface_control_text (certain): printed: „11 = ist ein“, with no subject; taken: 11 is on.
+ * Erratum interface_control_text (certain): printed: "11 = ist ein", with no subject; taken: 11 is on.
  */
 #define WOODWARD_MPU2S_CONTROL_BY_INTERFACE_X1_X5_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
 #define WOODWARD_MPU2S_CONTROL_BY_INTERFACE_X1_X5_ADDRESS 0x00C9U
@@ -6284,7 +6284,7 @@ static inline uint16_t woodward_mpu2s_generator_overcurrent_monitoring_insert(ui
 /*
  * Overcurrent 1 threshold
  * 0..300 %, raw 0..3000, in steps of 0.1 %; read and write.
- * Erratum overcurrent_1_title (certain): printed: „Überstrom 2 Ansprechwert“, in the contents too, and again over
+ * Erratum overcurrent_1_title (certain): printed: "Überstrom 2 Ansprechwert", in the contents too, and again over
  * 4.2.75 (lines 95 and 1194); taken: Überstrom 1 Ansprechwert.
  */
 #define WOODWARD_MPU2S_OVERCURRENT_1_THRESHOLD_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
@@ -6790,7 +6790,7 @@ static inline int32_t woodward_mpu2s_inverse_time_overcurrent_voltage_knee_decod
 /*
  * Generator overfrequency monitoring
  * 0, 1; read and write.
- * Erratum generator_monitoring_texts (certain): printed: „Generatorfrequenzüberwachung ist aus“ and „ist ein“
+ * Erratum generator_monitoring_texts (certain): printed: "Generatorfrequenzüberwachung ist aus" and "ist ein"
  * explain all four bits (lines 1268, 1305, 1342 and 1405); taken: Each bit switches what its title says.
  * Erratum generator_overfrequency_bit (unknown): printed: Bit 12, while the other three switches of the word are
  * bits 3, 1 and 0 (lines 1304, 1341 and 1404); taken: As printed.
@@ -7024,7 +7024,7 @@ static inline woodward_mpu2s_real woodward_mpu2s_generator_overfrequency_2_delay
 /*
  * Generator underfrequency monitoring
  * 0, 1; read and write.
- * Erratum generator_monitoring_texts (certain): printed: „Generatorfrequenzüberwachung ist aus“ and „ist ein“
+ * Erratum generator_monitoring_texts (certain): printed: "Generatorfrequenzüberwachung ist aus" and "ist ein"
  * explain all four bits (lines 1268, 1305, 1342 and 1405); taken: Each bit switches what its title says.
  */
 #define WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_MONITORING_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
@@ -7256,7 +7256,7 @@ static inline woodward_mpu2s_real woodward_mpu2s_generator_underfrequency_2_dela
 /*
  * Generator overvoltage monitoring
  * 0, 1; read and write.
- * Erratum generator_monitoring_texts (certain): printed: „Generatorfrequenzüberwachung ist aus“ and „ist ein“
+ * Erratum generator_monitoring_texts (certain): printed: "Generatorfrequenzüberwachung ist aus" and "ist ein"
  * explain all four bits (lines 1268, 1305, 1342 and 1405); taken: Each bit switches what its title says.
  */
 #define WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_MONITORING_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
@@ -7738,7 +7738,7 @@ static inline woodward_mpu2s_real woodward_mpu2s_generator_overvoltage_2_delay_d
 /*
  * Generator undervoltage monitoring
  * 0, 1; read and write.
- * Erratum generator_monitoring_texts (certain): printed: „Generatorfrequenzüberwachung ist aus“ and „ist ein“
+ * Erratum generator_monitoring_texts (certain): printed: "Generatorfrequenzüberwachung ist aus" and "ist ein"
  * explain all four bits (lines 1268, 1305, 1342 and 1405); taken: Each bit switches what its title says.
  */
 #define WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_MONITORING_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
@@ -8494,10 +8494,10 @@ static inline uint16_t woodward_mpu2s_mains_voltage_monitoring_insert(uint16_t w
 /*
  * KWUNTSEK: Mains voltage factor
  * 0..65535; read only.
- * Erratum voltage_factors (likely): printed: „ein Faktor, der in einem 16-Bit Wort steht“ and depends on the
- * transformer ratios; its range, its sign, whether it can be written, and which of the transformer parameters change
- * it is not said; taken: u16, access: r, to be read again after any of the seven transformer parameters of 4.2.4 to
- * 4.2.9 and 4.2.12.
+ * Erratum voltage_factors (likely): printed: The factor is a "16-Bit Wort" and depends on the transformer ratios;
+ * its range, its sign, whether it can be written, and which of the transformer parameters change it is not said;
+ * taken: u16, access: r, to be read again after any of the seven transformer parameters of 4.2.4 to 4.2.9 and
+ * 4.2.12.
  */
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_FACTOR_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
 #define WOODWARD_MPU2S_MAINS_VOLTAGE_FACTOR_ADDRESS 0x01FCU
@@ -9582,7 +9582,7 @@ static inline woodward_mpu2s_real woodward_mpu2s_battery_undervoltage_delay_deco
 /*
  * Digital inputs 1 to 4 logic
  * 0..15; read and write.
- * Erratum input_bit_rows (certain): printed: „Wertebereich“ is what two rows are called; the first lists bit numbers
+ * Erratum input_bit_rows (certain): printed: "Wertebereich" is what two rows are called; the first lists bit numbers
  * (lines 1673, 1707, 1735, 1769, 1797 and 1831); taken: The first row gives the bits of the group.
  */
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_LOGIC_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
@@ -9671,7 +9671,7 @@ static inline const char *woodward_mpu2s_input_delay_name(int32_t raw)
 /*
  * Digital inputs 1 to 4 delay
  * 4 digits, the highest first; read and write.
- * Erratum input_digit_order (unknown): printed: „Stellenweise“, four digits for four inputs; which digit belongs to
+ * Erratum input_digit_order (unknown): printed: "Stellenweise", four digits for four inputs; which digit belongs to
  * which input is not printed; taken: Four digits, highest first, without the numbers of the inputs.
  * Erratum input_digit_base (likely): printed: 0000 to 9999 and 0000 to 3333 (line 1723), digit by digit; how the
  * digits are coded in the word is not said; taken: Decimal digits of one number, 9999 being 270Fh.
@@ -9725,7 +9725,7 @@ static inline void woodward_mpu2s_digital_inputs_1_to_4_delay_decode(uint16_t ra
 /*
  * Digital inputs 1 to 4 engine delay
  * 0..15; read and write.
- * Erratum input_bit_rows (certain): printed: „Wertebereich“ is what two rows are called; the first lists bit numbers
+ * Erratum input_bit_rows (certain): printed: "Wertebereich" is what two rows are called; the first lists bit numbers
  * (lines 1673, 1707, 1735, 1769, 1797 and 1831); taken: The first row gives the bits of the group.
  */
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_ENGINE_DELAY_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
@@ -9796,11 +9796,11 @@ static inline const char *woodward_mpu2s_fault_class_name(int32_t raw)
 /*
  * Digital inputs 1 to 4 fault class
  * 4 digits, the highest first; read and write.
- * Erratum input_digit_order (unknown): printed: „Stellenweise“, four digits for four inputs; which digit belongs to
+ * Erratum input_digit_order (unknown): printed: "Stellenweise", four digits for four inputs; which digit belongs to
  * which input is not printed; taken: Four digits, highest first, without the numbers of the inputs.
  * Erratum input_digit_base (likely): printed: 0000 to 9999 and 0000 to 3333 (line 1723), digit by digit; how the
  * digits are coded in the word is not said; taken: Decimal digits of one number, 9999 being 270Fh.
- * Erratum input_fault_class_column (certain): printed: „Verzögerung“ heads the column of the fault classes (lines
+ * Erratum input_fault_class_column (certain): printed: "Verzögerung" heads the column of the fault classes (lines
  * 1725, 1787 and 1849); taken: Fault classes.
  */
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_FAULT_CLASS_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
@@ -9852,7 +9852,7 @@ static inline void woodward_mpu2s_digital_inputs_1_to_4_fault_class_decode(uint1
 /*
  * Digital inputs 5 to 8 logic
  * 0..15; read and write.
- * Erratum input_bit_rows (certain): printed: „Wertebereich“ is what two rows are called; the first lists bit numbers
+ * Erratum input_bit_rows (certain): printed: "Wertebereich" is what two rows are called; the first lists bit numbers
  * (lines 1673, 1707, 1735, 1769, 1797 and 1831); taken: The first row gives the bits of the group.
  */
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_LOGIC_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
@@ -9899,7 +9899,7 @@ static inline uint16_t woodward_mpu2s_digital_inputs_5_to_8_logic_insert(uint16_
 /*
  * Digital inputs 5 to 8 delay
  * 4 digits, the highest first; read and write.
- * Erratum input_digit_order (unknown): printed: „Stellenweise“, four digits for four inputs; which digit belongs to
+ * Erratum input_digit_order (unknown): printed: "Stellenweise", four digits for four inputs; which digit belongs to
  * which input is not printed; taken: Four digits, highest first, without the numbers of the inputs.
  * Erratum input_digit_base (likely): printed: 0000 to 9999 and 0000 to 3333 (line 1723), digit by digit; how the
  * digits are coded in the word is not said; taken: Decimal digits of one number, 9999 being 270Fh.
@@ -9953,7 +9953,7 @@ static inline void woodward_mpu2s_digital_inputs_5_to_8_delay_decode(uint16_t ra
 /*
  * Digital inputs 5 to 8 engine delay
  * 0..15; read and write.
- * Erratum input_bit_rows (certain): printed: „Wertebereich“ is what two rows are called; the first lists bit numbers
+ * Erratum input_bit_rows (certain): printed: "Wertebereich" is what two rows are called; the first lists bit numbers
  * (lines 1673, 1707, 1735, 1769, 1797 and 1831); taken: The first row gives the bits of the group.
  */
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_ENGINE_DELAY_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
@@ -10000,11 +10000,11 @@ static inline uint16_t woodward_mpu2s_digital_inputs_5_to_8_engine_delay_insert(
 /*
  * Digital inputs 5 to 8 fault class
  * 4 digits, the highest first; read and write.
- * Erratum input_digit_order (unknown): printed: „Stellenweise“, four digits for four inputs; which digit belongs to
+ * Erratum input_digit_order (unknown): printed: "Stellenweise", four digits for four inputs; which digit belongs to
  * which input is not printed; taken: Four digits, highest first, without the numbers of the inputs.
  * Erratum input_digit_base (likely): printed: 0000 to 9999 and 0000 to 3333 (line 1723), digit by digit; how the
  * digits are coded in the word is not said; taken: Decimal digits of one number, 9999 being 270Fh.
- * Erratum input_fault_class_column (certain): printed: „Verzögerung“ heads the column of the fault classes (lines
+ * Erratum input_fault_class_column (certain): printed: "Verzögerung" heads the column of the fault classes (lines
  * 1725, 1787 and 1849); taken: Fault classes.
  */
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_FAULT_CLASS_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
@@ -10056,9 +10056,9 @@ static inline void woodward_mpu2s_digital_inputs_5_to_8_fault_class_decode(uint1
 /*
  * Digital inputs 9 to 12 logic
  * 0..15; read and write.
- * Erratum input_bit_rows (certain): printed: „Wertebereich“ is what two rows are called; the first lists bit numbers
+ * Erratum input_bit_rows (certain): printed: "Wertebereich" is what two rows are called; the first lists bit numbers
  * (lines 1673, 1707, 1735, 1769, 1797 and 1831); taken: The first row gives the bits of the group.
- * Erratum input_9_12_title (certain): printed: „9-12 Arbeits/Ruhestrom“, in the contents (line 159) too; taken:
+ * Erratum input_9_12_title (certain): printed: "9-12 Arbeits/Ruhestrom", in the contents (line 159) too; taken:
  * Digitaleingänge 9-12 Arbeits/Ruhestrom.
  */
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_LOGIC_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
@@ -10105,7 +10105,7 @@ static inline uint16_t woodward_mpu2s_digital_inputs_9_to_12_logic_insert(uint16
 /*
  * Digital inputs 9 to 12 delay
  * 4 digits, the highest first; read and write.
- * Erratum input_digit_order (unknown): printed: „Stellenweise“, four digits for four inputs; which digit belongs to
+ * Erratum input_digit_order (unknown): printed: "Stellenweise", four digits for four inputs; which digit belongs to
  * which input is not printed; taken: Four digits, highest first, without the numbers of the inputs.
  * Erratum input_digit_base (likely): printed: 0000 to 9999 and 0000 to 3333 (line 1723), digit by digit; how the
  * digits are coded in the word is not said; taken: Decimal digits of one number, 9999 being 270Fh.
@@ -10159,7 +10159,7 @@ static inline void woodward_mpu2s_digital_inputs_9_to_12_delay_decode(uint16_t r
 /*
  * Digital inputs 9 to 12 engine delay
  * 0..15; read and write.
- * Erratum input_bit_rows (certain): printed: „Wertebereich“ is what two rows are called; the first lists bit numbers
+ * Erratum input_bit_rows (certain): printed: "Wertebereich" is what two rows are called; the first lists bit numbers
  * (lines 1673, 1707, 1735, 1769, 1797 and 1831); taken: The first row gives the bits of the group.
  */
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_ENGINE_DELAY_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
@@ -10206,11 +10206,11 @@ static inline uint16_t woodward_mpu2s_digital_inputs_9_to_12_engine_delay_insert
 /*
  * Digital inputs 9 to 12 fault class
  * 4 digits, the highest first; read and write.
- * Erratum input_digit_order (unknown): printed: „Stellenweise“, four digits for four inputs; which digit belongs to
+ * Erratum input_digit_order (unknown): printed: "Stellenweise", four digits for four inputs; which digit belongs to
  * which input is not printed; taken: Four digits, highest first, without the numbers of the inputs.
  * Erratum input_digit_base (likely): printed: 0000 to 9999 and 0000 to 3333 (line 1723), digit by digit; how the
  * digits are coded in the word is not said; taken: Decimal digits of one number, 9999 being 270Fh.
- * Erratum input_fault_class_column (certain): printed: „Verzögerung“ heads the column of the fault classes (lines
+ * Erratum input_fault_class_column (certain): printed: "Verzögerung" heads the column of the fault classes (lines
  * 1725, 1787 and 1849); taken: Fault classes.
  */
 #define WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_FAULT_CLASS_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
@@ -10264,7 +10264,7 @@ static inline void woodward_mpu2s_digital_inputs_9_to_12_fault_class_decode(uint
 /*
  * Fault text terminal 62
  * 16 characters, ascii; read and write.
- * Erratum fault_text_example (certain): printed: „ABCDEFGHJKLMNOP“ for a text of 16 characters; the I is missing;
+ * Erratum fault_text_example (certain): printed: "ABCDEFGHJKLMNOP" for a text of 16 characters; the I is missing;
  * taken: ABCDEFGHIJKLMNOP, 16 characters.
  */
 #define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_62_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
@@ -10314,7 +10314,7 @@ static inline size_t woodward_mpu2s_fault_text_terminal_62_decode(const uint16_t
 /*
  * Fault text terminal 63
  * 16 characters, ascii; read and write.
- * Erratum fault_text_example (certain): printed: „ABCDEFGHJKLMNOP“ for a text of 16 characters; the I is missing;
+ * Erratum fault_text_example (certain): printed: "ABCDEFGHJKLMNOP" for a text of 16 characters; the I is missing;
  * taken: ABCDEFGHIJKLMNOP, 16 characters.
  */
 #define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_63_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
@@ -10364,7 +10364,7 @@ static inline size_t woodward_mpu2s_fault_text_terminal_63_decode(const uint16_t
 /*
  * Fault text terminal 64
  * 16 characters, ascii; read and write.
- * Erratum fault_text_example (certain): printed: „ABCDEFGHJKLMNOP“ for a text of 16 characters; the I is missing;
+ * Erratum fault_text_example (certain): printed: "ABCDEFGHJKLMNOP" for a text of 16 characters; the I is missing;
  * taken: ABCDEFGHIJKLMNOP, 16 characters.
  */
 #define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_64_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
@@ -10414,7 +10414,7 @@ static inline size_t woodward_mpu2s_fault_text_terminal_64_decode(const uint16_t
 /*
  * Fault text terminal 65
  * 16 characters, ascii; read and write.
- * Erratum fault_text_example (certain): printed: „ABCDEFGHJKLMNOP“ for a text of 16 characters; the I is missing;
+ * Erratum fault_text_example (certain): printed: "ABCDEFGHJKLMNOP" for a text of 16 characters; the I is missing;
  * taken: ABCDEFGHIJKLMNOP, 16 characters.
  */
 #define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_65_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
@@ -10464,7 +10464,7 @@ static inline size_t woodward_mpu2s_fault_text_terminal_65_decode(const uint16_t
 /*
  * Fault text terminal 66
  * 16 characters, ascii; read and write.
- * Erratum fault_text_example (certain): printed: „ABCDEFGHJKLMNOP“ for a text of 16 characters; the I is missing;
+ * Erratum fault_text_example (certain): printed: "ABCDEFGHJKLMNOP" for a text of 16 characters; the I is missing;
  * taken: ABCDEFGHIJKLMNOP, 16 characters.
  */
 #define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_66_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
@@ -10514,7 +10514,7 @@ static inline size_t woodward_mpu2s_fault_text_terminal_66_decode(const uint16_t
 /*
  * Fault text terminal 67
  * 16 characters, ascii; read and write.
- * Erratum fault_text_example (certain): printed: „ABCDEFGHJKLMNOP“ for a text of 16 characters; the I is missing;
+ * Erratum fault_text_example (certain): printed: "ABCDEFGHJKLMNOP" for a text of 16 characters; the I is missing;
  * taken: ABCDEFGHIJKLMNOP, 16 characters.
  */
 #define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_67_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
@@ -10564,7 +10564,7 @@ static inline size_t woodward_mpu2s_fault_text_terminal_67_decode(const uint16_t
 /*
  * Fault text terminal 68
  * 16 characters, ascii; read and write.
- * Erratum fault_text_example (certain): printed: „ABCDEFGHJKLMNOP“ for a text of 16 characters; the I is missing;
+ * Erratum fault_text_example (certain): printed: "ABCDEFGHJKLMNOP" for a text of 16 characters; the I is missing;
  * taken: ABCDEFGHIJKLMNOP, 16 characters.
  */
 #define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_68_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
@@ -10614,7 +10614,7 @@ static inline size_t woodward_mpu2s_fault_text_terminal_68_decode(const uint16_t
 /*
  * Fault text terminal 69
  * 16 characters, ascii; read and write.
- * Erratum fault_text_example (certain): printed: „ABCDEFGHJKLMNOP“ for a text of 16 characters; the I is missing;
+ * Erratum fault_text_example (certain): printed: "ABCDEFGHJKLMNOP" for a text of 16 characters; the I is missing;
  * taken: ABCDEFGHIJKLMNOP, 16 characters.
  */
 #define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_69_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
@@ -10664,7 +10664,7 @@ static inline size_t woodward_mpu2s_fault_text_terminal_69_decode(const uint16_t
 /*
  * Fault text terminal 70
  * 16 characters, ascii; read and write.
- * Erratum fault_text_example (certain): printed: „ABCDEFGHJKLMNOP“ for a text of 16 characters; the I is missing;
+ * Erratum fault_text_example (certain): printed: "ABCDEFGHJKLMNOP" for a text of 16 characters; the I is missing;
  * taken: ABCDEFGHIJKLMNOP, 16 characters.
  */
 #define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_70_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
@@ -10714,7 +10714,7 @@ static inline size_t woodward_mpu2s_fault_text_terminal_70_decode(const uint16_t
 /*
  * Fault text terminal 71
  * 16 characters, ascii; read and write.
- * Erratum fault_text_example (certain): printed: „ABCDEFGHJKLMNOP“ for a text of 16 characters; the I is missing;
+ * Erratum fault_text_example (certain): printed: "ABCDEFGHJKLMNOP" for a text of 16 characters; the I is missing;
  * taken: ABCDEFGHIJKLMNOP, 16 characters.
  */
 #define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_71_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
@@ -10764,7 +10764,7 @@ static inline size_t woodward_mpu2s_fault_text_terminal_71_decode(const uint16_t
 /*
  * Fault text terminal 72
  * 16 characters, ascii; read and write.
- * Erratum fault_text_example (certain): printed: „ABCDEFGHJKLMNOP“ for a text of 16 characters; the I is missing;
+ * Erratum fault_text_example (certain): printed: "ABCDEFGHJKLMNOP" for a text of 16 characters; the I is missing;
  * taken: ABCDEFGHIJKLMNOP, 16 characters.
  */
 #define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_72_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
@@ -10814,7 +10814,7 @@ static inline size_t woodward_mpu2s_fault_text_terminal_72_decode(const uint16_t
 /*
  * Fault text terminal 73
  * 16 characters, ascii; read and write.
- * Erratum fault_text_example (certain): printed: „ABCDEFGHJKLMNOP“ for a text of 16 characters; the I is missing;
+ * Erratum fault_text_example (certain): printed: "ABCDEFGHJKLMNOP" for a text of 16 characters; the I is missing;
  * taken: ABCDEFGHIJKLMNOP, 16 characters.
  */
 #define WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_73_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
@@ -11040,7 +11040,7 @@ static inline uint16_t woodward_mpu2s_analog_output_1_current_range_insert(uint1
  * raw -9999..9999; read and write.
  * Erratum parameter_sign (likely): printed: The ranges begin below zero (lines 755, 762, 859, 1138, 2067, 2074, 2097
  * and 2104); how a negative number is sent is not said; taken: type: s16, two's complement.
- * Erratum analog_output_values (likely): printed: „Je nach eingestelltem Parameter“ in place of a formula; the list
+ * Erratum analog_output_values (likely): printed: "Je nach eingestelltem Parameter" in place of a formula; the list
  * of sources gives examples, as 7000 for 70,00 Hz (line 2523); taken: Whole kW, kvar, A and 1/min; 1/100 Hz; 1/100
  * of the distance to cos phi 1. No rule for the sources 0, 11 to 18 and 23.
  */
@@ -11191,7 +11191,7 @@ static inline int16_t woodward_mpu2s_analog_output_1_value_at_0_percent_from_wor
  * raw -9999..9999; read and write.
  * Erratum parameter_sign (likely): printed: The ranges begin below zero (lines 755, 762, 859, 1138, 2067, 2074, 2097
  * and 2104); how a negative number is sent is not said; taken: type: s16, two's complement.
- * Erratum analog_output_values (likely): printed: „Je nach eingestelltem Parameter“ in place of a formula; the list
+ * Erratum analog_output_values (likely): printed: "Je nach eingestelltem Parameter" in place of a formula; the list
  * of sources gives examples, as 7000 for 70,00 Hz (line 2523); taken: Whole kW, kvar, A and 1/min; 1/100 Hz; 1/100
  * of the distance to cos phi 1. No rule for the sources 0, 11 to 18 and 23.
  */
@@ -11415,7 +11415,7 @@ static inline uint16_t woodward_mpu2s_analog_output_2_current_range_insert(uint1
  * raw -9999..9999; read and write.
  * Erratum parameter_sign (likely): printed: The ranges begin below zero (lines 755, 762, 859, 1138, 2067, 2074, 2097
  * and 2104); how a negative number is sent is not said; taken: type: s16, two's complement.
- * Erratum analog_output_values (likely): printed: „Je nach eingestelltem Parameter“ in place of a formula; the list
+ * Erratum analog_output_values (likely): printed: "Je nach eingestelltem Parameter" in place of a formula; the list
  * of sources gives examples, as 7000 for 70,00 Hz (line 2523); taken: Whole kW, kvar, A and 1/min; 1/100 Hz; 1/100
  * of the distance to cos phi 1. No rule for the sources 0, 11 to 18 and 23.
  */
@@ -11566,7 +11566,7 @@ static inline int16_t woodward_mpu2s_analog_output_2_value_at_0_percent_from_wor
  * raw -9999..9999; read and write.
  * Erratum parameter_sign (likely): printed: The ranges begin below zero (lines 755, 762, 859, 1138, 2067, 2074, 2097
  * and 2104); how a negative number is sent is not said; taken: type: s16, two's complement.
- * Erratum analog_output_values (likely): printed: „Je nach eingestelltem Parameter“ in place of a formula; the list
+ * Erratum analog_output_values (likely): printed: "Je nach eingestelltem Parameter" in place of a formula; the list
  * of sources gives examples, as 7000 for 70,00 Hz (line 2523); taken: Whole kW, kvar, A and 1/min; 1/100 Hz; 1/100
  * of the distance to cos phi 1. No rule for the sources 0, 11 to 18 and 23.
  */
@@ -12244,7 +12244,7 @@ static inline uint16_t woodward_mpu2s_relay_1_event_3_insert(uint16_t word, uint
 /*
  * Relay 1 logic 3
  * 0..7; read and write.
- * Erratum relay_last_word (unknown): printed: „ID 438 Lowbyte: Bit 7“ and so on: the third word, too, has bits for
+ * Erratum relay_last_word (unknown): printed: "ID 438 Lowbyte: Bit 7" and so on: the third word, too, has bits for
  * the combination with the next id; taken: The same bits in all three words.
  */
 #define WOODWARD_MPU2S_RELAY_1_LOGIC_3_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
@@ -12513,7 +12513,7 @@ static inline uint16_t woodward_mpu2s_relay_2_event_3_insert(uint16_t word, uint
 /*
  * Relay 2 logic 3
  * 0..7; read and write.
- * Erratum relay_last_word (unknown): printed: „ID 438 Lowbyte: Bit 7“ and so on: the third word, too, has bits for
+ * Erratum relay_last_word (unknown): printed: "ID 438 Lowbyte: Bit 7" and so on: the third word, too, has bits for
  * the combination with the next id; taken: The same bits in all three words.
  */
 #define WOODWARD_MPU2S_RELAY_2_LOGIC_3_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
@@ -12782,7 +12782,7 @@ static inline uint16_t woodward_mpu2s_relay_3_event_3_insert(uint16_t word, uint
 /*
  * Relay 3 logic 3
  * 0..7; read and write.
- * Erratum relay_last_word (unknown): printed: „ID 438 Lowbyte: Bit 7“ and so on: the third word, too, has bits for
+ * Erratum relay_last_word (unknown): printed: "ID 438 Lowbyte: Bit 7" and so on: the third word, too, has bits for
  * the combination with the next id; taken: The same bits in all three words.
  */
 #define WOODWARD_MPU2S_RELAY_3_LOGIC_3_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
@@ -13051,7 +13051,7 @@ static inline uint16_t woodward_mpu2s_relay_4_event_3_insert(uint16_t word, uint
 /*
  * Relay 4 logic 3
  * 0..7; read and write.
- * Erratum relay_last_word (unknown): printed: „ID 438 Lowbyte: Bit 7“ and so on: the third word, too, has bits for
+ * Erratum relay_last_word (unknown): printed: "ID 438 Lowbyte: Bit 7" and so on: the third word, too, has bits for
  * the combination with the next id; taken: The same bits in all three words.
  */
 #define WOODWARD_MPU2S_RELAY_4_LOGIC_3_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
@@ -13320,7 +13320,7 @@ static inline uint16_t woodward_mpu2s_relay_5_event_3_insert(uint16_t word, uint
 /*
  * Relay 5 logic 3
  * 0..7; read and write.
- * Erratum relay_last_word (unknown): printed: „ID 438 Lowbyte: Bit 7“ and so on: the third word, too, has bits for
+ * Erratum relay_last_word (unknown): printed: "ID 438 Lowbyte: Bit 7" and so on: the third word, too, has bits for
  * the combination with the next id; taken: The same bits in all three words.
  */
 #define WOODWARD_MPU2S_RELAY_5_LOGIC_3_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
@@ -13589,7 +13589,7 @@ static inline uint16_t woodward_mpu2s_relay_6_event_3_insert(uint16_t word, uint
 /*
  * Relay 6 logic 3
  * 0..7; read and write.
- * Erratum relay_last_word (unknown): printed: „ID 438 Lowbyte: Bit 7“ and so on: the third word, too, has bits for
+ * Erratum relay_last_word (unknown): printed: "ID 438 Lowbyte: Bit 7" and so on: the third word, too, has bits for
  * the combination with the next id; taken: The same bits in all three words.
  */
 #define WOODWARD_MPU2S_RELAY_6_LOGIC_3_SPACE WOODWARD_MPU2S_SPACE_PARAMETER
@@ -13858,7 +13858,7 @@ static inline uint16_t woodward_mpu2s_relay_7_event_3_insert(uint16_t word, uint
 /*
  * Relay 7 logic 3
  * 0..7; read and write.
- * Erratum relay_last_word (unknown): printed: „ID 438 Lowbyte: Bit 7“ and so on: the third word, too, has bits for
+ * Erratum relay_last_word (unknown): printed: "ID 438 Lowbyte: Bit 7" and so on: the third word, too, has bits for
  * the combination with the next id; taken: The same bits in all three words.
  */
 #define WOODWARD_MPU2S_RELAY_7_LOGIC_3_SPACE WOODWARD_MPU2S_SPACE_PARAMETER

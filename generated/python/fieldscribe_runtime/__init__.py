@@ -11,6 +11,7 @@ from .device import AnyAsyncDevice, AnyDevice
 from .errors import (
     AccessError,
     CodecError,
+    EchoError,
     ExceptionReplyError,
     FieldscribeError,
     FrameError,
@@ -26,6 +27,7 @@ from .errors import (
     TelegramError,
     UnknownValueError,
     WrongLengthError,
+    WrongTypeError,
     ZeroFactorError,
 )
 from .facts import (
@@ -68,7 +70,7 @@ from .quantities import Floating, Scaled
 from .rules import Case, Factor, Limit, Rule
 from .session import PointTable, Value
 from .texts import Digits, Text
-from .words import Field, Flag
+from .words import Field, Flag, Word
 from .wrappers import OrNone
 
 Device = ModbusDevice
@@ -100,6 +102,7 @@ __all__ = [
     "Command",
     "Device",
     "Digits",
+    "EchoError",
     "ExceptionReplyError",
     "Factor",
     "Field",
@@ -136,8 +139,10 @@ __all__ = [
     "Transport",
     "UnknownValueError",
     "Value",
+    "Word",
     "WriteOnly",
     "WrongLengthError",
+    "WrongTypeError",
     "ZeroFactorError",
     "coil",
     "discrete",

@@ -31,7 +31,7 @@ class Command:
     @overload
     def __get__(self, device: AnyAsyncDevice, owner: object) -> AsyncCommandHandle: ...
     def __get__(self, device: AnyDevice | AnyAsyncDevice | None, owner: object) -> object:
-        return self if device is None else device.command(self)
+        return self if device is None else device._bound_command(self)
 
     def __set__(self, device: object, value: object) -> None:
         raise AttributeError("a command is not assigned to: use its send method")
@@ -41,7 +41,7 @@ class Command:
         if self.value is not None and value not in (None, self.value):
             raise AccessError(f"{self.name} is the number {self.value}, not {value}")
         number = 1 if value is None else value
-        return device.put_steps(self.at, (number if self.value is None else self.value,))
+        return device._put_steps(self.at, (number if self.value is None else self.value,))
 
 
 class CommandHandle:
@@ -53,7 +53,7 @@ class CommandHandle:
 
     def send(self, value: int | None = None) -> None:
         """Give the command; `value` only where any number does."""
-        self._device.run(self._command.steps(self._device, value))
+        self._device._run(self._command.steps(self._device, value))
 
 
 class AsyncCommandHandle:
@@ -65,4 +65,4 @@ class AsyncCommandHandle:
 
     async def send(self, value: int | None = None) -> None:
         """Give the command; `value` only where any number does."""
-        await self._device.run(self._command.steps(self._device, value))
+        await self._device._run(self._command.steps(self._device, value))

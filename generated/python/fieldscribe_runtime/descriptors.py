@@ -87,7 +87,7 @@ class PointAttribute(_Attribute, Point, Generic[H_co, A_co]):
     def __get__(self, device: AnyAsyncDevice, owner: object) -> A_co: ...
     def __get__(self, device: AnyDevice | AnyAsyncDevice | None, owner: object) -> object:
         self._warn()
-        return self if device is None else device.handle(self)
+        return self if device is None else device._bound(self)
 
 
 class ReadOnly(PointAttribute[ReadHandle[R_co], AsyncReadHandle[R_co]], Decoding[R_co]):
@@ -149,7 +149,7 @@ class ByVariant(_Attribute, Generic[P_co]):
             raise AccessError(f"{self.old_name} depends on {self.axis}: pass it when the device is made")
         if chosen not in self.points:
             raise AccessError(f"{self.old_name} does not exist for {self.axis} {chosen}")
-        return device.handle(self.points[chosen])
+        return device._bound(self.points[chosen])
 
 
 Named = TypeVar("Named", bound=_Attribute)

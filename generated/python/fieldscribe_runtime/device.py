@@ -32,16 +32,16 @@ class AnyDevice(Session):
     def _carry(self, request: Any) -> Any:
         """Do what one step asks of the transport."""
 
-    def handle(self, point: PointAttribute[Any, Any]) -> Handle:
+    def _bound(self, point: PointAttribute[Any, Any]) -> Handle:
         """The point, bound to this device."""
-        self.require(point)
+        self._require(point)
         return point.handle(point, self)
 
-    def command(self, command: Command) -> CommandHandle:
+    def _bound_command(self, command: Command) -> CommandHandle:
         """The command, bound to this device."""
         return CommandHandle(command, self)
 
-    def run(self, steps: Steps[T]) -> T:
+    def _run(self, steps: Steps[T]) -> T:
         """Carry out an operation."""
         with self._lock:
             try:
@@ -61,7 +61,7 @@ class AnyDevice(Session):
 
     def read_many(self, what: str | Iterable[str | Point]) -> dict[str, Any]:
         """Read a group by its name, or several points, with few requests; values by point name."""
-        return self.run(self.read_many_steps(what))
+        return self._run(self._read_many_steps(what))
 
 
 class AnyAsyncDevice(Session):
@@ -75,16 +75,16 @@ class AnyAsyncDevice(Session):
     async def _carry(self, request: Any) -> Any:
         """Do what one step asks of the transport."""
 
-    def handle(self, point: PointAttribute[Any, Any]) -> AsyncHandle:
+    def _bound(self, point: PointAttribute[Any, Any]) -> AsyncHandle:
         """The point, bound to this device."""
-        self.require(point)
+        self._require(point)
         return point.async_handle(point, self)
 
-    def command(self, command: Command) -> AsyncCommandHandle:
+    def _bound_command(self, command: Command) -> AsyncCommandHandle:
         """The command, bound to this device."""
         return AsyncCommandHandle(command, self)
 
-    async def run(self, steps: Steps[T]) -> T:
+    async def _run(self, steps: Steps[T]) -> T:
         """Carry out an operation."""
         async with self._lock:
             try:
@@ -104,4 +104,4 @@ class AnyAsyncDevice(Session):
 
     async def read_many(self, what: str | Iterable[str | Point]) -> dict[str, Any]:
         """Read a group by its name, or several points, with few requests; values by point name."""
-        return await self.run(self.read_many_steps(what))
+        return await self._run(self._read_many_steps(what))

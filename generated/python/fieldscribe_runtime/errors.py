@@ -5,19 +5,21 @@ from __future__ import annotations
 
 
 class FieldscribeError(Exception):
-    """Base of all errors of generated devices; `status` is a stable name for programs."""
+    """Base of all errors of generated devices; `status` is a stable name for programs.
+
+    `point` says which point was asked for, with its code, where it was one.
+    """
 
     status: str = "error"
-
-
-class CodecError(FieldscribeError, ValueError):
-    """A value or raw number cannot be converted; `point` says which point it was meant for."""
-
     point: str | None = None
 
     def __str__(self) -> str:
         reason = super().__str__()
         return reason if self.point is None else f"{self.point}: {reason}"
+
+
+class CodecError(FieldscribeError, ValueError):
+    """A value or raw number cannot be converted."""
 
 
 class RangeError(CodecError):
@@ -30,6 +32,12 @@ class NotANumberError(CodecError):
     """The value is NaN."""
 
     status = "not_a_number"
+
+
+class WrongTypeError(CodecError, TypeError):
+    """The value is of a type that the point does not take: None, a text, or a bool where a number belongs."""
+
+    status = "wrong_type"
 
 
 class UnknownValueError(CodecError):
@@ -89,11 +97,28 @@ class RequestError(FieldscribeError, ValueError):
 
 
 class FrameError(FieldscribeError):
-    """The reply is not a good answer to the request; `status` says why (bad_crc, short_frame, echo_mismatch, ...)."""
+    """The reply is not a good answer to the request; `status` says why (bad_crc, short_frame, echo_mismatch, ...).
+
+    `words` is the process data that came in the same telegram, where the rest of it was good.
+    """
+
+    words: tuple[int, ...] = ()
 
     def __init__(self, status: str, message: str) -> None:
         super().__init__(message)
         self.status = status
+
+
+class EchoError(FrameError):
+    """The device took a write and confirmed another value than the one `written`: `answered` is what it has now.
+
+    Both are words in ascending order of address, the high word of a parameter first.
+    """
+
+    def __init__(self, message: str, written: tuple[int, ...], answered: tuple[int, ...]) -> None:
+        super().__init__("echo_mismatch", message)
+        self.written = written
+        self.answered = answered
 
 
 class ExceptionReplyError(FrameError):

@@ -13,6 +13,7 @@ from .errors import (
     CodecError,
     RangeError,
     UnknownValueError,
+    WrongTypeError,
 )
 from .rules import NO_RAWS, Bound, Raws, high_end, low_end
 
@@ -52,11 +53,19 @@ F32, F64 = Type(32), Type(64)
 
 
 def whole(number: int) -> int:
-    """The number itself as a plain int; raises RangeError for anything that is no integer."""
+    """The number itself as a plain int.
+
+    Raises RangeError for a number that is no integer, and WrongTypeError for what is no number: a bool too, since True
+    for a number is a mistake more often than a 1.
+    """
+    if isinstance(number, bool):
+        raise WrongTypeError(f"takes a number, not {number}")
     try:
         return operator.index(number)
     except TypeError:
-        raise RangeError(f"{number!r} is no integer") from None
+        if hasattr(number, "__float__"):
+            raise RangeError(f"{number!r} is no integer") from None
+        raise WrongTypeError(f"takes an integer, not {number!r}") from None
 
 
 class Decodes(Generic[R_co]):
@@ -106,8 +115,12 @@ class Form(Decodes[R_co], Encodes[W_contra], ABC, Generic[R_co, W_contra]):
         """The raw number as people read it, in the unit."""
         return str(raw)
 
-    def choices(self) -> str | None:
-        """What may be written, in words, where it is not the range that decides."""
+    def same(self, raw: int, other: int) -> bool:
+        """Whether two raw numbers mean the same."""
+        return raw == other
+
+    def choices(self, unit: str) -> str | None:
+        """What may be written, in words, where it is not the range of raw numbers that decides; limits with `unit`."""
         return None
 
     def name_of(self, raw: int) -> str | None:
@@ -141,7 +154,7 @@ class Bit(Form[bool, bool]):
 
     def encode(self, value: bool, allowed: Allowed, raws: Raws) -> int | None:
         """1 for True."""
-        return self.checked(whole(value), allowed, raws)
+        return self.checked(int(value) if isinstance(value, bool) else whole(value), allowed, raws)
 
 
 class Named(Form[E | int, E | int]):
@@ -184,7 +197,7 @@ class Named(Form[E | int, E | int]):
         value = self.decode(raw, NO_RAWS)
         return value.name.lower() if isinstance(value, self.names) else None
 
-    def choices(self) -> str | None:
+    def choices(self, unit: str) -> str | None:
         """The named numbers of a closed enum."""
         named = ", ".join(f"{entry.value} {entry.name.lower()}" for entry in self.names)
         return f"none of {named}" if self.closed else None
@@ -204,7 +217,9 @@ class Flags(Form[F, F]):
         return self.names(raw & (1 << self.wire.bits) - 1)
 
     def encode(self, value: F, allowed: Allowed, raws: Raws) -> int | None:
-        """The word as the type holds it."""
+        """The word as the type holds it; flags of another word raise UnknownValueError."""
+        if isinstance(value, enum.Enum) and not isinstance(value, self.names):
+            raise UnknownValueError(f"{value!r} is no {self.names.__name__}")
         raw = whole(value)
         if self.wire.signed and raw >> self.wire.bits == 0:
             raw = self.wire.number(raw, self.wire.bits)

@@ -37,11 +37,11 @@ class ReadHandle(Handle, Decoding[R_co]):
 
     def read(self) -> R_co:
         """Ask the device for the value (and for other points that its scale needs)."""
-        return self._device.run(self._device.read_steps(self))
+        return self._device._run(self._device._read_steps(self))
 
     def read_raw(self) -> int:
         """Ask the device for the raw number."""
-        return self._device.run(self._device.read_raw_steps(self))
+        return self._device._run(self._device._read_raw_steps(self))
 
 
 class WriteHandle(Handle, Encoding[W_contra]):
@@ -49,11 +49,11 @@ class WriteHandle(Handle, Encoding[W_contra]):
 
     def write(self, value: W_contra) -> None:
         """Write a value that the range allows; bits of other points in the same word stay as they are."""
-        self._device.run(self._device.write_steps(self, value))
+        self._device._run(self._device._write_steps(self, value))
 
     def write_raw(self, raw: int) -> None:
         """Write a raw number that the range allows."""
-        self._device.run(self._device.write_raw_steps(self, raw))
+        self._device._run(self._device._write_raw_steps(self, raw))
 
 
 class ReadWriteHandle(ReadHandle[R_co], WriteHandle[W_contra], Generic[R_co, W_contra]):
@@ -65,11 +65,11 @@ class AsyncReadHandle(AsyncHandle, Decoding[R_co]):
 
     async def read(self) -> R_co:
         """Ask the device for the value (and for other points that its scale needs)."""
-        return await self._device.run(self._device.read_steps(self))
+        return await self._device._run(self._device._read_steps(self))
 
     async def read_raw(self) -> int:
         """Ask the device for the raw number."""
-        return await self._device.run(self._device.read_raw_steps(self))
+        return await self._device._run(self._device._read_raw_steps(self))
 
 
 class AsyncWriteHandle(AsyncHandle, Encoding[W_contra]):
@@ -77,11 +77,11 @@ class AsyncWriteHandle(AsyncHandle, Encoding[W_contra]):
 
     async def write(self, value: W_contra) -> None:
         """Write a value that the range allows; bits of other points in the same word stay as they are."""
-        await self._device.run(self._device.write_steps(self, value))
+        await self._device._run(self._device._write_steps(self, value))
 
     async def write_raw(self, raw: int) -> None:
         """Write a raw number that the range allows."""
-        await self._device.run(self._device.write_raw_steps(self, raw))
+        await self._device._run(self._device._write_raw_steps(self, raw))
 
 
 class AsyncReadWriteHandle(AsyncReadHandle[R_co], AsyncWriteHandle[W_contra], Generic[R_co, W_contra]):

@@ -141,9 +141,25 @@ class Point:
         fixed, bits = self.facts.fixed or (0, 0)
         return result & ~fixed | bits
 
+    @property
+    def _unit(self) -> str:
+        """The unit as it stands behind a number."""
+        return f" {self.facts.unit}" if self.facts.unit else ""
+
+    def same(self, raw: int, other: int) -> bool:
+        """Whether two raw numbers mean the same."""
+        return self._form.same(raw, other)
+
+    def told(self, raw: int, raws: Raws = NO_RAWS) -> str:
+        """A raw number as people read it, with the unit; as `raw ...` where `raws` do not say what it means."""
+        try:
+            return self._form.shown(raw, raws) + self._unit
+        except CodecError:
+            return f"raw {raw}"
+
     def _within(self, number: int, low: int, high: int) -> None:
         try:
-            if not low <= whole(number) <= high:
+            if not low <= (int(number) if isinstance(number, bool) else whole(number)) <= high:
                 raise RangeError(f"{_shown(number)} is outside {low}..{high}")
         except CodecError as error:
             raise self._named(error) from None
@@ -208,8 +224,10 @@ class Encoding(Point, Generic[W_contra]):
     def check(self, raw: int, raws: Raws = NO_RAWS) -> None:
         """Raises RangeError or UnknownValueError (or ZeroFactorError) if this raw number may not be written."""
         try:
-            if self._form.checked(whole(raw), self.allowed, raws) is None:
-                raise self._form.refused(f"raw {_shown(raw)} is {self._form.choices() or self._raw_bounds(raws)}")
+            number = int(raw) if isinstance(raw, bool) and self.width == 1 else whole(raw)
+            if self._form.checked(number, self.allowed, raws) is None:
+                choices = self._form.choices(self._unit) or self._raw_bounds(raws)
+                raise self._form.refused(f"raw {_shown(raw)} is {choices}")
         except CodecError as error:
             raise self._named(error) from None
 
@@ -217,10 +235,10 @@ class Encoding(Point, Generic[W_contra]):
         return "outside " + " or ".join(f"{low_end(low, raws)}..{high_end(high, raws)}" for low, high in self.allowed)
 
     def _refusal(self, shown: str, raws: Raws) -> CodecError:
-        unit = f" {self.facts.unit}" if self.facts.unit else ""
-        choices = self._form.choices()
+        choices = self._form.choices(self._unit)
         if choices is None:
             ends = [(low_end(low, raws), high_end(high, raws)) for low, high in self.allowed]
             texts = [(self._form.shown(low, raws), self._form.shown(high, raws)) for low, high in ends]
             choices = "outside " + " or ".join(low if low == high else f"{low}..{high}" for low, high in texts)
-        return self._form.refused(f"{shown}{unit} is {choices}{unit}")
+            choices += self._unit
+        return self._form.refused(f"{shown}{self._unit} is {choices}")

@@ -7,13 +7,25 @@ import math
 import struct
 from typing import TYPE_CHECKING
 
-from .errors import NotANumberError
+from .errors import NotANumberError, WrongTypeError
 from .forms import Form, whole
-from .rules import Case, Rule, chosen
+from .rules import NO_RAWS, Case, Rule, chosen
 
 if TYPE_CHECKING:
     from .forms import Allowed, Type
     from .rules import Raws
+
+
+def _is_nan(value: float) -> bool:
+    """Whether a number is NaN; raises WrongTypeError for what is no number, and OverflowError far beyond floats."""
+    if isinstance(value, bool):
+        raise WrongTypeError(f"takes a number, not {value}")
+    try:
+        return math.isnan(value)
+    except TypeError:
+        raise WrongTypeError(f"takes a number, not {value!r}") from None
+    except ValueError:  # a signalling NaN
+        return True
 
 
 class Scaled(Form[float, float]):
@@ -37,13 +49,10 @@ class Scaled(Form[float, float]):
     def encode(self, value: float, allowed: Allowed, raws: Raws) -> int | None:
         """Rounded to nearest, halves away from zero, then checked."""
         try:
-            missing = math.isnan(value)
+            if _is_nan(value):
+                raise NotANumberError("the value is NaN")
         except OverflowError:
             return None
-        except ValueError:  # a signalling NaN
-            missing = True
-        if missing:
-            raise NotANumberError("the value is NaN")
         raw = self._rule(raws).encode(value, raws)
         return None if raw is None else self.checked(raw, allowed, raws)
 
@@ -89,12 +98,11 @@ class Floating(Form[float, float]):
     def _nearest(self, value: float) -> float:
         """The number of the type nearest to a value; infinity beyond the largest."""
         try:
-            math.isnan(value)  # says, unlike struct, what is wrong with an odd value
+            if _is_nan(value):
+                return math.nan
             number: float = struct.unpack(self._pack, struct.pack(self._pack, value))[0]
         except OverflowError:
             return math.inf if value > 0 else -math.inf
-        except ValueError:  # a signalling NaN
-            return math.nan
         return number
 
     def _fits(self, number: float) -> bool:
@@ -120,6 +128,12 @@ class Floating(Form[float, float]):
         """The number, as people read it."""
         return f"{self.decode(raw, raws):.12g}"
 
-    def choices(self) -> str | None:
-        """The limits in the unit."""
-        return "outside " + " or ".join(f"{low:.12g}..{high:.12g}" for low, high in self.units) if self.units else None
+    def same(self, raw: int, other: int) -> bool:
+        """Whether both are the same number: 0 and -0 are."""
+        return raw == other or self.decode(raw, NO_RAWS) == self.decode(other, NO_RAWS)
+
+    def choices(self, unit: str) -> str | None:
+        """The limits in the unit; without limits any number of the type may be written."""
+        if not self.units:
+            return f"no finite binary{self.wire.bits}"
+        return "outside " + " or ".join(f"{low:.12g}..{high:.12g}" for low, high in self.units) + unit

@@ -2,21 +2,31 @@
 """What a device is asked, in which order: the part of all devices that does no I/O and knows no bus.
 
 Each operation is a generator: it yields what its family sends, is sent what came back, and returns a result. How words
-travel is the family's part: a subclass with `get_steps` and `store_steps`.
+travel is the family's part: a subclass with `_get_steps` and `_store_steps`.
 """
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Generator, Iterable, Mapping, Sequence
+from collections.abc import Generator, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 from .descriptors import PointAttribute
-from .errors import AccessError
+from .errors import (
+    AccessError,
+    EchoError,
+    FrameError,
+    NoReplyError,
+    RequestError,
+    TelegramError,
+)
 from .points import Decoding, Encoding, Point
+from .rules import NO_RAWS
 
 if TYPE_CHECKING:
     from .facts import Place
+    from .rules import Raws
 
 T = TypeVar("T")
 Steps = Generator[Any, Any, T]
@@ -24,7 +34,18 @@ Steps = Generator[Any, Any, T]
 Value = float | None
 """What reading numbers can give (also bool, IntEnum and IntFlag); None is "no value"."""
 
-_KEPT = frozenset({"never", "rarely"})
+_NEVER = "never"
+_KEPT = frozenset({_NEVER, "rarely"})
+
+
+@contextmanager
+def _about(point: Point) -> Iterator[None]:
+    """What goes wrong on the bus meanwhile says which point was asked for."""
+    try:
+        yield
+    except (FrameError, RequestError, NoReplyError, TelegramError) as error:
+        error.point = error.point or point.label
+        raise
 
 
 class PointTable:
@@ -55,14 +76,14 @@ class Session(PointTable, ABC):
         self._kept: dict[str, int] = {}
 
     @abstractmethod
-    def get_steps(self, place: Place) -> Steps[tuple[int, ...]]:
+    def _get_steps(self, place: Place) -> Steps[tuple[int, ...]]:
         """Read the words or bits of a place, in ascending order of address."""
 
     @abstractmethod
-    def store_steps(self, place: Place, values: tuple[int, ...]) -> Steps[None]:
+    def _store_steps(self, place: Place, values: tuple[int, ...]) -> Steps[None]:
         """Write words or bits at a place, in ascending order of address."""
 
-    def gather_steps(self, points: Sequence[Point], group: str | None) -> Steps[dict[str, int]]:
+    def _gather_steps(self, points: Sequence[Point], group: str | None) -> Steps[dict[str, int]]:
         """Read the raw numbers of several points (of a whole `group`, where one is named), by item: place by place."""
         del group
         words: dict[Place, tuple[int, ...]] = {}
@@ -70,15 +91,16 @@ class Session(PointTable, ABC):
         for point in points:
             at = point.facts.at
             if at not in words:
-                words[at] = yield from self.get_steps(at)
-            raws[point.facts.item] = self.taken(point, words[at])
+                with _about(point):
+                    words[at] = yield from self._get_steps(at)
+            raws[point.facts.item] = self._taken(point, words[at])
         return raws
 
-    def shared_word_steps(self, point: Point) -> Steps[int]:
+    def _shared_word_steps(self, point: Point) -> Steps[int]:
         """The word that a bit group shares with others, as it is before the group is written."""
         if not isinstance(point, Decoding):
             raise AccessError(f"{point.label}: the other bits of its word cannot be read back")
-        return (yield from self.get_steps(point.facts.at))[0]
+        return (yield from self._get_steps(point.facts.at))[0]
 
     def forget(self) -> None:
         """Read everything anew that was remembered because it changes rarely or never."""
@@ -86,15 +108,35 @@ class Session(PointTable, ABC):
 
     def point(self, name: str) -> PointAttribute[Any, Any]:
         """A point by name, that of this device's variant; raises AccessError."""
-        found = self.POINTS.get(name)
+        found = self._found(name)
         if found is None:
-            same = [point for point in self.POINTS.values() if point.facts.name == name]
-            found = next((point for point in same if self._has(point)), None)
-        if found is None:
-            raise AccessError(f"{name} does not exist for {dict(self.variants)}")
+            raise AccessError(f"{name} {self._absence(name)}")
         return found
 
-    def require(self, point: Point) -> None:
+    def _named(self, name: str) -> list[PointAttribute[Any, Any]]:
+        """The points of that name, one for each variant that has its own."""
+        return [point for point in self.POINTS.values() if point.facts.name == name]
+
+    def _found(self, name: str) -> PointAttribute[Any, Any] | None:
+        return self.POINTS.get(name) or next((point for point in self._named(name) if self._has(point)), None)
+
+    def _absence(self, name: str) -> str:
+        """Why there is no such point, or not yet."""
+        axes = [point.facts.variant[0] for point in self._named(name) if point.facts.variant]
+        if not axes:
+            return "is no point of this device"
+        if self.variants.get(axes[0]) is None:
+            return f"depends on {axes[0]}: pass it when the device is made"
+        return f"does not exist for {axes[0]} {self.variants[axes[0]]}"
+
+    def _needed(self, point: Point, name: str) -> PointAttribute[Any, Any]:
+        """The point that another one needs; raises AccessError that says so."""
+        found = self._found(name)
+        if found is None:
+            raise AccessError(f"{point.label} needs {name}, which {self._absence(name)}")
+        return found
+
+    def _require(self, point: Point) -> None:
         """Raises AccessError if the point belongs to another variant than the one given for this device."""
         axis, value = point.facts.variant or ("", None)
         if self.variants.get(axis, value) not in (value, None):
@@ -109,73 +151,95 @@ class Session(PointTable, ABC):
         variant = point.facts.variant
         return exists and (variant is None or self.variants.get(variant[0]) == variant[1])
 
-    def read_raw_steps(self, point: Point) -> Steps[int]:
+    def _read_raw_steps(self, point: Point) -> Steps[int]:
         """Read a point's raw number."""
-        return self.taken(point, (yield from self.get_steps(point.facts.at)))
+        with _about(point):
+            return self._taken(point, (yield from self._get_steps(point.facts.at)))
 
-    def taken(self, point: Point, words: Sequence[int]) -> int:
+    def _taken(self, point: Point, words: Sequence[int]) -> int:
         """The raw number in words that came; it is remembered if the description says when it changes."""
         raw = point.from_words(words)
         if point.facts.changes in _KEPT or point.facts.changes_with:
             self._kept[point.facts.item] = raw
         return raw
 
-    def raws_steps(self, names: Iterable[str], known: Mapping[str, int]) -> Steps[dict[str, int]]:
-        """The raw numbers of other points: those known (by item), those remembered, the rest read."""
+    def _raws_steps(
+        self, point: Point, names: Iterable[str], known: Mapping[str, int] = NO_RAWS, *, writes: bool = False
+    ) -> Steps[dict[str, int]]:
+        """The raw numbers that a point needs of others: those known (by item), those remembered, the rest read.
+
+        What is written must not follow from a number that has changed meanwhile, by another master or by hand: then
+        only what never changes is taken from memory.
+        """
         raws: dict[str, int] = {}
         for name in names:
-            point = self.point(name)
-            item = point.facts.item
+            other = self._needed(point, name)
+            item = other.facts.item
             if item in known:
                 raws[name] = known[item]
-            elif item in self._kept:
+            elif item in self._kept and (not writes or other.facts.changes == _NEVER):
                 raws[name] = self._kept[item]
             else:
-                raws[name] = yield from self.read_raw_steps(point)
+                raws[name] = yield from self._read_raw_steps(other)
         return raws
 
-    def read_steps(self, point: Decoding[T]) -> Steps[T]:
+    def _read_steps(self, point: Decoding[T]) -> Steps[T]:
         """Read a point's value."""
-        raws = yield from self.raws_steps(point.scale_needs, {})
-        raw = yield from self.read_raw_steps(point)
+        raws = yield from self._raws_steps(point, point.scale_needs)
+        raw = yield from self._read_raw_steps(point)
         return point.decode(raw, raws)
 
-    def write_steps(self, point: Encoding[T], value: T, place: Place | None = None) -> Steps[None]:
+    def _write_steps(self, point: Encoding[T], value: T, place: Place | None = None) -> Steps[None]:
         """Write a value, to another `place` than the usual one where one is named."""
-        raws = yield from self.raws_steps(dict.fromkeys((*point.scale_needs, *point.limit_needs)), {})
-        yield from self._write_steps(point, point.encode(value, raws), place)
+        needs = dict.fromkeys((*point.scale_needs, *point.limit_needs))
+        raws = yield from self._raws_steps(point, needs, writes=True)
+        yield from self._put_raw_steps(point, point.encode(value, raws), place, raws)
 
-    def write_raw_steps(self, point: Encoding[Any], raw: int, place: Place | None = None) -> Steps[None]:
+    def _write_raw_steps(self, point: Encoding[Any], raw: int, place: Place | None = None) -> Steps[None]:
         """Write a raw number that the range allows."""
-        point.check(raw, (yield from self.raws_steps(point.limit_needs, {})))
-        yield from self._write_steps(point, raw, place)
+        raws = yield from self._raws_steps(point, point.limit_needs, writes=True)
+        point.check(raw, raws)
+        yield from self._put_raw_steps(point, raw, place, raws)
 
-    def _write_steps(self, point: Point, raw: int, place: Place | None) -> Steps[None]:
+    def _put_raw_steps(self, point: Point, raw: int, place: Place | None, raws: Raws) -> Steps[None]:
+        """Write a raw number that was checked; raises EchoError if the device confirms another one."""
         words = point.to_words(raw)
-        if point.facts.bits is not None:
-            words = (point.insert((yield from self.shared_word_steps(point)), raw),)
-        yield from self.put_steps(place or point.facts.write_at or point.facts.at, words)
+        with _about(point):
+            if point.facts.bits is not None:
+                words = (point.insert((yield from self._shared_word_steps(point)), raw),)
+            try:
+                yield from self._put_steps(place or point.facts.write_at or point.facts.at, words)
+            except EchoError as error:
+                if point.facts.bits is not None or len(error.answered) != point.size:
+                    raise
+                answered = point.from_words(error.answered)
+                if not point.same(raw, answered):
+                    text = f"{point.told(raw, raws)} was written, and the device answered {point.told(answered, raws)}"
+                    raise EchoError(text, error.written, error.answered) from None
 
-    def put_steps(self, place: Place, values: tuple[int, ...]) -> Steps[None]:
+    def _put_steps(self, place: Place, values: tuple[int, ...]) -> Steps[None]:
         """Write words or bits at a place, and forget what they change."""
         for item in list(self._kept):
             kept = self.POINTS[item].facts
             changing = [one.facts for one in self.POINTS.values() if one.facts.name in kept.changes_with]
             if any(place.overlaps(at) for facts in (kept, *changing) for at in (facts.at, facts.write_at) if at):
                 del self._kept[item]
-        yield from self.store_steps(place, values)
+        yield from self._store_steps(place, values)
 
-    def read_many_steps(self, what: str | Iterable[str | Point]) -> Steps[dict[str, Any]]:
-        """Read a group, or any points, with as few requests as the device allows."""
+    def _read_many_steps(self, what: str | Iterable[str | Point]) -> Steps[dict[str, Any]]:
+        """Read a group, or any points, with as few requests as the device allows.
+
+        Of a group those points are left out that do not travel the way the link is set.
+        """
         group = what if isinstance(what, str) else None
         points = self._group(what) if isinstance(what, str) else self._listed(what)
-        needed = [self.point(name) for point in points for name in point.scale_needs]
+        needed = [self._needed(point, name) for point in points for name in point.scale_needs]
         wanted: dict[str, Point] = {point.facts.item: point for point in points}
         wanted.update({point.facts.item: point for point in needed if point.facts.item not in self._kept})
-        raws = yield from self.gather_steps(list(wanted.values()), group)
+        raws = yield from self._gather_steps(list(wanted.values()), group)
         values: dict[str, Any] = {}
         for point in points:
-            known = yield from self.raws_steps(point.scale_needs, raws)
+            known = yield from self._raws_steps(point, point.scale_needs, raws)
             values[point.facts.name] = point.decode(raws[point.facts.item], known)
         return values
 
@@ -183,7 +247,7 @@ class Session(PointTable, ABC):
         points: list[Decoding[Any]] = []
         for one in what:
             point = self.point(one if isinstance(one, str) else one.facts.item)
-            self.require(point)
+            self._require(point)
             if not isinstance(point, Decoding):
                 raise AccessError(f"{point.label} cannot be read")
             points.append(point)
@@ -193,4 +257,14 @@ class Session(PointTable, ABC):
         members = [point for point in self.POINTS.values() if point.facts.group == group and self._has(point)]
         if not members:
             raise AccessError(f"there is no group {group}")
-        return [point for point in members if isinstance(point, Decoding)]
+        return [point for point in members if isinstance(point, Decoding) and self._travels(point)]
+
+    def _travels(self, point: Point) -> bool:
+        """Whether the link carries a point, and all that its scale needs."""
+        needed = [self._found(name) for name in point.scale_needs]
+        return all(self._carried(one) for one in (point, *needed) if one is not None)
+
+    def _carried(self, point: Point) -> bool:
+        """Whether the words of a point travel the way the link is set; families say where that differs."""
+        del point
+        return True

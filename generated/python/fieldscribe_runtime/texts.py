@@ -7,7 +7,7 @@ import enum
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, TypeVar
 
-from .errors import UnknownValueError, WrongLengthError
+from .errors import UnknownValueError, WrongLengthError, WrongTypeError
 from .forms import Form, Type, whole
 
 if TYPE_CHECKING:
@@ -58,7 +58,7 @@ class Text(Form[str, str]):
         """There is none: raises TypeError."""
         raise TypeError("a text has no integer path")
 
-    def choices(self) -> str | None:
+    def choices(self, unit: str) -> str | None:
         """What a text has to be."""
         return f"no text of at most {self.characters} printable {self.encoding} characters"
 
@@ -89,6 +89,8 @@ class Digits(Form[tuple[E | int, ...], Sequence[E | int]]):
 
     def encode(self, value: Sequence[E | int], allowed: Allowed, raws: Raws) -> int | None:
         """The word of that many members or numbers; a member of another enum raises UnknownValueError."""
+        if not isinstance(value, Sequence) or isinstance(value, (str, bytes)):
+            raise WrongTypeError(f"takes {self.count} digits, not {value!r}")
         if len(value) != self.count:
             raise WrongLengthError(f"takes {self.count} digits, not {len(value)}")
         raw = 0
@@ -110,7 +112,7 @@ class Digits(Form[tuple[E | int, ...], Sequence[E | int]]):
         entry = self._numbers.get(raw)
         return None if entry is None else entry.name.lower()
 
-    def choices(self) -> str | None:
+    def choices(self, unit: str) -> str | None:
         """What each digit has to be."""
         named = ", ".join(f"{entry.value} {entry.name.lower()}" for entry in self.names)
         return f"not made of {self.count} digits out of {named}"

@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: 0BSD
-"""Flags inside a word: named bits and bit groups of an IntFlag."""
+"""Flags inside a word: named bits and bit groups of an IntFlag, which is shown and composed by what they mean."""
 
 from __future__ import annotations
 
 import enum
-from typing import Generic, Never, TypeVar, overload
+import functools
+import operator
+from typing import TYPE_CHECKING, Generic, Never, TypeVar, overload
 
 E = TypeVar("E", bound=enum.IntEnum)
 
@@ -29,6 +31,14 @@ class Flag:
         """The bit as it is in the word, 0 or 1."""
         return word >> self.low & 1
 
+    def place(self, true: bool) -> int:
+        """The bit at its place, as it has to be for the name to be true, or not."""
+        return (self.active if true else 1 - self.active) << self.low
+
+    def told(self, name: str, word: int) -> str:
+        """The name if it is true on a word, else nothing."""
+        return name if self.number(word) == self.active else ""
+
 
 class Field(Generic[E]):
     """Several bits of a word; on a word it is their number, by name where it has one."""
@@ -47,8 +57,9 @@ class Field(Generic[E]):
     @overload
     def __get__(self, word: int, owner: object) -> E | int: ...
     def __get__(self, word: int | None, owner: object) -> Field[E] | E | int:
-        if word is None:
-            return self
+        return self if word is None else self._named(word)
+
+    def _named(self, word: int) -> E | int:
         number = self.number(word)
         try:
             return number if self.names is None else self.names(number)
@@ -64,3 +75,34 @@ class Field(Generic[E]):
         if number >> self.width:
             raise ValueError(f"{number} does not fit into {self.width} bits")
         return int(number) << self.low
+
+    def told(self, name: str, word: int) -> str:
+        """The name with its number on a word."""
+        number = self._named(word)
+        return f"{name}={number.name.lower() if isinstance(number, enum.Enum) else number}"
+
+
+class Word:
+    """What the flags of a word make of it: it is shown with the names that are true, whichever bit means so."""
+
+    if TYPE_CHECKING:
+
+        def __index__(self) -> int: ...
+
+    @staticmethod
+    def _joined(*parts: int) -> int:
+        """A number of the bits of all parts."""
+        return functools.reduce(operator.or_, parts, 0)
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} {self}>"
+
+    def __str__(self) -> str:
+        number = int(self)
+        flags = {name: flag for base in type(self).__mro__ for name, flag in vars(base).items()}
+        told = [flag.told(name, number) for name, flag in flags.items() if isinstance(flag, (Flag, Field))]
+        names = ", ".join(filter(None, told))
+        return f"0x{number:04X} ({names})" if names else f"0x{number:04X}"
+
+    def __format__(self, spec: str) -> str:
+        return format(int(self), spec) if spec else str(self)

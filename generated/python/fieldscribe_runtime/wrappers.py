@@ -59,9 +59,13 @@ class _Around(Form[R, W]):
         """As in the form."""
         return self.form.shown(raw, raws)
 
-    def choices(self) -> str | None:
+    def same(self, raw: int, other: int) -> bool:
         """As in the form."""
-        return self.form.choices()
+        return self.form.same(raw, other)
+
+    def choices(self, unit: str) -> str | None:
+        """As in the form."""
+        return self.form.choices(unit)
 
     def name_of(self, raw: int) -> str | None:
         """As in the form."""

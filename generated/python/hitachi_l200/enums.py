@@ -5,7 +5,7 @@
 
 import enum
 
-from fieldscribe_runtime import Flag
+from fieldscribe_runtime import Flag, Word
 
 
 class RunCommand(enum.IntEnum):
@@ -449,7 +449,7 @@ class MotorPoles(enum.IntEnum):
     POLES_8 = 8
 
 
-class _DigitalInputsFlags:
+class _DigitalInputsFlags(Word):
     input_1 = Flag(0)
     input_2 = Flag(1)
     input_3 = Flag(2)
@@ -458,7 +458,10 @@ class _DigitalInputsFlags:
 
 
 class DigitalInputs(_DigitalInputsFlags, enum.IntFlag, boundary=enum.KEEP):
-    """Digital inputs."""
+    """Digital inputs.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     INPUT_1 = 0x0001
     INPUT_2 = 0x0002
@@ -467,14 +470,17 @@ class DigitalInputs(_DigitalInputsFlags, enum.IntFlag, boundary=enum.KEEP):
     INPUT_5 = 0x0010
 
 
-class _DigitalOutputsFlags:
+class _DigitalOutputsFlags(Word):
     output_11 = Flag(0)
     output_12 = Flag(1)
     relay_al = Flag(2)
 
 
 class DigitalOutputs(_DigitalOutputsFlags, enum.IntFlag, boundary=enum.KEEP):
-    """Digital outputs."""
+    """Digital outputs.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     OUTPUT_11 = 0x0001
     OUTPUT_12 = 0x0002

@@ -31,7 +31,14 @@ from . import enums
 
 
 class Points(PointTable):
-    """All points of Hitachi L200; on this class they are pure codecs."""
+    """All points of Hitachi L200; on this class they are pure codecs.
+
+    The manual does not settle the type or the scale of those below, so that they are no
+    attributes. The methods `read_at` and `write_at` of a device reach their words by space
+    and address, with what they mean left to you:
+
+    - d007 scaled_output_frequency: 'holding', 0x1008, 0x1009
+    """
 
     PROFILE = Profile(
         functions={0x01: 32, 0x03: 4, 0x05: 1, 0x06: 1, 0x08: 1, 0x0F: 32, 0x10: 4},

@@ -4,11 +4,12 @@
 """JUMO Controller with MOD-Bus: names for numbers, and words of flags."""
 
 import enum
+from typing import Self
 
-from fieldscribe_runtime import Flag
+from fieldscribe_runtime import Flag, Word
 
 
-class _ProgramStatusFlags:
+class _ProgramStatusFlags(Word):
     program_hold = Flag(1)
     basic_position = Flag(2)
     automatic_mode = Flag(5)
@@ -17,7 +18,10 @@ class _ProgramStatusFlags:
 
 
 class ProgramStatus(_ProgramStatusFlags, enum.IntFlag, boundary=enum.KEEP):
-    """Program status."""
+    """Program status.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     PROGRAM_HOLD = 0x0002
     BASIC_POSITION = 0x0004
@@ -26,7 +30,7 @@ class ProgramStatus(_ProgramStatusFlags, enum.IntFlag, boundary=enum.KEEP):
     TOLERANCE_BAND_SIGNAL = 0x0080
 
 
-class _BinaryOutputsFlags:
+class _BinaryOutputsFlags(Word):
     binary_output_1 = Flag(0)
     binary_output_2 = Flag(1)
     binary_output_3 = Flag(2)
@@ -40,7 +44,10 @@ class _BinaryOutputsFlags:
 
 
 class BinaryOutputs(_BinaryOutputsFlags, enum.IntFlag, boundary=enum.KEEP):
-    """Binary outputs."""
+    """Binary outputs.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     BINARY_OUTPUT_1 = 0x0001
     """Binary output 1 (0: Zero; 1: One)."""
@@ -64,7 +71,7 @@ class BinaryOutputs(_BinaryOutputsFlags, enum.IntFlag, boundary=enum.KEEP):
     """Binary output 10 (0: Zero; 1: One)."""
 
 
-class _BinaryInputsFlags:
+class _BinaryInputsFlags(Word):
     binary_input_1 = Flag(0)
     binary_input_2 = Flag(1)
     binary_input_3 = Flag(2)
@@ -76,7 +83,10 @@ class _BinaryInputsFlags:
 
 
 class BinaryInputs(_BinaryInputsFlags, enum.IntFlag, boundary=enum.KEEP):
-    """Binary inputs."""
+    """Binary inputs.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     BINARY_INPUT_1 = 0x0001
     """Binary input 1 (0: Zero; 1: One)."""
@@ -96,7 +106,7 @@ class BinaryInputs(_BinaryInputsFlags, enum.IntFlag, boundary=enum.KEEP):
     """Binary input 7 (0: Zero; 1: One)."""
 
 
-class _ControlContactsFlags:
+class _ControlContactsFlags(Word):
     control_contact_1 = Flag(0)
     control_contact_2 = Flag(1)
     control_contact_3 = Flag(2)
@@ -104,7 +114,10 @@ class _ControlContactsFlags:
 
 
 class ControlContacts(_ControlContactsFlags, enum.IntFlag, boundary=enum.KEEP):
-    """Control contacts."""
+    """Control contacts.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     CONTROL_CONTACT_1 = 0x0001
     CONTROL_CONTACT_2 = 0x0002
@@ -112,7 +125,7 @@ class ControlContacts(_ControlContactsFlags, enum.IntFlag, boundary=enum.KEEP):
     CONTROL_CONTACT_4 = 0x0008
 
 
-class _BinarySignalsFlags:
+class _BinarySignalsFlags(Word):
     control_contact_1 = Flag(0)
     control_contact_2 = Flag(1)
     control_contact_3 = Flag(2)
@@ -122,7 +135,10 @@ class _BinarySignalsFlags:
 
 
 class BinarySignals(_BinarySignalsFlags, enum.IntFlag, boundary=enum.KEEP):
-    """Binary signals."""
+    """Binary signals.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     CONTROL_CONTACT_1 = 0x0001
     CONTROL_CONTACT_2 = 0x0002
@@ -132,7 +148,7 @@ class BinarySignals(_BinarySignalsFlags, enum.IntFlag, boundary=enum.KEEP):
     TIMER_2 = 0x0020
 
 
-class _BinaryOutputControlFlags:
+class _BinaryOutputControlFlags(Word):
     output_1 = Flag(0)
     output_2 = Flag(1)
     output_3 = Flag(2)
@@ -146,7 +162,10 @@ class _BinaryOutputControlFlags:
 
 
 class BinaryOutputControl(_BinaryOutputControlFlags, enum.IntFlag, boundary=enum.KEEP):
-    """Binary output control."""
+    """Binary output control.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     OUTPUT_1 = 0x0001
     OUTPUT_2 = 0x0002
@@ -159,8 +178,40 @@ class BinaryOutputControl(_BinaryOutputControlFlags, enum.IntFlag, boundary=enum
     OUTPUT_9 = 0x0100
     OUTPUT_10 = 0x0200
 
+    @classmethod
+    def of(
+        cls,
+        *,
+        output_1: bool = False,
+        output_2: bool = False,
+        output_3: bool = False,
+        output_4: bool = False,
+        output_5: bool = False,
+        output_6: bool = False,
+        output_7: bool = False,
+        output_8: bool = False,
+        output_9: bool = False,
+        output_10: bool = False,
+    ) -> Self:
+        """The word in which just what is passed is true, whichever bit means so."""
+        return cls(
+            cls._joined(
+                cls.output_1.place(output_1),
+                cls.output_2.place(output_2),
+                cls.output_3.place(output_3),
+                cls.output_4.place(output_4),
+                cls.output_5.place(output_5),
+                cls.output_6.place(output_6),
+                cls.output_7.place(output_7),
+                cls.output_8.place(output_8),
+                cls.output_9.place(output_9),
+                cls.output_10.place(output_10),
+                0x8000,
+            ),
+        )
 
-class _ProgramControllerCommandsFlags:
+
+class _ProgramControllerCommandsFlags(Word):
     hold_program = Flag(1)
     abort_program = Flag(2)
     start_program = Flag(3)
@@ -172,15 +223,37 @@ class ProgramControllerCommands(
     enum.IntFlag,
     boundary=enum.KEEP,
 ):
-    """Program controller commands."""
+    """Program controller commands.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     HOLD_PROGRAM = 0x0002
     ABORT_PROGRAM = 0x0004
     START_PROGRAM = 0x0008
     CHANGE_SECTION = 0x0100
 
+    @classmethod
+    def of(
+        cls,
+        *,
+        hold_program: bool = False,
+        abort_program: bool = False,
+        start_program: bool = False,
+        change_section: bool = False,
+    ) -> Self:
+        """The word in which just what is passed is true, whichever bit means so."""
+        return cls(
+            cls._joined(
+                cls.hold_program.place(hold_program),
+                cls.abort_program.place(abort_program),
+                cls.start_program.place(start_program),
+                cls.change_section.place(change_section),
+            ),
+        )
 
-class _ControllerCommandsFlags:
+
+class _ControllerCommandsFlags(Word):
     hold_ramp = Flag(1)
     abort_ramp = Flag(2)
     activate_manual_mode = Flag(4)
@@ -191,7 +264,10 @@ class _ControllerCommandsFlags:
 
 
 class ControllerCommands(_ControllerCommandsFlags, enum.IntFlag, boundary=enum.KEEP):
-    """Controller commands."""
+    """Controller commands.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     HOLD_RAMP = 0x0002
     ABORT_RAMP = 0x0004
@@ -201,22 +277,67 @@ class ControllerCommands(_ControllerCommandsFlags, enum.IntFlag, boundary=enum.K
     START_SELF_OPTIMISATION = 0x0080
     ABORT_SELF_OPTIMISATION = 0x2000
 
+    @classmethod
+    def of(
+        cls,
+        *,
+        hold_ramp: bool = False,
+        abort_ramp: bool = False,
+        activate_manual_mode: bool = False,
+        automatic_mode: bool = False,
+        controller_off: bool = False,
+        start_self_optimisation: bool = False,
+        abort_self_optimisation: bool = False,
+    ) -> Self:
+        """The word in which just what is passed is true, whichever bit means so."""
+        return cls(
+            cls._joined(
+                cls.hold_ramp.place(hold_ramp),
+                cls.abort_ramp.place(abort_ramp),
+                cls.activate_manual_mode.place(activate_manual_mode),
+                cls.automatic_mode.place(automatic_mode),
+                cls.controller_off.place(controller_off),
+                cls.start_self_optimisation.place(start_self_optimisation),
+                cls.abort_self_optimisation.place(abort_self_optimisation),
+            ),
+        )
 
-class _OperationCommandsFlags:
+
+class _OperationCommandsFlags(Word):
     displays_off = Flag(4)
     acknowledge_limit_comparators = Flag(5)
     text_display = Flag(6)
 
 
 class OperationCommands(_OperationCommandsFlags, enum.IntFlag, boundary=enum.KEEP):
-    """Operation commands."""
+    """Operation commands.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     DISPLAYS_OFF = 0x0010
     ACKNOWLEDGE_LIMIT_COMPARATORS = 0x0020
     TEXT_DISPLAY = 0x0040
 
+    @classmethod
+    def of(
+        cls,
+        *,
+        displays_off: bool = False,
+        acknowledge_limit_comparators: bool = False,
+        text_display: bool = False,
+    ) -> Self:
+        """The word in which just what is passed is true, whichever bit means so."""
+        return cls(
+            cls._joined(
+                cls.displays_off.place(displays_off),
+                cls.acknowledge_limit_comparators.place(acknowledge_limit_comparators),
+                cls.text_display.place(text_display),
+            ),
+        )
 
-class _TimerCommandsFlags:
+
+class _TimerCommandsFlags(Word):
     hold_timer_1 = Flag(1)
     abort_timer_1 = Flag(2)
     start_timer_1 = Flag(3)
@@ -224,9 +345,31 @@ class _TimerCommandsFlags:
 
 
 class TimerCommands(_TimerCommandsFlags, enum.IntFlag, boundary=enum.KEEP):
-    """Timer commands."""
+    """Timer commands.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     HOLD_TIMER_1 = 0x0002
     ABORT_TIMER_1 = 0x0004
     START_TIMER_1 = 0x0008
     HOLD_TIMER_2 = 0x0200
+
+    @classmethod
+    def of(
+        cls,
+        *,
+        hold_timer_1: bool = False,
+        abort_timer_1: bool = False,
+        start_timer_1: bool = False,
+        hold_timer_2: bool = False,
+    ) -> Self:
+        """The word in which just what is passed is true, whichever bit means so."""
+        return cls(
+            cls._joined(
+                cls.hold_timer_1.place(hold_timer_1),
+                cls.abort_timer_1.place(abort_timer_1),
+                cls.start_timer_1.place(start_timer_1),
+                cls.hold_timer_2.place(hold_timer_2),
+            ),
+        )

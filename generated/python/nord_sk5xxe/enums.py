@@ -4,8 +4,9 @@
 """NORD SK 5xxE: names for numbers, and words of flags."""
 
 import enum
+from typing import Self
 
-from fieldscribe_runtime import Field, Flag
+from fieldscribe_runtime import Field, Flag, Word
 
 
 class ControlWordParameterSet(enum.IntEnum):
@@ -17,7 +18,7 @@ class ControlWordParameterSet(enum.IntEnum):
     SET_4 = 3
 
 
-class _ControlWordFlags:
+class _ControlWordFlags(Word):
     ready_to_run = Flag(0)
     inhibit_voltage = Flag(1, active=0)
     quick_stop = Flag(2, active=0)
@@ -36,14 +37,17 @@ class _ControlWordFlags:
 
 
 class ControlWord(_ControlWordFlags, enum.IntFlag, boundary=enum.KEEP):
-    """Control word."""
+    """Control word.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     READY_TO_RUN = 0x0001
     """Ready to run (0: Zero; 1: One)."""
     INHIBIT_VOLTAGE = 0x0002
-    """Inhibit voltage (0: Zero; 1: One)."""
+    """Inhibit voltage (0: Zero; 1: One). True while the bit is 0."""
     QUICK_STOP = 0x0004
-    """Quick stop (0: Zero; 1: One)."""
+    """Quick stop (0: Zero; 1: One). True while the bit is 0."""
     ENABLE_OPERATION = 0x0008
     """Enable operation (0: Zero; 1: One)."""
     ENABLE_PULSES = 0x0010
@@ -67,6 +71,47 @@ class ControlWord(_ControlWordFlags, enum.IntFlag, boundary=enum.KEEP):
     RESERVED = 0x2000
     PARAMETER_SET = 0xC000
 
+    @classmethod
+    def of(
+        cls,
+        *,
+        ready_to_run: bool = False,
+        inhibit_voltage: bool = False,
+        quick_stop: bool = False,
+        enable_operation: bool = False,
+        enable_pulses: bool = False,
+        enable_ramp: bool = False,
+        enable_setpoint: bool = False,
+        acknowledge_fault: bool = False,
+        start_function_480_11: bool = False,
+        start_function_480_12: bool = False,
+        control_data_valid: bool = False,
+        clockwise: bool = False,
+        counter_clockwise: bool = False,
+        reserved: bool = False,
+        parameter_set: ControlWordParameterSet | int = 0,
+    ) -> Self:
+        """The word in which just what is passed is true, whichever bit means so."""
+        return cls(
+            cls._joined(
+                cls.ready_to_run.place(ready_to_run),
+                cls.inhibit_voltage.place(inhibit_voltage),
+                cls.quick_stop.place(quick_stop),
+                cls.enable_operation.place(enable_operation),
+                cls.enable_pulses.place(enable_pulses),
+                cls.enable_ramp.place(enable_ramp),
+                cls.enable_setpoint.place(enable_setpoint),
+                cls.acknowledge_fault.place(acknowledge_fault),
+                cls.start_function_480_11.place(start_function_480_11),
+                cls.start_function_480_12.place(start_function_480_12),
+                cls.control_data_valid.place(control_data_valid),
+                cls.clockwise.place(clockwise),
+                cls.counter_clockwise.place(counter_clockwise),
+                cls.reserved.place(reserved),
+                cls.parameter_set.place(parameter_set),
+            ),
+        )
+
 
 class StatusWordParameterSet(enum.IntEnum):
     """Parameter set."""
@@ -77,7 +122,7 @@ class StatusWordParameterSet(enum.IntEnum):
     SET_4 = 3
 
 
-class _StatusWordFlags:
+class _StatusWordFlags(Word):
     ready_to_switch_on = Flag(0)
     ready_to_run = Flag(1)
     operation_enabled = Flag(2)
@@ -96,7 +141,10 @@ class _StatusWordFlags:
 
 
 class StatusWord(_StatusWordFlags, enum.IntFlag, boundary=enum.KEEP):
-    """Status word."""
+    """Status word.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     READY_TO_SWITCH_ON = 0x0001
     """Ready to switch on (0: Zero; 1: One)."""
@@ -109,7 +157,7 @@ class StatusWord(_StatusWordFlags, enum.IntFlag, boundary=enum.KEEP):
     VOLTAGE_ENABLED = 0x0010
     """Voltage enabled (0: Zero; 1: One)."""
     QUICK_STOP = 0x0020
-    """Quick stop (0: Zero; 1: One)."""
+    """Quick stop (0: Zero; 1: One). True while the bit is 0."""
     SWITCH_ON_INHIBIT = 0x0040
     """Switch on inhibit (0: Zero; 1: One)."""
     WARNING = 0x0080

@@ -22,7 +22,48 @@ from . import enums
 
 
 class Points(PointTable):
-    """All points of NORD SK 5xxE; on this class they are pure codecs."""
+    """All points of NORD SK 5xxE; on this class they are pure codecs.
+
+    The manual does not settle the type or the scale of those below, so that they are no
+    attributes. The methods `read_at` and `write_at` of a device reach their words by space
+    and address, with what they mean left to you:
+
+    - P102 acceleration_time_set_1: 'holding', 0x1980
+    - P102 acceleration_time_set_2: 'holding', 0x1981
+    - P102 acceleration_time_set_3: 'holding', 0x1982
+    - P102 acceleration_time_set_4: 'holding', 0x1983
+    - P103 maximum_frequency: 'holding', 0x19C0
+    - P502 p502: 'holding', 0x7D80
+    - P509 control_word_source: 'holding', 0x7F40
+    - P511 uss_baud_rate: 'holding', 0x7FC0
+    - P512 uss_address: 'holding', 0x8000
+    - P543 actual_value_source_set_1_index_1: 'holding', 0x87C0
+    - P543 actual_value_source_set_1_index_2: 'holding', 0x87C4
+    - P543 actual_value_source_set_1_index_3: 'holding', 0x87C8
+    - P543 actual_value_source_set_1_index_4: 'holding', 0x87CC
+    - P543 actual_value_source_set_1_index_5: 'holding', 0x87D0
+    - P543 actual_value_source_set_2_index_1: 'holding', 0x87C1
+    - P543 actual_value_source_set_2_index_2: 'holding', 0x87C5
+    - P543 actual_value_source_set_2_index_3: 'holding', 0x87C9
+    - P543 actual_value_source_set_2_index_4: 'holding', 0x87CD
+    - P543 actual_value_source_set_2_index_5: 'holding', 0x87D1
+    - P543 actual_value_source_set_3_index_1: 'holding', 0x87C2
+    - P543 actual_value_source_set_3_index_2: 'holding', 0x87C6
+    - P543 actual_value_source_set_3_index_3: 'holding', 0x87CA
+    - P543 actual_value_source_set_3_index_4: 'holding', 0x87CE
+    - P543 actual_value_source_set_3_index_5: 'holding', 0x87D2
+    - P543 actual_value_source_set_4_index_1: 'holding', 0x87C3
+    - P543 actual_value_source_set_4_index_2: 'holding', 0x87C7
+    - P543 actual_value_source_set_4_index_3: 'holding', 0x87CB
+    - P543 actual_value_source_set_4_index_4: 'holding', 0x87CF
+    - P543 actual_value_source_set_4_index_5: 'holding', 0x87D3
+    - P546[1] setpoint_1_function: 'holding', 0x8880
+    - P601 p601: 'holding', 0x9640
+    - P607 p607_index_1: 'holding', 0x97C0
+    - P607 p607_index_2: 'holding', 0x97C1
+    - P740[1] received_control_word: 'holding', 0xB900
+    - P741[1] sent_status_word: 'holding', 0xB940
+    """
 
     PROFILE = Profile(
         functions={0x01: 2000, 0x05: 1, 0x0F: 1968, 0x03: 125, 0x06: 1, 0x10: 123},

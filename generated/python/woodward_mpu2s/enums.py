@@ -4,8 +4,9 @@
 """Woodward MPU2-S: names for numbers, and words of flags."""
 
 import enum
+from typing import Self
 
-from fieldscribe_runtime import Field, Flag
+from fieldscribe_runtime import Field, Flag, Word
 
 
 class SupplyPresence(enum.IntEnum):
@@ -272,7 +273,7 @@ class PresentFaultClassesFaultClass0(enum.IntEnum):
     ACTIVE = 3
 
 
-class _PresentFaultClassesFlags:
+class _PresentFaultClassesFlags(Word):
     fault_class_3 = Field(6, 2, PresentFaultClassesFaultClass3)
     fault_class_2 = Field(4, 2, PresentFaultClassesFaultClass2)
     fault_class_1 = Field(2, 2, PresentFaultClassesFaultClass1)
@@ -280,7 +281,10 @@ class _PresentFaultClassesFlags:
 
 
 class PresentFaultClasses(_PresentFaultClassesFlags, enum.IntFlag, boundary=enum.KEEP):
-    """Present fault classes."""
+    """Present fault classes.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     FAULT_CLASS_3 = 0x00C0
     FAULT_CLASS_2 = 0x0030
@@ -323,7 +327,7 @@ class ControlRegister2Terminal6SynchronisationOn(enum.IntEnum):
     ACTIVE = 3
 
 
-class _ControlRegister2Flags:
+class _ControlRegister2Flags(Word):
     terminal_3_generator_breaker_enable = Field(
         14,
         2,
@@ -344,7 +348,10 @@ class _ControlRegister2Flags:
 
 
 class ControlRegister2(_ControlRegister2Flags, enum.IntFlag, boundary=enum.KEEP):
-    """Control register 2."""
+    """Control register 2.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     TERMINAL_3_GENERATOR_BREAKER_ENABLE = 0xC000
     TERMINAL_5_GENERATOR_BREAKER_CLOSED = 0x3000
@@ -367,19 +374,22 @@ class ControlRegister1AcknowledgeF1(enum.IntEnum):
     ACTIVE = 3
 
 
-class _ControlRegister1Flags:
+class _ControlRegister1Flags(Word):
     acknowledge_f2_f3 = Field(10, 2, ControlRegister1AcknowledgeF2F3)
     acknowledge_f1 = Field(8, 2, ControlRegister1AcknowledgeF1)
 
 
 class ControlRegister1(_ControlRegister1Flags, enum.IntFlag, boundary=enum.KEEP):
-    """Control register 1."""
+    """Control register 1.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     ACKNOWLEDGE_F2_F3 = 0x0C00
     ACKNOWLEDGE_F1 = 0x0300
 
 
-class _InternalFaults8Flags:
+class _InternalFaults8Flags(Word):
     generator_overfrequency_stage_2 = Flag(15)
     generator_underfrequency_stage_2 = Flag(14)
     generator_overvoltage_stage_2 = Flag(13)
@@ -389,7 +399,10 @@ class _InternalFaults8Flags:
 
 
 class InternalFaults8(_InternalFaults8Flags, enum.IntFlag, boundary=enum.KEEP):
-    """Internal faults 8."""
+    """Internal faults 8.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     GENERATOR_OVERFREQUENCY_STAGE_2 = 0x8000
     GENERATOR_UNDERFREQUENCY_STAGE_2 = 0x4000
@@ -399,7 +412,7 @@ class InternalFaults8(_InternalFaults8Flags, enum.IntFlag, boundary=enum.KEEP):
     REACTIVE_POWER_CAPACITIVE = 0x0400
 
 
-class _InternalFaults6Flags:
+class _InternalFaults6Flags(Word):
     analog_input_8_wire_break = Flag(7)
     analog_input_7_wire_break = Flag(6)
     analog_input_6_wire_break = Flag(5)
@@ -411,7 +424,10 @@ class _InternalFaults6Flags:
 
 
 class InternalFaults6(_InternalFaults6Flags, enum.IntFlag, boundary=enum.KEEP):
-    """Internal faults 6."""
+    """Internal faults 6.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     ANALOG_INPUT_8_WIRE_BREAK = 0x0080
     ANALOG_INPUT_7_WIRE_BREAK = 0x0040
@@ -472,7 +488,7 @@ class InternalFaults1ReversePower(enum.IntEnum):
     ACTIVE = 3
 
 
-class _InternalFaults1Flags:
+class _InternalFaults1Flags(Word):
     generator_overfrequency_1 = Field(14, 2, InternalFaults1GeneratorOverfrequency1)
     generator_underfrequency_1 = Field(12, 2, InternalFaults1GeneratorUnderfrequency1)
     generator_overvoltage_1 = Field(10, 2, InternalFaults1GeneratorOvervoltage1)
@@ -483,7 +499,10 @@ class _InternalFaults1Flags:
 
 
 class InternalFaults1(_InternalFaults1Flags, enum.IntFlag, boundary=enum.KEEP):
-    """Internal faults 1."""
+    """Internal faults 1.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     GENERATOR_OVERFREQUENCY_1 = 0xC000
     GENERATOR_UNDERFREQUENCY_1 = 0x3000
@@ -543,7 +562,7 @@ class InternalFaults2PhaseShift(enum.IntEnum):
     ACTIVE = 3
 
 
-class _InternalFaults2Flags:
+class _InternalFaults2Flags(Word):
     mains_overfrequency = Field(14, 2, InternalFaults2MainsOverfrequency)
     mains_underfrequency = Field(12, 2, InternalFaults2MainsUnderfrequency)
     mains_overvoltage = Field(10, 2, InternalFaults2MainsOvervoltage)
@@ -554,7 +573,10 @@ class _InternalFaults2Flags:
 
 
 class InternalFaults2(_InternalFaults2Flags, enum.IntFlag, boundary=enum.KEEP):
-    """Internal faults 2."""
+    """Internal faults 2.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     MAINS_OVERFREQUENCY = 0xC000
     MAINS_UNDERFREQUENCY = 0x3000
@@ -600,7 +622,7 @@ class InternalFaults3MaintenanceCall(enum.IntEnum):
     ACTIVE = 3
 
 
-class _InternalFaults3Flags:
+class _InternalFaults3Flags(Word):
     generator_overcurrent_stage_1 = Field(
         14,
         2,
@@ -617,7 +639,10 @@ class _InternalFaults3Flags:
 
 
 class InternalFaults3(_InternalFaults3Flags, enum.IntFlag, boundary=enum.KEEP):
-    """Internal faults 3."""
+    """Internal faults 3.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     GENERATOR_OVERCURRENT_STAGE_1 = 0xC000
     UNBALANCED_LOAD = 0x0300
@@ -682,7 +707,7 @@ class InternalFaults4AnalogInput4Stage2(enum.IntEnum):
     ACTIVE = 3
 
 
-class _InternalFaults4Flags:
+class _InternalFaults4Flags(Word):
     analog_input_1_stage_1 = Field(14, 2, InternalFaults4AnalogInput1Stage1)
     analog_input_1_stage_2 = Field(12, 2, InternalFaults4AnalogInput1Stage2)
     analog_input_2_stage_1 = Field(10, 2, InternalFaults4AnalogInput2Stage1)
@@ -694,7 +719,10 @@ class _InternalFaults4Flags:
 
 
 class InternalFaults4(_InternalFaults4Flags, enum.IntFlag, boundary=enum.KEEP):
-    """Internal faults 4."""
+    """Internal faults 4.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     ANALOG_INPUT_1_STAGE_1 = 0xC000
     ANALOG_INPUT_1_STAGE_2 = 0x3000
@@ -762,7 +790,7 @@ class InternalFaults5AnalogInput8Stage2(enum.IntEnum):
     ACTIVE = 3
 
 
-class _InternalFaults5Flags:
+class _InternalFaults5Flags(Word):
     analog_input_5_stage_1 = Field(14, 2, InternalFaults5AnalogInput5Stage1)
     analog_input_5_stage_2 = Field(12, 2, InternalFaults5AnalogInput5Stage2)
     analog_input_6_stage_1 = Field(10, 2, InternalFaults5AnalogInput6Stage1)
@@ -774,7 +802,10 @@ class _InternalFaults5Flags:
 
 
 class InternalFaults5(_InternalFaults5Flags, enum.IntFlag, boundary=enum.KEEP):
-    """Internal faults 5."""
+    """Internal faults 5.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     ANALOG_INPUT_5_STAGE_1 = 0xC000
     ANALOG_INPUT_5_STAGE_2 = 0x3000
@@ -842,7 +873,7 @@ class DigitalInputFaults1To8DigitalInput8(enum.IntEnum):
     ACTIVE = 3
 
 
-class _DigitalInputFaults1To8Flags:
+class _DigitalInputFaults1To8Flags(Word):
     digital_input_1 = Field(14, 2, DigitalInputFaults1To8DigitalInput1)
     digital_input_2 = Field(12, 2, DigitalInputFaults1To8DigitalInput2)
     digital_input_3 = Field(10, 2, DigitalInputFaults1To8DigitalInput3)
@@ -858,7 +889,10 @@ class DigitalInputFaults1To8(
     enum.IntFlag,
     boundary=enum.KEEP,
 ):
-    """Digital input faults 1 to 8."""
+    """Digital input faults 1 to 8.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     DIGITAL_INPUT_1 = 0xC000
     DIGITAL_INPUT_2 = 0x3000
@@ -926,7 +960,7 @@ class DigitalInputFaults9To16DigitalInput16(enum.IntEnum):
     ACTIVE = 3
 
 
-class _DigitalInputFaults9To16Flags:
+class _DigitalInputFaults9To16Flags(Word):
     digital_input_9 = Field(14, 2, DigitalInputFaults9To16DigitalInput9)
     digital_input_10 = Field(12, 2, DigitalInputFaults9To16DigitalInput10)
     digital_input_11 = Field(10, 2, DigitalInputFaults9To16DigitalInput11)
@@ -942,7 +976,10 @@ class DigitalInputFaults9To16(
     enum.IntFlag,
     boundary=enum.KEEP,
 ):
-    """Digital input faults 9 to 16."""
+    """Digital input faults 9 to 16.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     DIGITAL_INPUT_9 = 0xC000
     DIGITAL_INPUT_10 = 0x3000
@@ -954,19 +991,22 @@ class DigitalInputFaults9To16(
     DIGITAL_INPUT_16 = 0x0003
 
 
-class _InternalFaults7Flags:
+class _InternalFaults7Flags(Word):
     earth_fault = Flag(13)
     overcurrent_inverse_time = Flag(12)
 
 
 class InternalFaults7(_InternalFaults7Flags, enum.IntFlag, boundary=enum.KEEP):
-    """Internal faults 7."""
+    """Internal faults 7.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     EARTH_FAULT = 0x2000
     OVERCURRENT_INVERSE_TIME = 0x1000
 
 
-class _DigitalInputs1To4LogicFlags:
+class _DigitalInputs1To4LogicFlags(Word):
     input_1 = Flag(3)
     input_2 = Flag(2)
     input_3 = Flag(1)
@@ -978,7 +1018,10 @@ class DigitalInputs1To4Logic(
     enum.IntFlag,
     boundary=enum.KEEP,
 ):
-    """Digital inputs 1 to 4 logic."""
+    """Digital inputs 1 to 4 logic.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     INPUT_1 = 0x0008
     """Input 1 (0: Zero; 1: One)."""
@@ -989,8 +1032,27 @@ class DigitalInputs1To4Logic(
     INPUT_4 = 0x0001
     """Input 4 (0: Zero; 1: One)."""
 
+    @classmethod
+    def of(
+        cls,
+        *,
+        input_1: bool = False,
+        input_2: bool = False,
+        input_3: bool = False,
+        input_4: bool = False,
+    ) -> Self:
+        """The word in which just what is passed is true, whichever bit means so."""
+        return cls(
+            cls._joined(
+                cls.input_1.place(input_1),
+                cls.input_2.place(input_2),
+                cls.input_3.place(input_3),
+                cls.input_4.place(input_4),
+            ),
+        )
 
-class _DigitalInputs1To4EngineDelayFlags:
+
+class _DigitalInputs1To4EngineDelayFlags(Word):
     input_1 = Flag(3)
     input_2 = Flag(2)
     input_3 = Flag(1)
@@ -1002,7 +1064,10 @@ class DigitalInputs1To4EngineDelay(
     enum.IntFlag,
     boundary=enum.KEEP,
 ):
-    """Digital inputs 1 to 4 engine delay."""
+    """Digital inputs 1 to 4 engine delay.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     INPUT_1 = 0x0008
     """Input 1 (0: Zero; 1: One)."""
@@ -1013,8 +1078,27 @@ class DigitalInputs1To4EngineDelay(
     INPUT_4 = 0x0001
     """Input 4 (0: Zero; 1: One)."""
 
+    @classmethod
+    def of(
+        cls,
+        *,
+        input_1: bool = False,
+        input_2: bool = False,
+        input_3: bool = False,
+        input_4: bool = False,
+    ) -> Self:
+        """The word in which just what is passed is true, whichever bit means so."""
+        return cls(
+            cls._joined(
+                cls.input_1.place(input_1),
+                cls.input_2.place(input_2),
+                cls.input_3.place(input_3),
+                cls.input_4.place(input_4),
+            ),
+        )
 
-class _DigitalInputs5To8LogicFlags:
+
+class _DigitalInputs5To8LogicFlags(Word):
     input_5 = Flag(3)
     input_6 = Flag(2)
     input_7 = Flag(1)
@@ -1026,7 +1110,10 @@ class DigitalInputs5To8Logic(
     enum.IntFlag,
     boundary=enum.KEEP,
 ):
-    """Digital inputs 5 to 8 logic."""
+    """Digital inputs 5 to 8 logic.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     INPUT_5 = 0x0008
     """Input 5 (0: Zero; 1: One)."""
@@ -1037,8 +1124,27 @@ class DigitalInputs5To8Logic(
     INPUT_8 = 0x0001
     """Input 8 (0: Zero; 1: One)."""
 
+    @classmethod
+    def of(
+        cls,
+        *,
+        input_5: bool = False,
+        input_6: bool = False,
+        input_7: bool = False,
+        input_8: bool = False,
+    ) -> Self:
+        """The word in which just what is passed is true, whichever bit means so."""
+        return cls(
+            cls._joined(
+                cls.input_5.place(input_5),
+                cls.input_6.place(input_6),
+                cls.input_7.place(input_7),
+                cls.input_8.place(input_8),
+            ),
+        )
 
-class _DigitalInputs5To8EngineDelayFlags:
+
+class _DigitalInputs5To8EngineDelayFlags(Word):
     input_5 = Flag(3)
     input_6 = Flag(2)
     input_7 = Flag(1)
@@ -1050,7 +1156,10 @@ class DigitalInputs5To8EngineDelay(
     enum.IntFlag,
     boundary=enum.KEEP,
 ):
-    """Digital inputs 5 to 8 engine delay."""
+    """Digital inputs 5 to 8 engine delay.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     INPUT_5 = 0x0008
     """Input 5 (0: Zero; 1: One)."""
@@ -1061,8 +1170,27 @@ class DigitalInputs5To8EngineDelay(
     INPUT_8 = 0x0001
     """Input 8 (0: Zero; 1: One)."""
 
+    @classmethod
+    def of(
+        cls,
+        *,
+        input_5: bool = False,
+        input_6: bool = False,
+        input_7: bool = False,
+        input_8: bool = False,
+    ) -> Self:
+        """The word in which just what is passed is true, whichever bit means so."""
+        return cls(
+            cls._joined(
+                cls.input_5.place(input_5),
+                cls.input_6.place(input_6),
+                cls.input_7.place(input_7),
+                cls.input_8.place(input_8),
+            ),
+        )
 
-class _DigitalInputs9To12LogicFlags:
+
+class _DigitalInputs9To12LogicFlags(Word):
     input_9 = Flag(3)
     input_10 = Flag(2)
     input_11 = Flag(1)
@@ -1074,7 +1202,10 @@ class DigitalInputs9To12Logic(
     enum.IntFlag,
     boundary=enum.KEEP,
 ):
-    """Digital inputs 9 to 12 logic."""
+    """Digital inputs 9 to 12 logic.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     INPUT_9 = 0x0008
     """Input 9 (0: Zero; 1: One)."""
@@ -1085,8 +1216,27 @@ class DigitalInputs9To12Logic(
     INPUT_12 = 0x0001
     """Input 12 (0: Zero; 1: One)."""
 
+    @classmethod
+    def of(
+        cls,
+        *,
+        input_9: bool = False,
+        input_10: bool = False,
+        input_11: bool = False,
+        input_12: bool = False,
+    ) -> Self:
+        """The word in which just what is passed is true, whichever bit means so."""
+        return cls(
+            cls._joined(
+                cls.input_9.place(input_9),
+                cls.input_10.place(input_10),
+                cls.input_11.place(input_11),
+                cls.input_12.place(input_12),
+            ),
+        )
 
-class _DigitalInputs9To12EngineDelayFlags:
+
+class _DigitalInputs9To12EngineDelayFlags(Word):
     input_9 = Flag(3)
     input_10 = Flag(2)
     input_11 = Flag(1)
@@ -1098,7 +1248,10 @@ class DigitalInputs9To12EngineDelay(
     enum.IntFlag,
     boundary=enum.KEEP,
 ):
-    """Digital inputs 9 to 12 engine delay."""
+    """Digital inputs 9 to 12 engine delay.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     INPUT_9 = 0x0008
     """Input 9 (0: Zero; 1: One)."""
@@ -1109,15 +1262,37 @@ class DigitalInputs9To12EngineDelay(
     INPUT_12 = 0x0001
     """Input 12 (0: Zero; 1: One)."""
 
+    @classmethod
+    def of(
+        cls,
+        *,
+        input_9: bool = False,
+        input_10: bool = False,
+        input_11: bool = False,
+        input_12: bool = False,
+    ) -> Self:
+        """The word in which just what is passed is true, whichever bit means so."""
+        return cls(
+            cls._joined(
+                cls.input_9.place(input_9),
+                cls.input_10.place(input_10),
+                cls.input_11.place(input_11),
+                cls.input_12.place(input_12),
+            ),
+        )
 
-class _Relay1Logic1Flags:
+
+class _Relay1Logic1Flags(Word):
     last = Flag(2)
     inverted = Flag(1)
     and_with_next = Flag(0)
 
 
 class Relay1Logic1(_Relay1Logic1Flags, enum.IntFlag, boundary=enum.KEEP):
-    """Relay 1 logic 1."""
+    """Relay 1 logic 1.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     LAST = 0x0004
     """Last (0: Zero; 1: One)."""
@@ -1126,15 +1301,35 @@ class Relay1Logic1(_Relay1Logic1Flags, enum.IntFlag, boundary=enum.KEEP):
     AND_WITH_NEXT = 0x0001
     """And with next (0: Zero; 1: One)."""
 
+    @classmethod
+    def of(
+        cls,
+        *,
+        last: bool = False,
+        inverted: bool = False,
+        and_with_next: bool = False,
+    ) -> Self:
+        """The word in which just what is passed is true, whichever bit means so."""
+        return cls(
+            cls._joined(
+                cls.last.place(last),
+                cls.inverted.place(inverted),
+                cls.and_with_next.place(and_with_next),
+            ),
+        )
 
-class _Relay1Logic2Flags:
+
+class _Relay1Logic2Flags(Word):
     last = Flag(2)
     inverted = Flag(1)
     and_with_next = Flag(0)
 
 
 class Relay1Logic2(_Relay1Logic2Flags, enum.IntFlag, boundary=enum.KEEP):
-    """Relay 1 logic 2."""
+    """Relay 1 logic 2.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     LAST = 0x0004
     """Last (0: Zero; 1: One)."""
@@ -1143,15 +1338,35 @@ class Relay1Logic2(_Relay1Logic2Flags, enum.IntFlag, boundary=enum.KEEP):
     AND_WITH_NEXT = 0x0001
     """And with next (0: Zero; 1: One)."""
 
+    @classmethod
+    def of(
+        cls,
+        *,
+        last: bool = False,
+        inverted: bool = False,
+        and_with_next: bool = False,
+    ) -> Self:
+        """The word in which just what is passed is true, whichever bit means so."""
+        return cls(
+            cls._joined(
+                cls.last.place(last),
+                cls.inverted.place(inverted),
+                cls.and_with_next.place(and_with_next),
+            ),
+        )
 
-class _Relay1Logic3Flags:
+
+class _Relay1Logic3Flags(Word):
     last = Flag(2)
     inverted = Flag(1)
     and_with_next = Flag(0)
 
 
 class Relay1Logic3(_Relay1Logic3Flags, enum.IntFlag, boundary=enum.KEEP):
-    """Relay 1 logic 3."""
+    """Relay 1 logic 3.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     LAST = 0x0004
     """Last (0: Zero; 1: One)."""
@@ -1160,15 +1375,35 @@ class Relay1Logic3(_Relay1Logic3Flags, enum.IntFlag, boundary=enum.KEEP):
     AND_WITH_NEXT = 0x0001
     """And with next (0: Zero; 1: One)."""
 
+    @classmethod
+    def of(
+        cls,
+        *,
+        last: bool = False,
+        inverted: bool = False,
+        and_with_next: bool = False,
+    ) -> Self:
+        """The word in which just what is passed is true, whichever bit means so."""
+        return cls(
+            cls._joined(
+                cls.last.place(last),
+                cls.inverted.place(inverted),
+                cls.and_with_next.place(and_with_next),
+            ),
+        )
 
-class _Relay2Logic1Flags:
+
+class _Relay2Logic1Flags(Word):
     last = Flag(2)
     inverted = Flag(1)
     and_with_next = Flag(0)
 
 
 class Relay2Logic1(_Relay2Logic1Flags, enum.IntFlag, boundary=enum.KEEP):
-    """Relay 2 logic 1."""
+    """Relay 2 logic 1.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     LAST = 0x0004
     """Last (0: Zero; 1: One)."""
@@ -1177,15 +1412,35 @@ class Relay2Logic1(_Relay2Logic1Flags, enum.IntFlag, boundary=enum.KEEP):
     AND_WITH_NEXT = 0x0001
     """And with next (0: Zero; 1: One)."""
 
+    @classmethod
+    def of(
+        cls,
+        *,
+        last: bool = False,
+        inverted: bool = False,
+        and_with_next: bool = False,
+    ) -> Self:
+        """The word in which just what is passed is true, whichever bit means so."""
+        return cls(
+            cls._joined(
+                cls.last.place(last),
+                cls.inverted.place(inverted),
+                cls.and_with_next.place(and_with_next),
+            ),
+        )
 
-class _Relay2Logic2Flags:
+
+class _Relay2Logic2Flags(Word):
     last = Flag(2)
     inverted = Flag(1)
     and_with_next = Flag(0)
 
 
 class Relay2Logic2(_Relay2Logic2Flags, enum.IntFlag, boundary=enum.KEEP):
-    """Relay 2 logic 2."""
+    """Relay 2 logic 2.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     LAST = 0x0004
     """Last (0: Zero; 1: One)."""
@@ -1194,15 +1449,35 @@ class Relay2Logic2(_Relay2Logic2Flags, enum.IntFlag, boundary=enum.KEEP):
     AND_WITH_NEXT = 0x0001
     """And with next (0: Zero; 1: One)."""
 
+    @classmethod
+    def of(
+        cls,
+        *,
+        last: bool = False,
+        inverted: bool = False,
+        and_with_next: bool = False,
+    ) -> Self:
+        """The word in which just what is passed is true, whichever bit means so."""
+        return cls(
+            cls._joined(
+                cls.last.place(last),
+                cls.inverted.place(inverted),
+                cls.and_with_next.place(and_with_next),
+            ),
+        )
 
-class _Relay2Logic3Flags:
+
+class _Relay2Logic3Flags(Word):
     last = Flag(2)
     inverted = Flag(1)
     and_with_next = Flag(0)
 
 
 class Relay2Logic3(_Relay2Logic3Flags, enum.IntFlag, boundary=enum.KEEP):
-    """Relay 2 logic 3."""
+    """Relay 2 logic 3.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     LAST = 0x0004
     """Last (0: Zero; 1: One)."""
@@ -1211,15 +1486,35 @@ class Relay2Logic3(_Relay2Logic3Flags, enum.IntFlag, boundary=enum.KEEP):
     AND_WITH_NEXT = 0x0001
     """And with next (0: Zero; 1: One)."""
 
+    @classmethod
+    def of(
+        cls,
+        *,
+        last: bool = False,
+        inverted: bool = False,
+        and_with_next: bool = False,
+    ) -> Self:
+        """The word in which just what is passed is true, whichever bit means so."""
+        return cls(
+            cls._joined(
+                cls.last.place(last),
+                cls.inverted.place(inverted),
+                cls.and_with_next.place(and_with_next),
+            ),
+        )
 
-class _Relay3Logic1Flags:
+
+class _Relay3Logic1Flags(Word):
     last = Flag(2)
     inverted = Flag(1)
     and_with_next = Flag(0)
 
 
 class Relay3Logic1(_Relay3Logic1Flags, enum.IntFlag, boundary=enum.KEEP):
-    """Relay 3 logic 1."""
+    """Relay 3 logic 1.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     LAST = 0x0004
     """Last (0: Zero; 1: One)."""
@@ -1228,15 +1523,35 @@ class Relay3Logic1(_Relay3Logic1Flags, enum.IntFlag, boundary=enum.KEEP):
     AND_WITH_NEXT = 0x0001
     """And with next (0: Zero; 1: One)."""
 
+    @classmethod
+    def of(
+        cls,
+        *,
+        last: bool = False,
+        inverted: bool = False,
+        and_with_next: bool = False,
+    ) -> Self:
+        """The word in which just what is passed is true, whichever bit means so."""
+        return cls(
+            cls._joined(
+                cls.last.place(last),
+                cls.inverted.place(inverted),
+                cls.and_with_next.place(and_with_next),
+            ),
+        )
 
-class _Relay3Logic2Flags:
+
+class _Relay3Logic2Flags(Word):
     last = Flag(2)
     inverted = Flag(1)
     and_with_next = Flag(0)
 
 
 class Relay3Logic2(_Relay3Logic2Flags, enum.IntFlag, boundary=enum.KEEP):
-    """Relay 3 logic 2."""
+    """Relay 3 logic 2.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     LAST = 0x0004
     """Last (0: Zero; 1: One)."""
@@ -1245,15 +1560,35 @@ class Relay3Logic2(_Relay3Logic2Flags, enum.IntFlag, boundary=enum.KEEP):
     AND_WITH_NEXT = 0x0001
     """And with next (0: Zero; 1: One)."""
 
+    @classmethod
+    def of(
+        cls,
+        *,
+        last: bool = False,
+        inverted: bool = False,
+        and_with_next: bool = False,
+    ) -> Self:
+        """The word in which just what is passed is true, whichever bit means so."""
+        return cls(
+            cls._joined(
+                cls.last.place(last),
+                cls.inverted.place(inverted),
+                cls.and_with_next.place(and_with_next),
+            ),
+        )
 
-class _Relay3Logic3Flags:
+
+class _Relay3Logic3Flags(Word):
     last = Flag(2)
     inverted = Flag(1)
     and_with_next = Flag(0)
 
 
 class Relay3Logic3(_Relay3Logic3Flags, enum.IntFlag, boundary=enum.KEEP):
-    """Relay 3 logic 3."""
+    """Relay 3 logic 3.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     LAST = 0x0004
     """Last (0: Zero; 1: One)."""
@@ -1262,15 +1597,35 @@ class Relay3Logic3(_Relay3Logic3Flags, enum.IntFlag, boundary=enum.KEEP):
     AND_WITH_NEXT = 0x0001
     """And with next (0: Zero; 1: One)."""
 
+    @classmethod
+    def of(
+        cls,
+        *,
+        last: bool = False,
+        inverted: bool = False,
+        and_with_next: bool = False,
+    ) -> Self:
+        """The word in which just what is passed is true, whichever bit means so."""
+        return cls(
+            cls._joined(
+                cls.last.place(last),
+                cls.inverted.place(inverted),
+                cls.and_with_next.place(and_with_next),
+            ),
+        )
 
-class _Relay4Logic1Flags:
+
+class _Relay4Logic1Flags(Word):
     last = Flag(2)
     inverted = Flag(1)
     and_with_next = Flag(0)
 
 
 class Relay4Logic1(_Relay4Logic1Flags, enum.IntFlag, boundary=enum.KEEP):
-    """Relay 4 logic 1."""
+    """Relay 4 logic 1.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     LAST = 0x0004
     """Last (0: Zero; 1: One)."""
@@ -1279,15 +1634,35 @@ class Relay4Logic1(_Relay4Logic1Flags, enum.IntFlag, boundary=enum.KEEP):
     AND_WITH_NEXT = 0x0001
     """And with next (0: Zero; 1: One)."""
 
+    @classmethod
+    def of(
+        cls,
+        *,
+        last: bool = False,
+        inverted: bool = False,
+        and_with_next: bool = False,
+    ) -> Self:
+        """The word in which just what is passed is true, whichever bit means so."""
+        return cls(
+            cls._joined(
+                cls.last.place(last),
+                cls.inverted.place(inverted),
+                cls.and_with_next.place(and_with_next),
+            ),
+        )
 
-class _Relay4Logic2Flags:
+
+class _Relay4Logic2Flags(Word):
     last = Flag(2)
     inverted = Flag(1)
     and_with_next = Flag(0)
 
 
 class Relay4Logic2(_Relay4Logic2Flags, enum.IntFlag, boundary=enum.KEEP):
-    """Relay 4 logic 2."""
+    """Relay 4 logic 2.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     LAST = 0x0004
     """Last (0: Zero; 1: One)."""
@@ -1296,15 +1671,35 @@ class Relay4Logic2(_Relay4Logic2Flags, enum.IntFlag, boundary=enum.KEEP):
     AND_WITH_NEXT = 0x0001
     """And with next (0: Zero; 1: One)."""
 
+    @classmethod
+    def of(
+        cls,
+        *,
+        last: bool = False,
+        inverted: bool = False,
+        and_with_next: bool = False,
+    ) -> Self:
+        """The word in which just what is passed is true, whichever bit means so."""
+        return cls(
+            cls._joined(
+                cls.last.place(last),
+                cls.inverted.place(inverted),
+                cls.and_with_next.place(and_with_next),
+            ),
+        )
 
-class _Relay4Logic3Flags:
+
+class _Relay4Logic3Flags(Word):
     last = Flag(2)
     inverted = Flag(1)
     and_with_next = Flag(0)
 
 
 class Relay4Logic3(_Relay4Logic3Flags, enum.IntFlag, boundary=enum.KEEP):
-    """Relay 4 logic 3."""
+    """Relay 4 logic 3.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     LAST = 0x0004
     """Last (0: Zero; 1: One)."""
@@ -1313,15 +1708,35 @@ class Relay4Logic3(_Relay4Logic3Flags, enum.IntFlag, boundary=enum.KEEP):
     AND_WITH_NEXT = 0x0001
     """And with next (0: Zero; 1: One)."""
 
+    @classmethod
+    def of(
+        cls,
+        *,
+        last: bool = False,
+        inverted: bool = False,
+        and_with_next: bool = False,
+    ) -> Self:
+        """The word in which just what is passed is true, whichever bit means so."""
+        return cls(
+            cls._joined(
+                cls.last.place(last),
+                cls.inverted.place(inverted),
+                cls.and_with_next.place(and_with_next),
+            ),
+        )
 
-class _Relay5Logic1Flags:
+
+class _Relay5Logic1Flags(Word):
     last = Flag(2)
     inverted = Flag(1)
     and_with_next = Flag(0)
 
 
 class Relay5Logic1(_Relay5Logic1Flags, enum.IntFlag, boundary=enum.KEEP):
-    """Relay 5 logic 1."""
+    """Relay 5 logic 1.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     LAST = 0x0004
     """Last (0: Zero; 1: One)."""
@@ -1330,15 +1745,35 @@ class Relay5Logic1(_Relay5Logic1Flags, enum.IntFlag, boundary=enum.KEEP):
     AND_WITH_NEXT = 0x0001
     """And with next (0: Zero; 1: One)."""
 
+    @classmethod
+    def of(
+        cls,
+        *,
+        last: bool = False,
+        inverted: bool = False,
+        and_with_next: bool = False,
+    ) -> Self:
+        """The word in which just what is passed is true, whichever bit means so."""
+        return cls(
+            cls._joined(
+                cls.last.place(last),
+                cls.inverted.place(inverted),
+                cls.and_with_next.place(and_with_next),
+            ),
+        )
 
-class _Relay5Logic2Flags:
+
+class _Relay5Logic2Flags(Word):
     last = Flag(2)
     inverted = Flag(1)
     and_with_next = Flag(0)
 
 
 class Relay5Logic2(_Relay5Logic2Flags, enum.IntFlag, boundary=enum.KEEP):
-    """Relay 5 logic 2."""
+    """Relay 5 logic 2.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     LAST = 0x0004
     """Last (0: Zero; 1: One)."""
@@ -1347,15 +1782,35 @@ class Relay5Logic2(_Relay5Logic2Flags, enum.IntFlag, boundary=enum.KEEP):
     AND_WITH_NEXT = 0x0001
     """And with next (0: Zero; 1: One)."""
 
+    @classmethod
+    def of(
+        cls,
+        *,
+        last: bool = False,
+        inverted: bool = False,
+        and_with_next: bool = False,
+    ) -> Self:
+        """The word in which just what is passed is true, whichever bit means so."""
+        return cls(
+            cls._joined(
+                cls.last.place(last),
+                cls.inverted.place(inverted),
+                cls.and_with_next.place(and_with_next),
+            ),
+        )
 
-class _Relay5Logic3Flags:
+
+class _Relay5Logic3Flags(Word):
     last = Flag(2)
     inverted = Flag(1)
     and_with_next = Flag(0)
 
 
 class Relay5Logic3(_Relay5Logic3Flags, enum.IntFlag, boundary=enum.KEEP):
-    """Relay 5 logic 3."""
+    """Relay 5 logic 3.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     LAST = 0x0004
     """Last (0: Zero; 1: One)."""
@@ -1364,15 +1819,35 @@ class Relay5Logic3(_Relay5Logic3Flags, enum.IntFlag, boundary=enum.KEEP):
     AND_WITH_NEXT = 0x0001
     """And with next (0: Zero; 1: One)."""
 
+    @classmethod
+    def of(
+        cls,
+        *,
+        last: bool = False,
+        inverted: bool = False,
+        and_with_next: bool = False,
+    ) -> Self:
+        """The word in which just what is passed is true, whichever bit means so."""
+        return cls(
+            cls._joined(
+                cls.last.place(last),
+                cls.inverted.place(inverted),
+                cls.and_with_next.place(and_with_next),
+            ),
+        )
 
-class _Relay6Logic1Flags:
+
+class _Relay6Logic1Flags(Word):
     last = Flag(2)
     inverted = Flag(1)
     and_with_next = Flag(0)
 
 
 class Relay6Logic1(_Relay6Logic1Flags, enum.IntFlag, boundary=enum.KEEP):
-    """Relay 6 logic 1."""
+    """Relay 6 logic 1.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     LAST = 0x0004
     """Last (0: Zero; 1: One)."""
@@ -1381,15 +1856,35 @@ class Relay6Logic1(_Relay6Logic1Flags, enum.IntFlag, boundary=enum.KEEP):
     AND_WITH_NEXT = 0x0001
     """And with next (0: Zero; 1: One)."""
 
+    @classmethod
+    def of(
+        cls,
+        *,
+        last: bool = False,
+        inverted: bool = False,
+        and_with_next: bool = False,
+    ) -> Self:
+        """The word in which just what is passed is true, whichever bit means so."""
+        return cls(
+            cls._joined(
+                cls.last.place(last),
+                cls.inverted.place(inverted),
+                cls.and_with_next.place(and_with_next),
+            ),
+        )
 
-class _Relay6Logic2Flags:
+
+class _Relay6Logic2Flags(Word):
     last = Flag(2)
     inverted = Flag(1)
     and_with_next = Flag(0)
 
 
 class Relay6Logic2(_Relay6Logic2Flags, enum.IntFlag, boundary=enum.KEEP):
-    """Relay 6 logic 2."""
+    """Relay 6 logic 2.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     LAST = 0x0004
     """Last (0: Zero; 1: One)."""
@@ -1398,15 +1893,35 @@ class Relay6Logic2(_Relay6Logic2Flags, enum.IntFlag, boundary=enum.KEEP):
     AND_WITH_NEXT = 0x0001
     """And with next (0: Zero; 1: One)."""
 
+    @classmethod
+    def of(
+        cls,
+        *,
+        last: bool = False,
+        inverted: bool = False,
+        and_with_next: bool = False,
+    ) -> Self:
+        """The word in which just what is passed is true, whichever bit means so."""
+        return cls(
+            cls._joined(
+                cls.last.place(last),
+                cls.inverted.place(inverted),
+                cls.and_with_next.place(and_with_next),
+            ),
+        )
 
-class _Relay6Logic3Flags:
+
+class _Relay6Logic3Flags(Word):
     last = Flag(2)
     inverted = Flag(1)
     and_with_next = Flag(0)
 
 
 class Relay6Logic3(_Relay6Logic3Flags, enum.IntFlag, boundary=enum.KEEP):
-    """Relay 6 logic 3."""
+    """Relay 6 logic 3.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     LAST = 0x0004
     """Last (0: Zero; 1: One)."""
@@ -1415,15 +1930,35 @@ class Relay6Logic3(_Relay6Logic3Flags, enum.IntFlag, boundary=enum.KEEP):
     AND_WITH_NEXT = 0x0001
     """And with next (0: Zero; 1: One)."""
 
+    @classmethod
+    def of(
+        cls,
+        *,
+        last: bool = False,
+        inverted: bool = False,
+        and_with_next: bool = False,
+    ) -> Self:
+        """The word in which just what is passed is true, whichever bit means so."""
+        return cls(
+            cls._joined(
+                cls.last.place(last),
+                cls.inverted.place(inverted),
+                cls.and_with_next.place(and_with_next),
+            ),
+        )
 
-class _Relay7Logic1Flags:
+
+class _Relay7Logic1Flags(Word):
     last = Flag(2)
     inverted = Flag(1)
     and_with_next = Flag(0)
 
 
 class Relay7Logic1(_Relay7Logic1Flags, enum.IntFlag, boundary=enum.KEEP):
-    """Relay 7 logic 1."""
+    """Relay 7 logic 1.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     LAST = 0x0004
     """Last (0: Zero; 1: One)."""
@@ -1432,15 +1967,35 @@ class Relay7Logic1(_Relay7Logic1Flags, enum.IntFlag, boundary=enum.KEEP):
     AND_WITH_NEXT = 0x0001
     """And with next (0: Zero; 1: One)."""
 
+    @classmethod
+    def of(
+        cls,
+        *,
+        last: bool = False,
+        inverted: bool = False,
+        and_with_next: bool = False,
+    ) -> Self:
+        """The word in which just what is passed is true, whichever bit means so."""
+        return cls(
+            cls._joined(
+                cls.last.place(last),
+                cls.inverted.place(inverted),
+                cls.and_with_next.place(and_with_next),
+            ),
+        )
 
-class _Relay7Logic2Flags:
+
+class _Relay7Logic2Flags(Word):
     last = Flag(2)
     inverted = Flag(1)
     and_with_next = Flag(0)
 
 
 class Relay7Logic2(_Relay7Logic2Flags, enum.IntFlag, boundary=enum.KEEP):
-    """Relay 7 logic 2."""
+    """Relay 7 logic 2.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     LAST = 0x0004
     """Last (0: Zero; 1: One)."""
@@ -1449,15 +2004,35 @@ class Relay7Logic2(_Relay7Logic2Flags, enum.IntFlag, boundary=enum.KEEP):
     AND_WITH_NEXT = 0x0001
     """And with next (0: Zero; 1: One)."""
 
+    @classmethod
+    def of(
+        cls,
+        *,
+        last: bool = False,
+        inverted: bool = False,
+        and_with_next: bool = False,
+    ) -> Self:
+        """The word in which just what is passed is true, whichever bit means so."""
+        return cls(
+            cls._joined(
+                cls.last.place(last),
+                cls.inverted.place(inverted),
+                cls.and_with_next.place(and_with_next),
+            ),
+        )
 
-class _Relay7Logic3Flags:
+
+class _Relay7Logic3Flags(Word):
     last = Flag(2)
     inverted = Flag(1)
     and_with_next = Flag(0)
 
 
 class Relay7Logic3(_Relay7Logic3Flags, enum.IntFlag, boundary=enum.KEEP):
-    """Relay 7 logic 3."""
+    """Relay 7 logic 3.
+
+    Members are bits as they are on the wire; the names in small letters say what is true.
+    """
 
     LAST = 0x0004
     """Last (0: Zero; 1: One)."""
@@ -1465,3 +2040,20 @@ class Relay7Logic3(_Relay7Logic3Flags, enum.IntFlag, boundary=enum.KEEP):
     """Inverted (0: Zero; 1: One)."""
     AND_WITH_NEXT = 0x0001
     """And with next (0: Zero; 1: One)."""
+
+    @classmethod
+    def of(
+        cls,
+        *,
+        last: bool = False,
+        inverted: bool = False,
+        and_with_next: bool = False,
+    ) -> Self:
+        """The word in which just what is passed is true, whichever bit means so."""
+        return cls(
+            cls._joined(
+                cls.last.place(last),
+                cls.inverted.place(inverted),
+                cls.and_with_next.place(and_with_next),
+            ),
+        )

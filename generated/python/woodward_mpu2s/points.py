@@ -40,7 +40,23 @@ from . import enums
 
 
 class Points(PointTable):
-    """All points of Woodward MPU2-S; on this class they are pure codecs."""
+    """All points of Woodward MPU2-S; on this class they are pure codecs.
+
+    The manual does not settle the type or the scale of those below, so that they are no
+    attributes. The methods `read_at` and `write_at` of a device reach their words by space
+    and address, with what they mean left to you:
+
+    - generator_reactive_power: 'visualisation', 24
+    - analog_input_1: 'visualisation', 60
+    - analog_input_2: 'visualisation', 61
+    - analog_input_3: 'visualisation', 62
+    - analog_input_4: 'visualisation', 63
+    - analog_input_5: 'visualisation', 64
+    - analog_input_6: 'visualisation', 65
+    - analog_input_7: 'visualisation', 66
+    - analog_input_8: 'visualisation', 67
+    - frequency_controller_ramp: 'parameter', 68
+    """
 
     PROFILE = Profile(
         units=(0, 30),
@@ -199,9 +215,8 @@ class Points(PointTable):
     Erratum telegram_signed_power (likely), printed: Nothing is said about a sign;
     taken: type: s16.
 
-    Erratum telegram_power_exponent_use (certain), printed: „zusammen mit dem
-    Leistungsexponenten aus dem Busprotokoll“, without its name; taken: PGNEXPO of
-    word 4.
+    Erratum telegram_power_exponent_use (certain), printed: The remark speaks of
+    the „Leistungsexponenten“ without its name; taken: PGNEXPO of word 4.
     """
 
     generator_power_exponent = ReadOnly(
@@ -954,7 +969,7 @@ class Points(PointTable):
         unit="Hz",
         allowed=((10240, 17920),),
     )
-    """Generator frequency setpoint: 40..70 Hz (when password)."""
+    """Generator frequency setpoint: 40..70 Hz. To write it takes: password."""
 
     generator_rated_frequency = ReadWrite(
         Scaled(U16, Rule(num=256), decimals=3),
@@ -963,7 +978,7 @@ class Points(PointTable):
         unit="Hz",
         allowed=((12800, 15360),),
     )
-    """Generator rated frequency: 50..60 Hz (when password).
+    """Generator rated frequency: 50..60 Hz. To write it takes: password.
 
     Erratum generator_rated_frequency_title (certain), printed:
     „Generatorkennfrequenz“ over the section, „Generatornennfrequenz“ in the
@@ -979,7 +994,9 @@ class Points(PointTable):
         variant=("voltage", "100V"),
         name="generator_voltage_transformer_secondary",
     )
-    """Generator voltage transformer secondary 100v: 50..125 V (when password)."""
+    """Generator voltage transformer secondary 100v: 50..125 V. To write it takes:
+    password.
+    """
 
     generator_voltage_transformer_secondary_400v = ReadWrite(
         Integer(U16),
@@ -990,7 +1007,9 @@ class Points(PointTable):
         variant=("voltage", "400V"),
         name="generator_voltage_transformer_secondary",
     )
-    """Generator voltage transformer secondary 400v: 50..480 V (when password)."""
+    """Generator voltage transformer secondary 400v: 50..480 V. To write it takes:
+    password.
+    """
 
     generator_voltage_transformer_primary = ReadWrite(
         Integer(U16),
@@ -999,7 +1018,9 @@ class Points(PointTable):
         unit="V",
         allowed=((5, 65000),),
     )
-    """Generator voltage transformer primary: 5..65000 V (when password)."""
+    """Generator voltage transformer primary: 5..65000 V. To write it takes:
+    password.
+    """
 
     busbar_voltage_transformer_secondary_100v = ReadWrite(
         Integer(U16),
@@ -1010,7 +1031,9 @@ class Points(PointTable):
         variant=("voltage", "100V"),
         name="busbar_voltage_transformer_secondary",
     )
-    """Busbar voltage transformer secondary 100v: 50..125 V (when password)."""
+    """Busbar voltage transformer secondary 100v: 50..125 V. To write it takes:
+    password.
+    """
 
     busbar_voltage_transformer_secondary_400v = ReadWrite(
         Integer(U16),
@@ -1021,7 +1044,9 @@ class Points(PointTable):
         variant=("voltage", "400V"),
         name="busbar_voltage_transformer_secondary",
     )
-    """Busbar voltage transformer secondary 400v: 50..480 V (when password)."""
+    """Busbar voltage transformer secondary 400v: 50..480 V. To write it takes:
+    password.
+    """
 
     busbar_voltage_transformer_primary = ReadWrite(
         Integer(U16),
@@ -1030,7 +1055,7 @@ class Points(PointTable):
         unit="V",
         allowed=((5, 65000),),
     )
-    """Busbar voltage transformer primary: 5..65000 V (when password).
+    """Busbar voltage transformer primary: 5..65000 V. To write it takes: password.
 
     Erratum busbar_transformer_title (certain), printed: „Sammelschienen
     Spannungswandler“ over the section, „Sammelschienenspannungswandler“ in the
@@ -1046,7 +1071,9 @@ class Points(PointTable):
         variant=("voltage", "100V"),
         name="mains_voltage_transformer_secondary",
     )
-    """Mains voltage transformer secondary 100v: 50..125 V (when password)."""
+    """Mains voltage transformer secondary 100v: 50..125 V. To write it takes:
+    password.
+    """
 
     mains_voltage_transformer_secondary_400v = ReadWrite(
         Integer(U16),
@@ -1057,7 +1084,9 @@ class Points(PointTable):
         variant=("voltage", "400V"),
         name="mains_voltage_transformer_secondary",
     )
-    """Mains voltage transformer secondary 400v: 50..480 V (when password)."""
+    """Mains voltage transformer secondary 400v: 50..480 V. To write it takes:
+    password.
+    """
 
     mains_voltage_transformer_primary = ReadWrite(
         Integer(U16),
@@ -1066,7 +1095,7 @@ class Points(PointTable):
         unit="V",
         allowed=((5, 65000),),
     )
-    """Mains voltage transformer primary: 5..65000 V (when password)."""
+    """Mains voltage transformer primary: 5..65000 V. To write it takes: password."""
 
     generator_voltage_factor = ReadOnly(
         Integer(U16),
@@ -1085,11 +1114,11 @@ class Points(PointTable):
     )
     """Generator voltage factor.
 
-    Erratum voltage_factors (likely), printed: „ein Faktor, der in einem 16-Bit
-    Wort steht“ and depends on the transformer ratios; its range, its sign,
-    whether it can be written, and which of the transformer parameters change it
-    is not said; taken: u16, access: r, to be read again after any of the seven
-    transformer parameters of 4.2.4 to 4.2.9 and 4.2.12.
+    Erratum voltage_factors (likely), printed: The factor is a „16-Bit Wort“ and
+    depends on the transformer ratios; its range, its sign, whether it can be
+    written, and which of the transformer parameters change it is not said; taken:
+    u16, access: r, to be read again after any of the seven transformer parameters
+    of 4.2.4 to 4.2.9 and 4.2.12.
     """
 
     generator_voltage_setpoint_100v = ReadWrite(
@@ -1120,7 +1149,7 @@ class Points(PointTable):
         variant=("voltage", "100V"),
         name="generator_voltage_setpoint",
     )
-    """Generator voltage setpoint 100v (when password)."""
+    """Generator voltage setpoint 100v. To write it takes: password."""
 
     generator_voltage_setpoint_400v = ReadWrite(
         Scaled(
@@ -1150,7 +1179,7 @@ class Points(PointTable):
         variant=("voltage", "400V"),
         name="generator_voltage_setpoint",
     )
-    """Generator voltage setpoint 400v (when password)."""
+    """Generator voltage setpoint 400v. To write it takes: password."""
 
     generator_rated_voltage_100v = ReadWrite(
         Scaled(
@@ -1180,7 +1209,7 @@ class Points(PointTable):
         variant=("voltage", "100V"),
         name="generator_rated_voltage",
     )
-    """Generator rated voltage 100v (when password)."""
+    """Generator rated voltage 100v. To write it takes: password."""
 
     generator_rated_voltage_400v = ReadWrite(
         Scaled(
@@ -1210,7 +1239,7 @@ class Points(PointTable):
         variant=("voltage", "400V"),
         name="generator_rated_voltage",
     )
-    """Generator rated voltage 400v (when password)."""
+    """Generator rated voltage 400v. To write it takes: password."""
 
     generator_current_transformer_ratio = ReadWrite(
         Integer(U16),
@@ -1219,7 +1248,7 @@ class Points(PointTable):
         unit="A",
         allowed=((10, 7000),),
     )
-    """Generator current transformer ratio: 10..7000 A (when password).
+    """Generator current transformer ratio: 10..7000 A. To write it takes: password.
 
     Erratum current_transformer_unit (likely), printed:
     „Primärstromwandlerverhältnis“ in the title; range and formula count ampere;
@@ -1232,7 +1261,7 @@ class Points(PointTable):
         bits=(11, 11),
         group="parameters_general",
     )
-    """Power measurement phases (when password).
+    """Power measurement phases. To write it takes: password.
 
     Erratum power_measurement_bit_row (certain), printed: „Bit 11 (Zählung bei 0
     beginnend)“ stands in the row of the kind; taken: bits: 11.
@@ -1245,7 +1274,7 @@ class Points(PointTable):
         unit="kW",
         allowed=((5, 9999),),
     )
-    """Generator rated power: 5..9999 kW (when password)."""
+    """Generator rated power: 5..9999 kW. To write it takes: password."""
 
     generator_rated_current = ReadWrite(
         Integer(U16),
@@ -1254,7 +1283,7 @@ class Points(PointTable):
         unit="A",
         allowed=((0, 7000),),
     )
-    """Generator rated current: 0..7000 A (when password)."""
+    """Generator rated current: 0..7000 A. To write it takes: password."""
 
     generator_power_setpoint_1 = ReadWrite(
         Integer(S16),
@@ -1263,7 +1292,7 @@ class Points(PointTable):
         unit="kW",
         allowed=((-9999, 9999),),
     )
-    """Generator power setpoint 1: -9999..9999 kW (when password).
+    """Generator power setpoint 1: -9999..9999 kW. To write it takes: password.
 
     Erratum parameter_sign (likely), printed: The ranges begin below zero (lines
     755, 762, 859, 1138, 2067, 2074, 2097 and 2104); how a negative number is sent
@@ -1277,7 +1306,7 @@ class Points(PointTable):
         unit="kW",
         allowed=((-9999, 9999),),
     )
-    """Generator power setpoint 2: -9999..9999 kW (when password).
+    """Generator power setpoint 2: -9999..9999 kW. To write it takes: password.
 
     Erratum parameter_sign (likely), printed: The ranges begin below zero (lines
     755, 762, 859, 1138, 2067, 2074, 2097 and 2104); how a negative number is sent
@@ -1335,7 +1364,7 @@ class Points(PointTable):
         bits=(15, 14),
         group="parameters_controllers",
     )
-    """Frequency controller (when password)."""
+    """Frequency controller. To write it takes: password."""
 
     frequency_controller_start_frequency = ReadWrite(
         Scaled(U16, Rule(num=256), decimals=3),
@@ -1344,7 +1373,7 @@ class Points(PointTable):
         unit="Hz",
         allowed=((0, 17920),),
     )
-    """Frequency controller start frequency: 0..70 Hz (when password)."""
+    """Frequency controller start frequency: 0..70 Hz. To write it takes: password."""
 
     frequency_controller_start_delay = ReadWrite(
         Scaled(U16, Rule(num=50), decimals=2),
@@ -1353,7 +1382,7 @@ class Points(PointTable):
         unit="s",
         allowed=((0, 49950),),
     )
-    """Frequency controller start delay: 0..999 s (when password)."""
+    """Frequency controller start delay: 0..999 s. To write it takes: password."""
 
     frequency_controller_dead_band = ReadWrite(
         Scaled(U16, Rule(num=256), decimals=3),
@@ -1362,7 +1391,7 @@ class Points(PointTable):
         unit="Hz",
         allowed=((5, 256),),
     )
-    """Frequency controller dead band: 0.01953125..1 Hz (when password)."""
+    """Frequency controller dead band: 0.01953125..1 Hz. To write it takes: password."""
 
     frequency_controller_pulse_time = ReadWrite(
         Scaled(U16, Rule(den=2), decimals=0),
@@ -1371,7 +1400,7 @@ class Points(PointTable):
         unit="ms",
         allowed=((5, 125),),
     )
-    """Frequency controller pulse time: 10..250 ms (when password)."""
+    """Frequency controller pulse time: 10..250 ms. To write it takes: password."""
 
     frequency_controller_proportional_gain = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1379,7 +1408,9 @@ class Points(PointTable):
         group="parameters_controllers",
         allowed=((1, 999),),
     )
-    """Frequency controller proportional gain: 0.1..99.9 (when password)."""
+    """Frequency controller proportional gain: 0.1..99.9. To write it takes:
+    password.
+    """
 
     voltage_controller = ReadWrite(
         Named(U8, enums.Switch2, closed=True),
@@ -1387,7 +1418,7 @@ class Points(PointTable):
         bits=(11, 10),
         group="parameters_controllers",
     )
-    """Voltage controller (when password)."""
+    """Voltage controller. To write it takes: password."""
 
     voltage_controller_dead_band = ReadWrite(
         Scaled(U16, Rule(num=40), decimals=2),
@@ -1396,7 +1427,7 @@ class Points(PointTable):
         unit="%",
         allowed=((4, 600),),
     )
-    """Voltage controller dead band: 0.1..15 % (when password)."""
+    """Voltage controller dead band: 0.1..15 %. To write it takes: password."""
 
     voltage_controller_pulse_time = ReadWrite(
         Scaled(U16, Rule(den=2), decimals=0),
@@ -1405,7 +1436,7 @@ class Points(PointTable):
         unit="ms",
         allowed=((10, 125),),
     )
-    """Voltage controller pulse time: 20..250 ms (when password)."""
+    """Voltage controller pulse time: 20..250 ms. To write it takes: password."""
 
     voltage_controller_proportional_gain = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1413,7 +1444,7 @@ class Points(PointTable):
         group="parameters_controllers",
         allowed=((1, 999),),
     )
-    """Voltage controller proportional gain: 0.1..99.9 (when password)."""
+    """Voltage controller proportional gain: 0.1..99.9. To write it takes: password."""
 
     cos_phi_controller = ReadWrite(
         Named(U8, enums.Switch2, closed=True),
@@ -1421,7 +1452,7 @@ class Points(PointTable):
         bits=(9, 8),
         group="parameters_controllers",
     )
-    """Cos phi controller (when password)."""
+    """Cos phi controller. To write it takes: password."""
 
     cos_phi_controller_setpoint = ReadWrite(
         Scaled(S16, Rule(num=100), decimals=2),
@@ -1429,7 +1460,8 @@ class Points(PointTable):
         group="parameters_controllers",
         allowed=((-99, -70), (70, 100)),
     )
-    """Cos phi controller setpoint: -0.99..-0.7 or 0.7..1 (when password).
+    """Cos phi controller setpoint: -0.99..-0.7 or 0.7..1. To write it takes:
+    password.
 
     Erratum parameter_sign (likely), printed: The ranges begin below zero (lines
     755, 762, 859, 1138, 2067, 2074, 2097 and 2104); how a negative number is sent
@@ -1446,7 +1478,7 @@ class Points(PointTable):
         unit="%",
         allowed=((5, 250),),
     )
-    """Cos phi controller dead band: 0.5..25 % (when password)."""
+    """Cos phi controller dead band: 0.5..25 %. To write it takes: password."""
 
     cos_phi_controller_proportional_gain = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1454,7 +1486,7 @@ class Points(PointTable):
         group="parameters_controllers",
         allowed=((1, 999),),
     )
-    """Cos phi controller proportional gain: 0.1..99.9 (when password)."""
+    """Cos phi controller proportional gain: 0.1..99.9. To write it takes: password."""
 
     active_power_controller = ReadWrite(
         Named(U8, enums.Switch2, closed=True),
@@ -1462,7 +1494,7 @@ class Points(PointTable):
         bits=(13, 12),
         group="parameters_controllers",
     )
-    """Active power controller (when password).
+    """Active power controller. To write it takes: password.
 
     Erratum active_power_controller_text (certain), printed: „Wirkleistungsregler“
     in the title, „Leistungsregler ist aus“ and „Leistungsregler ist ein“ at the
@@ -1476,7 +1508,7 @@ class Points(PointTable):
         unit="%/s",
         allowed=((0, 100),),
     )
-    """Active power controller ramp: 0..100 %/s (when password)."""
+    """Active power controller ramp: 0..100 %/s. To write it takes: password."""
 
     active_power_controller_maximum = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1485,7 +1517,7 @@ class Points(PointTable):
         unit="%",
         allowed=((100, 1200),),
     )
-    """Active power controller maximum: 10..120 % (when password)."""
+    """Active power controller maximum: 10..120 %. To write it takes: password."""
 
     active_power_controller_minimum = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1494,7 +1526,7 @@ class Points(PointTable):
         unit="%",
         allowed=((0, 500),),
     )
-    """Active power controller minimum: 0..50 % (when password)."""
+    """Active power controller minimum: 0..50 %. To write it takes: password."""
 
     active_power_controller_dead_band = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1503,7 +1535,7 @@ class Points(PointTable):
         unit="%",
         allowed=((1, 250),),
     )
-    """Active power controller dead band: 0.1..25 % (when password)."""
+    """Active power controller dead band: 0.1..25 %. To write it takes: password."""
 
     active_power_controller_proportional_gain = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1511,7 +1543,9 @@ class Points(PointTable):
         group="parameters_controllers",
         allowed=((1, 999),),
     )
-    """Active power controller proportional gain: 0.1..99.9 (when password)."""
+    """Active power controller proportional gain: 0.1..99.9. To write it takes:
+    password.
+    """
 
     active_power_controller_sensitivity_reduction = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1519,7 +1553,9 @@ class Points(PointTable):
         group="parameters_controllers",
         allowed=((10, 99),),
     )
-    """Active power controller sensitivity reduction: 1..9.9 (when password)."""
+    """Active power controller sensitivity reduction: 1..9.9. To write it takes:
+    password.
+    """
 
     part_load_lead_setpoint = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1528,7 +1564,7 @@ class Points(PointTable):
         unit="%",
         allowed=((50, 1100),),
     )
-    """Part load lead setpoint: 5..110 % (when password)."""
+    """Part load lead setpoint: 5..110 %. To write it takes: password."""
 
     part_load_lead_time = ReadWrite(
         Scaled(U16, Rule(num=50), decimals=2),
@@ -1537,7 +1573,7 @@ class Points(PointTable):
         unit="s",
         allowed=((0, 30000),),
     )
-    """Part load lead time: 0..600 s (when password)."""
+    """Part load lead time: 0..600 s. To write it takes: password."""
 
     # parameters_breaker: Parameters breaker
 
@@ -1547,7 +1583,7 @@ class Points(PointTable):
         bits=(7, 6),
         group="parameters_breaker",
     )
-    """Control by interface x1 x5 (when password).
+    """Control by interface x1 x5. To write it takes: password.
 
     Erratum interface_control_text (certain), printed: „11 = ist ein“, with no
     subject; taken: 11 is on.
@@ -1559,7 +1595,7 @@ class Points(PointTable):
         bits=(11, 8),
         group="parameters_breaker",
     )
-    """Breaker logic (when password)."""
+    """Breaker logic. To write it takes: password."""
 
     load_ramp_maximum_time = ReadWrite(
         Scaled(U16, Rule(num=50), decimals=2),
@@ -1568,7 +1604,7 @@ class Points(PointTable):
         unit="s",
         allowed=((0, 49950),),
     )
-    """Load ramp maximum time: 0..999 s (when password)."""
+    """Load ramp maximum time: 0..999 s. To write it takes: password."""
 
     generator_breaker_signal_logic = ReadWrite(
         Named(BIT, enums.GeneratorBreakerSignalLogic, closed=True),
@@ -1576,7 +1612,7 @@ class Points(PointTable):
         bits=(3, 3),
         group="parameters_breaker",
     )
-    """Generator breaker signal logic (when password)."""
+    """Generator breaker signal logic. To write it takes: password."""
 
     generator_breaker_open_relay_logic = ReadWrite(
         Named(BIT, enums.ContactLogic, closed=True),
@@ -1584,7 +1620,7 @@ class Points(PointTable):
         bits=(2, 2),
         group="parameters_breaker",
     )
-    """Generator breaker open relay logic (when password)."""
+    """Generator breaker open relay logic. To write it takes: password."""
 
     # parameters_synchronisation: Parameters synchronisation
 
@@ -1595,8 +1631,8 @@ class Points(PointTable):
         unit="Hz",
         allowed=((5, 125),),
     )
-    """Synchronisation frequency difference maximum: 0.01953125..0.48828125 Hz (when
-    password).
+    """Synchronisation frequency difference maximum: 0.01953125..0.48828125 Hz. To
+    write it takes: password.
     """
 
     synchronisation_frequency_difference_minimum = ReadWrite(
@@ -1606,8 +1642,8 @@ class Points(PointTable):
         unit="Hz",
         allowed=((0, 125),),
     )
-    """Synchronisation frequency difference minimum: 0..0.48828125 Hz (when
-    password).
+    """Synchronisation frequency difference minimum: 0..0.48828125 Hz. To write it
+    takes: password.
 
     Erratum synchronisation_minimum_sign (unknown), printed: The title has -df
     min, the range is 0 to 125, called 0,00Hz to 0,49Hz; dU min has the same
@@ -1621,7 +1657,9 @@ class Points(PointTable):
         unit="%",
         allowed=((4, 600),),
     )
-    """Synchronisation voltage difference maximum: 0.1..15 % (when password)."""
+    """Synchronisation voltage difference maximum: 0.1..15 %. To write it takes:
+    password.
+    """
 
     synchronisation_voltage_difference_minimum = ReadWrite(
         Scaled(U16, Rule(num=40), decimals=2),
@@ -1630,7 +1668,8 @@ class Points(PointTable):
         unit="%",
         allowed=((4, 600),),
     )
-    """Synchronisation voltage difference minimum: 0.1..15 % (when password).
+    """Synchronisation voltage difference minimum: 0.1..15 %. To write it takes:
+    password.
 
     Erratum synchronisation_minimum_sign (unknown), printed: The title has -df
     min, the range is 0 to 125, called 0,00Hz to 0,49Hz; dU min has the same
@@ -1644,7 +1683,7 @@ class Points(PointTable):
         unit="s",
         allowed=((1, 13),),
     )
-    """Synchronisation pulse time: 0.02..0.26 s (when password)."""
+    """Synchronisation pulse time: 0.02..0.26 s. To write it takes: password."""
 
     generator_breaker_pick_up_time = ReadWrite(
         Integer(U16),
@@ -1653,7 +1692,7 @@ class Points(PointTable):
         unit="ms",
         allowed=((40, 300),),
     )
-    """Generator breaker pick up time: 40..300 ms (when password)."""
+    """Generator breaker pick up time: 40..300 ms. To write it takes: password."""
 
     synchronisation_time_monitoring = ReadWrite(
         Named(BIT, enums.OffOn, closed=True),
@@ -1661,7 +1700,7 @@ class Points(PointTable):
         bits=(0, 0),
         group="parameters_synchronisation",
     )
-    """Synchronisation time monitoring (when password).
+    """Synchronisation time monitoring. To write it takes: password.
 
     Erratum synchronisation_bit_note (certain), printed: The sentence on reading
     the word and changing single bits is missing; taken: Bit 0 is changed as all
@@ -1675,7 +1714,7 @@ class Points(PointTable):
         unit="s",
         allowed=((10, 999),),
     )
-    """Synchronisation time monitoring delay: 10..999 s (when password)."""
+    """Synchronisation time monitoring delay: 10..999 s. To write it takes: password."""
 
     dead_bus_start = ReadWrite(
         Named(U8, enums.Switch2, closed=True),
@@ -1683,7 +1722,7 @@ class Points(PointTable):
         bits=(5, 4),
         group="parameters_synchronisation",
     )
-    """Dead bus start (when password)."""
+    """Dead bus start. To write it takes: password."""
 
     dead_bus_start_frequency_difference_maximum = ReadWrite(
         Scaled(U16, Rule(num=256), decimals=3),
@@ -1692,7 +1731,9 @@ class Points(PointTable):
         unit="Hz",
         allowed=((13, 1280),),
     )
-    """Dead bus start frequency difference maximum: 0.05078125..5 Hz (when password)."""
+    """Dead bus start frequency difference maximum: 0.05078125..5 Hz. To write it
+    takes: password.
+    """
 
     dead_bus_start_voltage_difference_maximum = ReadWrite(
         Scaled(U16, Rule(num=40), decimals=2),
@@ -1701,7 +1742,9 @@ class Points(PointTable):
         unit="%",
         allowed=((4, 800),),
     )
-    """Dead bus start voltage difference maximum: 0.1..20 % (when password)."""
+    """Dead bus start voltage difference maximum: 0.1..20 %. To write it takes:
+    password.
+    """
 
     dead_bus_start_maximum_time = ReadWrite(
         Integer(U16),
@@ -1710,7 +1753,7 @@ class Points(PointTable):
         unit="s",
         allowed=((0, 999),),
     )
-    """Dead bus start maximum time: 0..999 s (when password)."""
+    """Dead bus start maximum time: 0..999 s. To write it takes: password."""
 
     generator_breaker_monitoring = ReadWrite(
         Named(BIT, enums.OffOn, closed=True),
@@ -1718,7 +1761,7 @@ class Points(PointTable):
         bits=(12, 12),
         group="parameters_synchronisation",
     )
-    """Generator breaker monitoring (when password)."""
+    """Generator breaker monitoring. To write it takes: password."""
 
     automatic_breaker_unlocking = ReadWrite(
         Named(BIT, enums.OffOn, closed=True),
@@ -1726,7 +1769,7 @@ class Points(PointTable):
         bits=(1, 1),
         group="parameters_synchronisation",
     )
-    """Automatic breaker unlocking (when password)."""
+    """Automatic breaker unlocking. To write it takes: password."""
 
     # parameters_monitoring_generator: Parameters monitoring generator
 
@@ -1736,7 +1779,7 @@ class Points(PointTable):
         bits=(11, 11),
         group="parameters_monitoring_generator",
     )
-    """Generator overload monitoring (when password)."""
+    """Generator overload monitoring. To write it takes: password."""
 
     overload_threshold_parallel_operation = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1745,7 +1788,7 @@ class Points(PointTable):
         unit="%",
         allowed=((800, 1500),),
     )
-    """Overload threshold parallel operation: 80..150 % (when password)."""
+    """Overload threshold parallel operation: 80..150 %. To write it takes: password."""
 
     overload_delay_parallel_operation = ReadWrite(
         Scaled(U16, Rule(num=50), decimals=2),
@@ -1754,7 +1797,7 @@ class Points(PointTable):
         unit="s",
         allowed=((0, 4950),),
     )
-    """Overload delay parallel operation: 0..99 s (when password)."""
+    """Overload delay parallel operation: 0..99 s. To write it takes: password."""
 
     overload_threshold_isolated_operation = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1763,7 +1806,7 @@ class Points(PointTable):
         unit="%",
         allowed=((800, 1500),),
     )
-    """Overload threshold isolated operation: 80..150 % (when password)."""
+    """Overload threshold isolated operation: 80..150 %. To write it takes: password."""
 
     overload_delay_isolated_operation = ReadWrite(
         Scaled(U16, Rule(num=50), decimals=2),
@@ -1772,7 +1815,7 @@ class Points(PointTable):
         unit="s",
         allowed=((0, 4950),),
     )
-    """Overload delay isolated operation: 0..99 s (when password)."""
+    """Overload delay isolated operation: 0..99 s. To write it takes: password."""
 
     generator_reverse_power_monitoring = ReadWrite(
         Named(BIT, enums.OffOn, closed=True),
@@ -1780,7 +1823,7 @@ class Points(PointTable):
         bits=(5, 5),
         group="parameters_monitoring_generator",
     )
-    """Generator reverse power monitoring (when password)."""
+    """Generator reverse power monitoring. To write it takes: password."""
 
     reverse_power_threshold = ReadWrite(
         Scaled(S16, Rule(num=10), decimals=1),
@@ -1789,7 +1832,7 @@ class Points(PointTable):
         unit="%",
         allowed=((-990, 990),),
     )
-    """Reverse power threshold: -99..99 % (when password).
+    """Reverse power threshold: -99..99 %. To write it takes: password.
 
     Erratum parameter_sign (likely), printed: The ranges begin below zero (lines
     755, 762, 859, 1138, 2067, 2074, 2097 and 2104); how a negative number is sent
@@ -1803,7 +1846,7 @@ class Points(PointTable):
         unit="s",
         allowed=((0, 4995),),
     )
-    """Reverse power delay: 0..99.9 s (when password)."""
+    """Reverse power delay: 0..99.9 s. To write it takes: password."""
 
     generator_unbalanced_load_monitoring = ReadWrite(
         Named(BIT, enums.OffOn, closed=True),
@@ -1811,7 +1854,7 @@ class Points(PointTable):
         bits=(10, 10),
         group="parameters_monitoring_generator",
     )
-    """Generator unbalanced load monitoring (when password)."""
+    """Generator unbalanced load monitoring. To write it takes: password."""
 
     unbalanced_load_threshold = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1820,7 +1863,7 @@ class Points(PointTable):
         unit="%",
         allowed=((0, 1000),),
     )
-    """Unbalanced load threshold: 0..100 % (when password)."""
+    """Unbalanced load threshold: 0..100 %. To write it takes: password."""
 
     unbalanced_load_delay = ReadWrite(
         Scaled(U16, Rule(num=50), decimals=2),
@@ -1829,7 +1872,7 @@ class Points(PointTable):
         unit="s",
         allowed=((1, 4999),),
     )
-    """Unbalanced load delay: 0.02..99.98 s (when password)."""
+    """Unbalanced load delay: 0.02..99.98 s. To write it takes: password."""
 
     generator_overcurrent_monitoring = ReadWrite(
         Named(BIT, enums.OffOn, closed=True),
@@ -1837,7 +1880,7 @@ class Points(PointTable):
         bits=(4, 4),
         group="parameters_monitoring_generator",
     )
-    """Generator overcurrent monitoring (when password)."""
+    """Generator overcurrent monitoring. To write it takes: password."""
 
     overcurrent_1_threshold = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1846,7 +1889,7 @@ class Points(PointTable):
         unit="%",
         allowed=((0, 3000),),
     )
-    """Overcurrent 1 threshold: 0..300 % (when password).
+    """Overcurrent 1 threshold: 0..300 %. To write it takes: password.
 
     Erratum overcurrent_1_title (certain), printed: „Überstrom 2 Ansprechwert“, in
     the contents too, and again over 4.2.75 (lines 95 and 1194); taken: Überstrom
@@ -1860,7 +1903,7 @@ class Points(PointTable):
         unit="s",
         allowed=((1, 4999),),
     )
-    """Overcurrent 1 delay: 0.02..99.98 s (when password)."""
+    """Overcurrent 1 delay: 0.02..99.98 s. To write it takes: password."""
 
     overcurrent_2_threshold = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -1869,7 +1912,7 @@ class Points(PointTable):
         unit="%",
         allowed=((0, 3000),),
     )
-    """Overcurrent 2 threshold: 0..300 % (when password)."""
+    """Overcurrent 2 threshold: 0..300 %. To write it takes: password."""
 
     overcurrent_2_delay = ReadWrite(
         Scaled(U16, Rule(num=50), decimals=2),
@@ -1878,7 +1921,7 @@ class Points(PointTable):
         unit="s",
         allowed=((1, 4999),),
     )
-    """Overcurrent 2 delay: 0.02..99.98 s (when password)."""
+    """Overcurrent 2 delay: 0.02..99.98 s. To write it takes: password."""
 
     inverse_time_overcurrent = ReadWrite(
         Named(BIT, enums.OffOn, closed=True),
@@ -1886,7 +1929,7 @@ class Points(PointTable):
         bits=(10, 10),
         group="parameters_monitoring_generator",
     )
-    """Inverse time overcurrent (when password)."""
+    """Inverse time overcurrent. To write it takes: password."""
 
     inverse_time_overcurrent_characteristic = ReadWrite(
         Named(U8, enums.InverseTimeOvercurrentCharacteristic, closed=True),
@@ -1894,7 +1937,7 @@ class Points(PointTable):
         bits=(1, 0),
         group="parameters_monitoring_generator",
     )
-    """Inverse time overcurrent characteristic (when password)."""
+    """Inverse time overcurrent characteristic. To write it takes: password."""
 
     inverse_time_overcurrent_tp = ReadWrite(
         Scaled(U16, Rule(num=50), decimals=2),
@@ -1903,7 +1946,7 @@ class Points(PointTable):
         unit="s",
         allowed=((0, 99),),
     )
-    """Inverse time overcurrent tp: 0..1.98 s (when password)."""
+    """Inverse time overcurrent tp: 0..1.98 s. To write it takes: password."""
 
     inverse_time_overcurrent_ip = ReadWrite(
         Scaled(U16, Rule(num=1000), decimals=3),
@@ -1911,7 +1954,7 @@ class Points(PointTable):
         group="parameters_monitoring_generator",
         allowed=((100, 3000),),
     )
-    """Inverse time overcurrent ip: 0.1..3 (when password)."""
+    """Inverse time overcurrent ip: 0.1..3. To write it takes: password."""
 
     inverse_time_overcurrent_istart = ReadWrite(
         Scaled(U16, Rule(num=1000), decimals=3),
@@ -1919,7 +1962,7 @@ class Points(PointTable):
         group="parameters_monitoring_generator",
         allowed=((1000, 3000),),
     )
-    """Inverse time overcurrent istart: 1..3 (when password)."""
+    """Inverse time overcurrent istart: 1..3. To write it takes: password."""
 
     inverse_time_overcurrent_voltage_dependence = ReadWrite(
         Named(BIT, enums.OffOn, closed=True),
@@ -1927,7 +1970,7 @@ class Points(PointTable):
         bits=(11, 11),
         group="parameters_monitoring_generator",
     )
-    """Inverse time overcurrent voltage dependence (when password)."""
+    """Inverse time overcurrent voltage dependence. To write it takes: password."""
 
     inverse_time_overcurrent_voltage_knee = ReadWrite(
         Integer(U16),
@@ -1936,7 +1979,7 @@ class Points(PointTable):
         unit="%",
         allowed=((10, 90),),
     )
-    """Inverse time overcurrent voltage knee: 10..90 % (when password)."""
+    """Inverse time overcurrent voltage knee: 10..90 %. To write it takes: password."""
 
     generator_overfrequency_monitoring = ReadWrite(
         Named(BIT, enums.OffOn, closed=True),
@@ -1944,7 +1987,7 @@ class Points(PointTable):
         bits=(12, 12),
         group="parameters_monitoring_generator",
     )
-    """Generator overfrequency monitoring (when password).
+    """Generator overfrequency monitoring. To write it takes: password.
 
     Erratum generator_monitoring_texts (certain), printed:
     „Generatorfrequenzüberwachung ist aus“ and „ist ein“ explain all four bits
@@ -1963,7 +2006,7 @@ class Points(PointTable):
         unit="Hz",
         allowed=((10240, 21760),),
     )
-    """Generator overfrequency 1 threshold: 40..85 Hz (when password)."""
+    """Generator overfrequency 1 threshold: 40..85 Hz. To write it takes: password."""
 
     generator_overfrequency_1_delay = ReadWrite(
         Scaled(U16, Rule(num=50), decimals=2),
@@ -1972,7 +2015,7 @@ class Points(PointTable):
         unit="s",
         allowed=((1, 499),),
     )
-    """Generator overfrequency 1 delay: 0.02..9.98 s (when password)."""
+    """Generator overfrequency 1 delay: 0.02..9.98 s. To write it takes: password."""
 
     generator_overfrequency_2_threshold = ReadWrite(
         Scaled(U16, Rule(num=256), decimals=3),
@@ -1981,7 +2024,7 @@ class Points(PointTable):
         unit="Hz",
         allowed=((10240, 21760),),
     )
-    """Generator overfrequency 2 threshold: 40..85 Hz (when password)."""
+    """Generator overfrequency 2 threshold: 40..85 Hz. To write it takes: password."""
 
     generator_overfrequency_2_delay = ReadWrite(
         Scaled(U16, Rule(num=50), decimals=2),
@@ -1990,7 +2033,7 @@ class Points(PointTable):
         unit="s",
         allowed=((1, 499),),
     )
-    """Generator overfrequency 2 delay: 0.02..9.98 s (when password)."""
+    """Generator overfrequency 2 delay: 0.02..9.98 s. To write it takes: password."""
 
     generator_underfrequency_monitoring = ReadWrite(
         Named(BIT, enums.OffOn, closed=True),
@@ -1998,7 +2041,7 @@ class Points(PointTable):
         bits=(3, 3),
         group="parameters_monitoring_generator",
     )
-    """Generator underfrequency monitoring (when password).
+    """Generator underfrequency monitoring. To write it takes: password.
 
     Erratum generator_monitoring_texts (certain), printed:
     „Generatorfrequenzüberwachung ist aus“ and „ist ein“ explain all four bits
@@ -2013,7 +2056,7 @@ class Points(PointTable):
         unit="Hz",
         allowed=((10240, 21760),),
     )
-    """Generator underfrequency 1 threshold: 40..85 Hz (when password)."""
+    """Generator underfrequency 1 threshold: 40..85 Hz. To write it takes: password."""
 
     generator_underfrequency_1_delay = ReadWrite(
         Scaled(U16, Rule(num=50), decimals=2),
@@ -2022,7 +2065,7 @@ class Points(PointTable):
         unit="s",
         allowed=((1, 499),),
     )
-    """Generator underfrequency 1 delay: 0.02..9.98 s (when password)."""
+    """Generator underfrequency 1 delay: 0.02..9.98 s. To write it takes: password."""
 
     generator_underfrequency_2_threshold = ReadWrite(
         Scaled(U16, Rule(num=256), decimals=3),
@@ -2031,7 +2074,7 @@ class Points(PointTable):
         unit="Hz",
         allowed=((10240, 21760),),
     )
-    """Generator underfrequency 2 threshold: 40..85 Hz (when password)."""
+    """Generator underfrequency 2 threshold: 40..85 Hz. To write it takes: password."""
 
     generator_underfrequency_2_delay = ReadWrite(
         Scaled(U16, Rule(num=50), decimals=2),
@@ -2040,7 +2083,7 @@ class Points(PointTable):
         unit="s",
         allowed=((1, 499),),
     )
-    """Generator underfrequency 2 delay: 0.02..9.98 s (when password)."""
+    """Generator underfrequency 2 delay: 0.02..9.98 s. To write it takes: password."""
 
     generator_overvoltage_monitoring = ReadWrite(
         Named(BIT, enums.OffOn, closed=True),
@@ -2048,7 +2091,7 @@ class Points(PointTable):
         bits=(1, 1),
         group="parameters_monitoring_generator",
     )
-    """Generator overvoltage monitoring (when password).
+    """Generator overvoltage monitoring. To write it takes: password.
 
     Erratum generator_monitoring_texts (certain), printed:
     „Generatorfrequenzüberwachung ist aus“ and „ist ein“ explain all four bits
@@ -2084,7 +2127,7 @@ class Points(PointTable):
         variant=("voltage", "100V"),
         name="generator_overvoltage_1_threshold",
     )
-    """Generator overvoltage 1 threshold 100v (when password)."""
+    """Generator overvoltage 1 threshold 100v. To write it takes: password."""
 
     generator_overvoltage_1_threshold_400v = ReadWrite(
         Scaled(
@@ -2114,7 +2157,7 @@ class Points(PointTable):
         variant=("voltage", "400V"),
         name="generator_overvoltage_1_threshold",
     )
-    """Generator overvoltage 1 threshold 400v (when password)."""
+    """Generator overvoltage 1 threshold 400v. To write it takes: password."""
 
     generator_overvoltage_1_delay = ReadWrite(
         Scaled(U16, Rule(num=50), decimals=2),
@@ -2123,7 +2166,7 @@ class Points(PointTable):
         unit="s",
         allowed=((1, 499),),
     )
-    """Generator overvoltage 1 delay: 0.02..9.98 s (when password)."""
+    """Generator overvoltage 1 delay: 0.02..9.98 s. To write it takes: password."""
 
     generator_overvoltage_2_threshold_100v = ReadWrite(
         Scaled(
@@ -2153,7 +2196,7 @@ class Points(PointTable):
         variant=("voltage", "100V"),
         name="generator_overvoltage_2_threshold",
     )
-    """Generator overvoltage 2 threshold 100v (when password)."""
+    """Generator overvoltage 2 threshold 100v. To write it takes: password."""
 
     generator_overvoltage_2_threshold_400v = ReadWrite(
         Scaled(
@@ -2183,7 +2226,7 @@ class Points(PointTable):
         variant=("voltage", "400V"),
         name="generator_overvoltage_2_threshold",
     )
-    """Generator overvoltage 2 threshold 400v (when password)."""
+    """Generator overvoltage 2 threshold 400v. To write it takes: password."""
 
     generator_overvoltage_2_delay = ReadWrite(
         Scaled(U16, Rule(num=50), decimals=2),
@@ -2192,7 +2235,7 @@ class Points(PointTable):
         unit="s",
         allowed=((1, 499),),
     )
-    """Generator overvoltage 2 delay: 0.02..9.98 s (when password)."""
+    """Generator overvoltage 2 delay: 0.02..9.98 s. To write it takes: password."""
 
     generator_undervoltage_monitoring = ReadWrite(
         Named(BIT, enums.OffOn, closed=True),
@@ -2200,7 +2243,7 @@ class Points(PointTable):
         bits=(0, 0),
         group="parameters_monitoring_generator",
     )
-    """Generator undervoltage monitoring (when password).
+    """Generator undervoltage monitoring. To write it takes: password.
 
     Erratum generator_monitoring_texts (certain), printed:
     „Generatorfrequenzüberwachung ist aus“ and „ist ein“ explain all four bits
@@ -2236,7 +2279,7 @@ class Points(PointTable):
         variant=("voltage", "100V"),
         name="generator_undervoltage_1_threshold",
     )
-    """Generator undervoltage 1 threshold 100v (when password)."""
+    """Generator undervoltage 1 threshold 100v. To write it takes: password."""
 
     generator_undervoltage_1_threshold_400v = ReadWrite(
         Scaled(
@@ -2266,7 +2309,7 @@ class Points(PointTable):
         variant=("voltage", "400V"),
         name="generator_undervoltage_1_threshold",
     )
-    """Generator undervoltage 1 threshold 400v (when password)."""
+    """Generator undervoltage 1 threshold 400v. To write it takes: password."""
 
     generator_undervoltage_1_delay = ReadWrite(
         Scaled(U16, Rule(num=50), decimals=2),
@@ -2275,7 +2318,7 @@ class Points(PointTable):
         unit="s",
         allowed=((1, 499),),
     )
-    """Generator undervoltage 1 delay: 0.02..9.98 s (when password)."""
+    """Generator undervoltage 1 delay: 0.02..9.98 s. To write it takes: password."""
 
     generator_undervoltage_2_threshold_100v = ReadWrite(
         Scaled(
@@ -2305,7 +2348,7 @@ class Points(PointTable):
         variant=("voltage", "100V"),
         name="generator_undervoltage_2_threshold",
     )
-    """Generator undervoltage 2 threshold 100v (when password)."""
+    """Generator undervoltage 2 threshold 100v. To write it takes: password."""
 
     generator_undervoltage_2_threshold_400v = ReadWrite(
         Scaled(
@@ -2335,7 +2378,7 @@ class Points(PointTable):
         variant=("voltage", "400V"),
         name="generator_undervoltage_2_threshold",
     )
-    """Generator undervoltage 2 threshold 400v (when password)."""
+    """Generator undervoltage 2 threshold 400v. To write it takes: password."""
 
     generator_undervoltage_2_delay = ReadWrite(
         Scaled(U16, Rule(num=50), decimals=2),
@@ -2344,7 +2387,7 @@ class Points(PointTable):
         unit="s",
         allowed=((1, 499),),
     )
-    """Generator undervoltage 2 delay: 0.02..9.98 s (when password)."""
+    """Generator undervoltage 2 delay: 0.02..9.98 s. To write it takes: password."""
 
     generator_overvoltage_1_threshold = ByVariant(
         "voltage",
@@ -2390,7 +2433,7 @@ class Points(PointTable):
         bits=(14, 14),
         group="parameters_monitoring_mains",
     )
-    """Mains frequency monitoring (when password)."""
+    """Mains frequency monitoring. To write it takes: password."""
 
     mains_overfrequency_threshold = ReadWrite(
         Scaled(U16, Rule(num=256), decimals=3),
@@ -2399,7 +2442,7 @@ class Points(PointTable):
         unit="Hz",
         allowed=((10240, 17920),),
     )
-    """Mains overfrequency threshold: 40..70 Hz (when password)."""
+    """Mains overfrequency threshold: 40..70 Hz. To write it takes: password."""
 
     mains_overfrequency_delay = ReadWrite(
         Scaled(U16, Rule(num=50), decimals=2),
@@ -2408,7 +2451,7 @@ class Points(PointTable):
         unit="s",
         allowed=((1, 499),),
     )
-    """Mains overfrequency delay: 0.02..9.98 s (when password)."""
+    """Mains overfrequency delay: 0.02..9.98 s. To write it takes: password."""
 
     mains_underfrequency_threshold = ReadWrite(
         Scaled(U16, Rule(num=256), decimals=3),
@@ -2417,7 +2460,7 @@ class Points(PointTable):
         unit="Hz",
         allowed=((10240, 17920),),
     )
-    """Mains underfrequency threshold: 40..70 Hz (when password)."""
+    """Mains underfrequency threshold: 40..70 Hz. To write it takes: password."""
 
     mains_underfrequency_delay = ReadWrite(
         Scaled(U16, Rule(num=50), decimals=2),
@@ -2426,7 +2469,7 @@ class Points(PointTable):
         unit="s",
         allowed=((1, 499),),
     )
-    """Mains underfrequency delay: 0.02..9.98 s (when password)."""
+    """Mains underfrequency delay: 0.02..9.98 s. To write it takes: password."""
 
     mains_voltage_monitoring = ReadWrite(
         Named(BIT, enums.OffOn, closed=True),
@@ -2434,7 +2477,7 @@ class Points(PointTable):
         bits=(15, 15),
         group="parameters_monitoring_mains",
     )
-    """Mains voltage monitoring (when password)."""
+    """Mains voltage monitoring. To write it takes: password."""
 
     mains_voltage_factor = ReadOnly(
         Integer(U16),
@@ -2453,11 +2496,11 @@ class Points(PointTable):
     )
     """Mains voltage factor.
 
-    Erratum voltage_factors (likely), printed: „ein Faktor, der in einem 16-Bit
-    Wort steht“ and depends on the transformer ratios; its range, its sign,
-    whether it can be written, and which of the transformer parameters change it
-    is not said; taken: u16, access: r, to be read again after any of the seven
-    transformer parameters of 4.2.4 to 4.2.9 and 4.2.12.
+    Erratum voltage_factors (likely), printed: The factor is a „16-Bit Wort“ and
+    depends on the transformer ratios; its range, its sign, whether it can be
+    written, and which of the transformer parameters change it is not said; taken:
+    u16, access: r, to be read again after any of the seven transformer parameters
+    of 4.2.4 to 4.2.9 and 4.2.12.
     """
 
     mains_overvoltage_threshold_100v = ReadWrite(
@@ -2488,7 +2531,7 @@ class Points(PointTable):
         variant=("voltage", "100V"),
         name="mains_overvoltage_threshold",
     )
-    """Mains overvoltage threshold 100v (when password)."""
+    """Mains overvoltage threshold 100v. To write it takes: password."""
 
     mains_overvoltage_threshold_400v = ReadWrite(
         Scaled(
@@ -2518,7 +2561,7 @@ class Points(PointTable):
         variant=("voltage", "400V"),
         name="mains_overvoltage_threshold",
     )
-    """Mains overvoltage threshold 400v (when password)."""
+    """Mains overvoltage threshold 400v. To write it takes: password."""
 
     mains_overvoltage_delay = ReadWrite(
         Scaled(U16, Rule(num=50), decimals=2),
@@ -2527,7 +2570,7 @@ class Points(PointTable):
         unit="s",
         allowed=((1, 499),),
     )
-    """Mains overvoltage delay: 0.02..9.98 s (when password)."""
+    """Mains overvoltage delay: 0.02..9.98 s. To write it takes: password."""
 
     mains_undervoltage_threshold_100v = ReadWrite(
         Scaled(
@@ -2557,7 +2600,7 @@ class Points(PointTable):
         variant=("voltage", "100V"),
         name="mains_undervoltage_threshold",
     )
-    """Mains undervoltage threshold 100v (when password)."""
+    """Mains undervoltage threshold 100v. To write it takes: password."""
 
     mains_undervoltage_threshold_400v = ReadWrite(
         Scaled(
@@ -2587,7 +2630,7 @@ class Points(PointTable):
         variant=("voltage", "400V"),
         name="mains_undervoltage_threshold",
     )
-    """Mains undervoltage threshold 400v (when password)."""
+    """Mains undervoltage threshold 400v. To write it takes: password."""
 
     mains_undervoltage_delay = ReadWrite(
         Scaled(U16, Rule(num=50), decimals=2),
@@ -2596,7 +2639,7 @@ class Points(PointTable):
         unit="s",
         allowed=((1, 499),),
     )
-    """Mains undervoltage delay: 0.02..9.98 s (when password)."""
+    """Mains undervoltage delay: 0.02..9.98 s. To write it takes: password."""
 
     phase_shift_monitoring = ReadWrite(
         Named(BIT, enums.OffOn, closed=True),
@@ -2604,7 +2647,7 @@ class Points(PointTable):
         bits=(1, 1),
         group="parameters_monitoring_mains",
     )
-    """Phase shift monitoring (when password)."""
+    """Phase shift monitoring. To write it takes: password."""
 
     phase_shift_monitoring_phases = ReadWrite(
         Named(BIT, enums.PhaseShiftMonitoringPhases, closed=True),
@@ -2612,7 +2655,7 @@ class Points(PointTable):
         bits=(13, 13),
         group="parameters_monitoring_mains",
     )
-    """Phase shift monitoring phases (when password)."""
+    """Phase shift monitoring phases. To write it takes: password."""
 
     phase_shift_threshold_single_phase = ReadWrite(
         Integer(U16),
@@ -2621,7 +2664,7 @@ class Points(PointTable):
         unit="°",
         allowed=((3, 30),),
     )
-    """Phase shift threshold single phase: 3..30 ° (when password)."""
+    """Phase shift threshold single phase: 3..30 °. To write it takes: password."""
 
     phase_shift_threshold_three_phase = ReadWrite(
         Integer(U16),
@@ -2630,7 +2673,7 @@ class Points(PointTable):
         unit="°",
         allowed=((3, 30),),
     )
-    """Phase shift threshold three phase: 3..30 ° (when password)."""
+    """Phase shift threshold three phase: 3..30 °. To write it takes: password."""
 
     mains_overvoltage_threshold = ByVariant(
         "voltage",
@@ -2658,7 +2701,7 @@ class Points(PointTable):
         bits=(12, 12),
         group="parameters_monitoring_power",
     )
-    """Reactive power monitoring (when password)."""
+    """Reactive power monitoring. To write it takes: password."""
 
     reactive_power_threshold_inductive = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -2667,7 +2710,7 @@ class Points(PointTable):
         unit="%",
         allowed=((50, 1000),),
     )
-    """Reactive power threshold inductive: 5..100 % (when password)."""
+    """Reactive power threshold inductive: 5..100 %. To write it takes: password."""
 
     reactive_power_delay_inductive = ReadWrite(
         Scaled(U16, Rule(num=50), decimals=2),
@@ -2676,7 +2719,7 @@ class Points(PointTable):
         unit="s",
         allowed=((0, 49950),),
     )
-    """Reactive power delay inductive: 0..999 s (when password).
+    """Reactive power delay inductive: 0..999 s. To write it takes: password.
 
     Erratum reactive_power_delay_ids (unknown), printed: The thresholds have ids
     303 and 304, inductive and capacitive; the delays 306 and 305 (lines 1607,
@@ -2690,7 +2733,7 @@ class Points(PointTable):
         unit="%",
         allowed=((50, 1000),),
     )
-    """Reactive power threshold capacitive: 5..100 % (when password)."""
+    """Reactive power threshold capacitive: 5..100 %. To write it takes: password."""
 
     reactive_power_delay_capacitive = ReadWrite(
         Scaled(U16, Rule(num=50), decimals=2),
@@ -2699,7 +2742,7 @@ class Points(PointTable):
         unit="s",
         allowed=((0, 49950),),
     )
-    """Reactive power delay capacitive: 0..999 s (when password).
+    """Reactive power delay capacitive: 0..999 s. To write it takes: password.
 
     Erratum reactive_power_delay_ids (unknown), printed: The thresholds have ids
     303 and 304, inductive and capacitive; the delays 306 and 305 (lines 1607,
@@ -2712,7 +2755,7 @@ class Points(PointTable):
         bits=(9, 9),
         group="parameters_monitoring_power",
     )
-    """Earth fault monitoring (when password)."""
+    """Earth fault monitoring. To write it takes: password."""
 
     earth_fault_threshold = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -2721,7 +2764,7 @@ class Points(PointTable):
         unit="%",
         allowed=((50, 1000),),
     )
-    """Earth fault threshold: 5..100 % (when password)."""
+    """Earth fault threshold: 5..100 %. To write it takes: password."""
 
     earth_fault_delay = ReadWrite(
         Scaled(U16, Rule(num=50), decimals=2),
@@ -2730,7 +2773,7 @@ class Points(PointTable):
         unit="s",
         allowed=((1, 4999),),
     )
-    """Earth fault delay: 0.02..99.98 s (when password)."""
+    """Earth fault delay: 0.02..99.98 s. To write it takes: password."""
 
     battery_undervoltage_threshold = ReadWrite(
         Scaled(U16, Rule(num=10), decimals=1),
@@ -2739,7 +2782,7 @@ class Points(PointTable):
         unit="V",
         allowed=((95, 300),),
     )
-    """Battery undervoltage threshold: 9.5..30 V (when password)."""
+    """Battery undervoltage threshold: 9.5..30 V. To write it takes: password."""
 
     battery_undervoltage_delay = ReadWrite(
         Scaled(U16, Rule(num=50), decimals=2),
@@ -2748,7 +2791,7 @@ class Points(PointTable):
         unit="s",
         allowed=((1, 4950),),
     )
-    """Battery undervoltage delay: 0.02..99 s (when password).
+    """Battery undervoltage delay: 0.02..99 s. To write it takes: password.
 
     Erratum battery_undervoltage_delay_minimum (likely), printed: range in units
     0..99; taken: range in units 0.02..99.
@@ -2762,7 +2805,7 @@ class Points(PointTable):
         bits=(11, 8),
         group="parameters_inputs",
     )
-    """Digital inputs 1 to 4 logic (when password).
+    """Digital inputs 1 to 4 logic. To write it takes: password.
 
     Erratum input_bit_rows (certain), printed: „Wertebereich“ is what two rows are
     called; the first lists bit numbers (lines 1673, 1707, 1735, 1769, 1797 and
@@ -2774,7 +2817,7 @@ class Points(PointTable):
         at=parameter(404),
         group="parameters_inputs",
     )
-    """Digital inputs 1 to 4 delay (when password).
+    """Digital inputs 1 to 4 delay. To write it takes: password.
 
     Erratum input_digit_order (unknown), printed: „Stellenweise“, four digits for
     four inputs; which digit belongs to which input is not printed; taken: Four
@@ -2791,7 +2834,7 @@ class Points(PointTable):
         bits=(11, 8),
         group="parameters_inputs",
     )
-    """Digital inputs 1 to 4 engine delay (when password).
+    """Digital inputs 1 to 4 engine delay. To write it takes: password.
 
     Erratum input_bit_rows (certain), printed: „Wertebereich“ is what two rows are
     called; the first lists bit numbers (lines 1673, 1707, 1735, 1769, 1797 and
@@ -2803,7 +2846,7 @@ class Points(PointTable):
         at=parameter(130),
         group="parameters_inputs",
     )
-    """Digital inputs 1 to 4 fault class (when password).
+    """Digital inputs 1 to 4 fault class. To write it takes: password.
 
     Erratum input_digit_order (unknown), printed: „Stellenweise“, four digits for
     four inputs; which digit belongs to which input is not printed; taken: Four
@@ -2823,7 +2866,7 @@ class Points(PointTable):
         bits=(7, 4),
         group="parameters_inputs",
     )
-    """Digital inputs 5 to 8 logic (when password).
+    """Digital inputs 5 to 8 logic. To write it takes: password.
 
     Erratum input_bit_rows (certain), printed: „Wertebereich“ is what two rows are
     called; the first lists bit numbers (lines 1673, 1707, 1735, 1769, 1797 and
@@ -2835,7 +2878,7 @@ class Points(PointTable):
         at=parameter(405),
         group="parameters_inputs",
     )
-    """Digital inputs 5 to 8 delay (when password).
+    """Digital inputs 5 to 8 delay. To write it takes: password.
 
     Erratum input_digit_order (unknown), printed: „Stellenweise“, four digits for
     four inputs; which digit belongs to which input is not printed; taken: Four
@@ -2852,7 +2895,7 @@ class Points(PointTable):
         bits=(7, 4),
         group="parameters_inputs",
     )
-    """Digital inputs 5 to 8 engine delay (when password).
+    """Digital inputs 5 to 8 engine delay. To write it takes: password.
 
     Erratum input_bit_rows (certain), printed: „Wertebereich“ is what two rows are
     called; the first lists bit numbers (lines 1673, 1707, 1735, 1769, 1797 and
@@ -2864,7 +2907,7 @@ class Points(PointTable):
         at=parameter(135),
         group="parameters_inputs",
     )
-    """Digital inputs 5 to 8 fault class (when password).
+    """Digital inputs 5 to 8 fault class. To write it takes: password.
 
     Erratum input_digit_order (unknown), printed: „Stellenweise“, four digits for
     four inputs; which digit belongs to which input is not printed; taken: Four
@@ -2884,7 +2927,7 @@ class Points(PointTable):
         bits=(3, 0),
         group="parameters_inputs",
     )
-    """Digital inputs 9 to 12 logic (when password).
+    """Digital inputs 9 to 12 logic. To write it takes: password.
 
     Erratum input_bit_rows (certain), printed: „Wertebereich“ is what two rows are
     called; the first lists bit numbers (lines 1673, 1707, 1735, 1769, 1797 and
@@ -2899,7 +2942,7 @@ class Points(PointTable):
         at=parameter(406),
         group="parameters_inputs",
     )
-    """Digital inputs 9 to 12 delay (when password).
+    """Digital inputs 9 to 12 delay. To write it takes: password.
 
     Erratum input_digit_order (unknown), printed: „Stellenweise“, four digits for
     four inputs; which digit belongs to which input is not printed; taken: Four
@@ -2916,7 +2959,7 @@ class Points(PointTable):
         bits=(3, 0),
         group="parameters_inputs",
     )
-    """Digital inputs 9 to 12 engine delay (when password).
+    """Digital inputs 9 to 12 engine delay. To write it takes: password.
 
     Erratum input_bit_rows (certain), printed: „Wertebereich“ is what two rows are
     called; the first lists bit numbers (lines 1673, 1707, 1735, 1769, 1797 and
@@ -2928,7 +2971,7 @@ class Points(PointTable):
         at=parameter(136),
         group="parameters_inputs",
     )
-    """Digital inputs 9 to 12 fault class (when password).
+    """Digital inputs 9 to 12 fault class. To write it takes: password.
 
     Erratum input_digit_order (unknown), printed: „Stellenweise“, four digits for
     four inputs; which digit belongs to which input is not printed; taken: Four
@@ -2949,7 +2992,7 @@ class Points(PointTable):
         at=parameter(739, 738, 737, 736, 735, 734, 733, 732),
         group="parameters_texts",
     )
-    """Fault text terminal 62 (when password).
+    """Fault text terminal 62. To write it takes: password.
 
     Erratum fault_text_example (certain), printed: „ABCDEFGHJKLMNOP“ for a text of
     16 characters; the I is missing; taken: ABCDEFGHIJKLMNOP, 16 characters.
@@ -2960,7 +3003,7 @@ class Points(PointTable):
         at=parameter(747, 746, 745, 744, 743, 742, 741, 740),
         group="parameters_texts",
     )
-    """Fault text terminal 63 (when password).
+    """Fault text terminal 63. To write it takes: password.
 
     Erratum fault_text_example (certain), printed: „ABCDEFGHJKLMNOP“ for a text of
     16 characters; the I is missing; taken: ABCDEFGHIJKLMNOP, 16 characters.
@@ -2971,7 +3014,7 @@ class Points(PointTable):
         at=parameter(755, 754, 753, 752, 751, 750, 749, 748),
         group="parameters_texts",
     )
-    """Fault text terminal 64 (when password).
+    """Fault text terminal 64. To write it takes: password.
 
     Erratum fault_text_example (certain), printed: „ABCDEFGHJKLMNOP“ for a text of
     16 characters; the I is missing; taken: ABCDEFGHIJKLMNOP, 16 characters.
@@ -2982,7 +3025,7 @@ class Points(PointTable):
         at=parameter(763, 762, 761, 760, 759, 758, 757, 756),
         group="parameters_texts",
     )
-    """Fault text terminal 65 (when password).
+    """Fault text terminal 65. To write it takes: password.
 
     Erratum fault_text_example (certain), printed: „ABCDEFGHJKLMNOP“ for a text of
     16 characters; the I is missing; taken: ABCDEFGHIJKLMNOP, 16 characters.
@@ -2993,7 +3036,7 @@ class Points(PointTable):
         at=parameter(771, 770, 769, 768, 767, 766, 765, 764),
         group="parameters_texts",
     )
-    """Fault text terminal 66 (when password).
+    """Fault text terminal 66. To write it takes: password.
 
     Erratum fault_text_example (certain), printed: „ABCDEFGHJKLMNOP“ for a text of
     16 characters; the I is missing; taken: ABCDEFGHIJKLMNOP, 16 characters.
@@ -3004,7 +3047,7 @@ class Points(PointTable):
         at=parameter(779, 778, 777, 776, 775, 774, 773, 772),
         group="parameters_texts",
     )
-    """Fault text terminal 67 (when password).
+    """Fault text terminal 67. To write it takes: password.
 
     Erratum fault_text_example (certain), printed: „ABCDEFGHJKLMNOP“ for a text of
     16 characters; the I is missing; taken: ABCDEFGHIJKLMNOP, 16 characters.
@@ -3015,7 +3058,7 @@ class Points(PointTable):
         at=parameter(787, 786, 785, 784, 783, 782, 781, 780),
         group="parameters_texts",
     )
-    """Fault text terminal 68 (when password).
+    """Fault text terminal 68. To write it takes: password.
 
     Erratum fault_text_example (certain), printed: „ABCDEFGHJKLMNOP“ for a text of
     16 characters; the I is missing; taken: ABCDEFGHIJKLMNOP, 16 characters.
@@ -3026,7 +3069,7 @@ class Points(PointTable):
         at=parameter(795, 794, 793, 792, 791, 790, 789, 788),
         group="parameters_texts",
     )
-    """Fault text terminal 69 (when password).
+    """Fault text terminal 69. To write it takes: password.
 
     Erratum fault_text_example (certain), printed: „ABCDEFGHJKLMNOP“ for a text of
     16 characters; the I is missing; taken: ABCDEFGHIJKLMNOP, 16 characters.
@@ -3037,7 +3080,7 @@ class Points(PointTable):
         at=parameter(803, 802, 801, 800, 799, 798, 797, 796),
         group="parameters_texts",
     )
-    """Fault text terminal 70 (when password).
+    """Fault text terminal 70. To write it takes: password.
 
     Erratum fault_text_example (certain), printed: „ABCDEFGHJKLMNOP“ for a text of
     16 characters; the I is missing; taken: ABCDEFGHIJKLMNOP, 16 characters.
@@ -3048,7 +3091,7 @@ class Points(PointTable):
         at=parameter(811, 810, 809, 808, 807, 806, 805, 804),
         group="parameters_texts",
     )
-    """Fault text terminal 71 (when password).
+    """Fault text terminal 71. To write it takes: password.
 
     Erratum fault_text_example (certain), printed: „ABCDEFGHJKLMNOP“ for a text of
     16 characters; the I is missing; taken: ABCDEFGHIJKLMNOP, 16 characters.
@@ -3059,7 +3102,7 @@ class Points(PointTable):
         at=parameter(819, 818, 817, 816, 815, 814, 813, 812),
         group="parameters_texts",
     )
-    """Fault text terminal 72 (when password).
+    """Fault text terminal 72. To write it takes: password.
 
     Erratum fault_text_example (certain), printed: „ABCDEFGHJKLMNOP“ for a text of
     16 characters; the I is missing; taken: ABCDEFGHIJKLMNOP, 16 characters.
@@ -3070,7 +3113,7 @@ class Points(PointTable):
         at=parameter(827, 826, 825, 824, 823, 822, 821, 820),
         group="parameters_texts",
     )
-    """Fault text terminal 73 (when password).
+    """Fault text terminal 73. To write it takes: password.
 
     Erratum fault_text_example (certain), printed: „ABCDEFGHJKLMNOP“ for a text of
     16 characters; the I is missing; taken: ABCDEFGHIJKLMNOP, 16 characters.
@@ -3084,7 +3127,7 @@ class Points(PointTable):
         group="parameters_analog",
         allowed=((0, 23),),
     )
-    """Analog output 1 source (when password).
+    """Analog output 1 source. To write it takes: password.
 
     Erratum analog_source_23 (unknown), printed: The ranges allow 0 to 23 (lines
     2051 and 2081); the list ends at 22; taken: The range as printed, with names
@@ -3097,7 +3140,7 @@ class Points(PointTable):
         bits=(1, 1),
         group="parameters_analog",
     )
-    """Analog output 1 current range (when password)."""
+    """Analog output 1 current range. To write it takes: password."""
 
     analog_output_1_value_at_0_percent = ReadWrite(
         Scaled(
@@ -3124,7 +3167,7 @@ class Points(PointTable):
         group="parameters_analog",
         allowed=((-9999, 9999),),
     )
-    """Analog output 1 value at 0 percent (when password).
+    """Analog output 1 value at 0 percent. To write it takes: password.
 
     Erratum parameter_sign (likely), printed: The ranges begin below zero (lines
     755, 762, 859, 1138, 2067, 2074, 2097 and 2104); how a negative number is sent
@@ -3161,7 +3204,7 @@ class Points(PointTable):
         group="parameters_analog",
         allowed=((-9999, 9999),),
     )
-    """Analog output 1 value at 100 percent (when password).
+    """Analog output 1 value at 100 percent. To write it takes: password.
 
     Erratum parameter_sign (likely), printed: The ranges begin below zero (lines
     755, 762, 859, 1138, 2067, 2074, 2097 and 2104); how a negative number is sent
@@ -3179,7 +3222,7 @@ class Points(PointTable):
         group="parameters_analog",
         allowed=((0, 23),),
     )
-    """Analog output 2 source (when password).
+    """Analog output 2 source. To write it takes: password.
 
     Erratum analog_source_23 (unknown), printed: The ranges allow 0 to 23 (lines
     2051 and 2081); the list ends at 22; taken: The range as printed, with names
@@ -3192,7 +3235,7 @@ class Points(PointTable):
         bits=(3, 3),
         group="parameters_analog",
     )
-    """Analog output 2 current range (when password)."""
+    """Analog output 2 current range. To write it takes: password."""
 
     analog_output_2_value_at_0_percent = ReadWrite(
         Scaled(
@@ -3219,7 +3262,7 @@ class Points(PointTable):
         group="parameters_analog",
         allowed=((-9999, 9999),),
     )
-    """Analog output 2 value at 0 percent (when password).
+    """Analog output 2 value at 0 percent. To write it takes: password.
 
     Erratum parameter_sign (likely), printed: The ranges begin below zero (lines
     755, 762, 859, 1138, 2067, 2074, 2097 and 2104); how a negative number is sent
@@ -3256,7 +3299,7 @@ class Points(PointTable):
         group="parameters_analog",
         allowed=((-9999, 9999),),
     )
-    """Analog output 2 value at 100 percent (when password).
+    """Analog output 2 value at 100 percent. To write it takes: password.
 
     Erratum parameter_sign (likely), printed: The ranges begin below zero (lines
     755, 762, 859, 1138, 2067, 2074, 2097 and 2104); how a negative number is sent
@@ -3277,7 +3320,7 @@ class Points(PointTable):
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
     )
-    """Relay 1 event 1 (when password)."""
+    """Relay 1 event 1. To write it takes: password."""
 
     relay_1_logic_1 = ReadWrite(
         Flags(U8, enums.Relay1Logic1),
@@ -3286,7 +3329,7 @@ class Points(PointTable):
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
     )
-    """Relay 1 logic 1 (when password)."""
+    """Relay 1 logic 1. To write it takes: password."""
 
     relay_1_event_2 = ReadWrite(
         Named(U8, enums.RelayEvent, closed=True),
@@ -3295,7 +3338,7 @@ class Points(PointTable):
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
     )
-    """Relay 1 event 2 (when password)."""
+    """Relay 1 event 2. To write it takes: password."""
 
     relay_1_logic_2 = ReadWrite(
         Flags(U8, enums.Relay1Logic2),
@@ -3304,7 +3347,7 @@ class Points(PointTable):
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
     )
-    """Relay 1 logic 2 (when password)."""
+    """Relay 1 logic 2. To write it takes: password."""
 
     relay_1_event_3 = ReadWrite(
         Named(U8, enums.RelayEvent, closed=True),
@@ -3313,7 +3356,7 @@ class Points(PointTable):
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
     )
-    """Relay 1 event 3 (when password)."""
+    """Relay 1 event 3. To write it takes: password."""
 
     relay_1_logic_3 = ReadWrite(
         Flags(U8, enums.Relay1Logic3),
@@ -3322,7 +3365,7 @@ class Points(PointTable):
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
     )
-    """Relay 1 logic 3 (when password).
+    """Relay 1 logic 3. To write it takes: password.
 
     Erratum relay_last_word (unknown), printed: „ID 438 Lowbyte: Bit 7“ and so on:
     the third word, too, has bits for the combination with the next id; taken: The
@@ -3336,7 +3379,7 @@ class Points(PointTable):
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
     )
-    """Relay 2 event 1 (when password)."""
+    """Relay 2 event 1. To write it takes: password."""
 
     relay_2_logic_1 = ReadWrite(
         Flags(U8, enums.Relay2Logic1),
@@ -3345,7 +3388,7 @@ class Points(PointTable):
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
     )
-    """Relay 2 logic 1 (when password)."""
+    """Relay 2 logic 1. To write it takes: password."""
 
     relay_2_event_2 = ReadWrite(
         Named(U8, enums.RelayEvent, closed=True),
@@ -3354,7 +3397,7 @@ class Points(PointTable):
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
     )
-    """Relay 2 event 2 (when password)."""
+    """Relay 2 event 2. To write it takes: password."""
 
     relay_2_logic_2 = ReadWrite(
         Flags(U8, enums.Relay2Logic2),
@@ -3363,7 +3406,7 @@ class Points(PointTable):
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
     )
-    """Relay 2 logic 2 (when password)."""
+    """Relay 2 logic 2. To write it takes: password."""
 
     relay_2_event_3 = ReadWrite(
         Named(U8, enums.RelayEvent, closed=True),
@@ -3372,7 +3415,7 @@ class Points(PointTable):
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
     )
-    """Relay 2 event 3 (when password)."""
+    """Relay 2 event 3. To write it takes: password."""
 
     relay_2_logic_3 = ReadWrite(
         Flags(U8, enums.Relay2Logic3),
@@ -3381,7 +3424,7 @@ class Points(PointTable):
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
     )
-    """Relay 2 logic 3 (when password).
+    """Relay 2 logic 3. To write it takes: password.
 
     Erratum relay_last_word (unknown), printed: „ID 438 Lowbyte: Bit 7“ and so on:
     the third word, too, has bits for the combination with the next id; taken: The
@@ -3395,7 +3438,7 @@ class Points(PointTable):
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
     )
-    """Relay 3 event 1 (when password)."""
+    """Relay 3 event 1. To write it takes: password."""
 
     relay_3_logic_1 = ReadWrite(
         Flags(U8, enums.Relay3Logic1),
@@ -3404,7 +3447,7 @@ class Points(PointTable):
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
     )
-    """Relay 3 logic 1 (when password)."""
+    """Relay 3 logic 1. To write it takes: password."""
 
     relay_3_event_2 = ReadWrite(
         Named(U8, enums.RelayEvent, closed=True),
@@ -3413,7 +3456,7 @@ class Points(PointTable):
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
     )
-    """Relay 3 event 2 (when password)."""
+    """Relay 3 event 2. To write it takes: password."""
 
     relay_3_logic_2 = ReadWrite(
         Flags(U8, enums.Relay3Logic2),
@@ -3422,7 +3465,7 @@ class Points(PointTable):
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
     )
-    """Relay 3 logic 2 (when password)."""
+    """Relay 3 logic 2. To write it takes: password."""
 
     relay_3_event_3 = ReadWrite(
         Named(U8, enums.RelayEvent, closed=True),
@@ -3431,7 +3474,7 @@ class Points(PointTable):
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
     )
-    """Relay 3 event 3 (when password)."""
+    """Relay 3 event 3. To write it takes: password."""
 
     relay_3_logic_3 = ReadWrite(
         Flags(U8, enums.Relay3Logic3),
@@ -3440,7 +3483,7 @@ class Points(PointTable):
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
     )
-    """Relay 3 logic 3 (when password).
+    """Relay 3 logic 3. To write it takes: password.
 
     Erratum relay_last_word (unknown), printed: „ID 438 Lowbyte: Bit 7“ and so on:
     the third word, too, has bits for the combination with the next id; taken: The
@@ -3454,7 +3497,7 @@ class Points(PointTable):
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
     )
-    """Relay 4 event 1 (when password)."""
+    """Relay 4 event 1. To write it takes: password."""
 
     relay_4_logic_1 = ReadWrite(
         Flags(U8, enums.Relay4Logic1),
@@ -3463,7 +3506,7 @@ class Points(PointTable):
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
     )
-    """Relay 4 logic 1 (when password)."""
+    """Relay 4 logic 1. To write it takes: password."""
 
     relay_4_event_2 = ReadWrite(
         Named(U8, enums.RelayEvent, closed=True),
@@ -3472,7 +3515,7 @@ class Points(PointTable):
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
     )
-    """Relay 4 event 2 (when password)."""
+    """Relay 4 event 2. To write it takes: password."""
 
     relay_4_logic_2 = ReadWrite(
         Flags(U8, enums.Relay4Logic2),
@@ -3481,7 +3524,7 @@ class Points(PointTable):
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
     )
-    """Relay 4 logic 2 (when password)."""
+    """Relay 4 logic 2. To write it takes: password."""
 
     relay_4_event_3 = ReadWrite(
         Named(U8, enums.RelayEvent, closed=True),
@@ -3490,7 +3533,7 @@ class Points(PointTable):
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
     )
-    """Relay 4 event 3 (when password)."""
+    """Relay 4 event 3. To write it takes: password."""
 
     relay_4_logic_3 = ReadWrite(
         Flags(U8, enums.Relay4Logic3),
@@ -3499,7 +3542,7 @@ class Points(PointTable):
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
     )
-    """Relay 4 logic 3 (when password).
+    """Relay 4 logic 3. To write it takes: password.
 
     Erratum relay_last_word (unknown), printed: „ID 438 Lowbyte: Bit 7“ and so on:
     the third word, too, has bits for the combination with the next id; taken: The
@@ -3513,7 +3556,7 @@ class Points(PointTable):
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
     )
-    """Relay 5 event 1 (when password)."""
+    """Relay 5 event 1. To write it takes: password."""
 
     relay_5_logic_1 = ReadWrite(
         Flags(U8, enums.Relay5Logic1),
@@ -3522,7 +3565,7 @@ class Points(PointTable):
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
     )
-    """Relay 5 logic 1 (when password)."""
+    """Relay 5 logic 1. To write it takes: password."""
 
     relay_5_event_2 = ReadWrite(
         Named(U8, enums.RelayEvent, closed=True),
@@ -3531,7 +3574,7 @@ class Points(PointTable):
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
     )
-    """Relay 5 event 2 (when password)."""
+    """Relay 5 event 2. To write it takes: password."""
 
     relay_5_logic_2 = ReadWrite(
         Flags(U8, enums.Relay5Logic2),
@@ -3540,7 +3583,7 @@ class Points(PointTable):
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
     )
-    """Relay 5 logic 2 (when password)."""
+    """Relay 5 logic 2. To write it takes: password."""
 
     relay_5_event_3 = ReadWrite(
         Named(U8, enums.RelayEvent, closed=True),
@@ -3549,7 +3592,7 @@ class Points(PointTable):
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
     )
-    """Relay 5 event 3 (when password)."""
+    """Relay 5 event 3. To write it takes: password."""
 
     relay_5_logic_3 = ReadWrite(
         Flags(U8, enums.Relay5Logic3),
@@ -3558,7 +3601,7 @@ class Points(PointTable):
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
     )
-    """Relay 5 logic 3 (when password).
+    """Relay 5 logic 3. To write it takes: password.
 
     Erratum relay_last_word (unknown), printed: „ID 438 Lowbyte: Bit 7“ and so on:
     the third word, too, has bits for the combination with the next id; taken: The
@@ -3572,7 +3615,7 @@ class Points(PointTable):
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
     )
-    """Relay 6 event 1 (when password)."""
+    """Relay 6 event 1. To write it takes: password."""
 
     relay_6_logic_1 = ReadWrite(
         Flags(U8, enums.Relay6Logic1),
@@ -3581,7 +3624,7 @@ class Points(PointTable):
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
     )
-    """Relay 6 logic 1 (when password)."""
+    """Relay 6 logic 1. To write it takes: password."""
 
     relay_6_event_2 = ReadWrite(
         Named(U8, enums.RelayEvent, closed=True),
@@ -3590,7 +3633,7 @@ class Points(PointTable):
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
     )
-    """Relay 6 event 2 (when password)."""
+    """Relay 6 event 2. To write it takes: password."""
 
     relay_6_logic_2 = ReadWrite(
         Flags(U8, enums.Relay6Logic2),
@@ -3599,7 +3642,7 @@ class Points(PointTable):
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
     )
-    """Relay 6 logic 2 (when password)."""
+    """Relay 6 logic 2. To write it takes: password."""
 
     relay_6_event_3 = ReadWrite(
         Named(U8, enums.RelayEvent, closed=True),
@@ -3608,7 +3651,7 @@ class Points(PointTable):
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
     )
-    """Relay 6 event 3 (when password)."""
+    """Relay 6 event 3. To write it takes: password."""
 
     relay_6_logic_3 = ReadWrite(
         Flags(U8, enums.Relay6Logic3),
@@ -3617,7 +3660,7 @@ class Points(PointTable):
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
     )
-    """Relay 6 logic 3 (when password).
+    """Relay 6 logic 3. To write it takes: password.
 
     Erratum relay_last_word (unknown), printed: „ID 438 Lowbyte: Bit 7“ and so on:
     the third word, too, has bits for the combination with the next id; taken: The
@@ -3631,7 +3674,7 @@ class Points(PointTable):
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
     )
-    """Relay 7 event 1 (when password)."""
+    """Relay 7 event 1. To write it takes: password."""
 
     relay_7_logic_1 = ReadWrite(
         Flags(U8, enums.Relay7Logic1),
@@ -3640,7 +3683,7 @@ class Points(PointTable):
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
     )
-    """Relay 7 logic 1 (when password)."""
+    """Relay 7 logic 1. To write it takes: password."""
 
     relay_7_event_2 = ReadWrite(
         Named(U8, enums.RelayEvent, closed=True),
@@ -3649,7 +3692,7 @@ class Points(PointTable):
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
     )
-    """Relay 7 event 2 (when password)."""
+    """Relay 7 event 2. To write it takes: password."""
 
     relay_7_logic_2 = ReadWrite(
         Flags(U8, enums.Relay7Logic2),
@@ -3658,7 +3701,7 @@ class Points(PointTable):
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
     )
-    """Relay 7 logic 2 (when password)."""
+    """Relay 7 logic 2. To write it takes: password."""
 
     relay_7_event_3 = ReadWrite(
         Named(U8, enums.RelayEvent, closed=True),
@@ -3667,7 +3710,7 @@ class Points(PointTable):
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
     )
-    """Relay 7 event 3 (when password)."""
+    """Relay 7 event 3. To write it takes: password."""
 
     relay_7_logic_3 = ReadWrite(
         Flags(U8, enums.Relay7Logic3),
@@ -3676,7 +3719,7 @@ class Points(PointTable):
         group="parameters_relays",
         fixed=(0x00F8, 0x0000),
     )
-    """Relay 7 logic 3 (when password).
+    """Relay 7 logic 3. To write it takes: password.
 
     Erratum relay_last_word (unknown), printed: „ID 438 Lowbyte: Bit 7“ and so on:
     the third word, too, has bits for the combination with the next id; taken: The
@@ -3691,7 +3734,7 @@ class Points(PointTable):
         bits=(0, 0),
         group="parameters_operation",
     )
-    """Automatic idle control (when password)."""
+    """Automatic idle control. To write it takes: password."""
 
     shutdown = ReadWrite(
         Named(BIT, enums.OffOn, closed=True),
@@ -3699,7 +3742,7 @@ class Points(PointTable):
         bits=(11, 11),
         group="parameters_operation",
     )
-    """Shutdown (when password).
+    """Shutdown. To write it takes: password.
 
     Erratum shutdown_bit (likely), printed: Bit 1 1, with a blank, counted from 0;
     taken: bits: 11.
@@ -3712,7 +3755,7 @@ class Points(PointTable):
         unit="s",
         allowed=((1, 99),),
     )
-    """Engine monitoring delay: 1..99 s (when password)."""
+    """Engine monitoring delay: 1..99 s. To write it takes: password."""
 
     monitoring_start_frequency = ReadWrite(
         Scaled(U16, Rule(num=256), decimals=3),
@@ -3721,4 +3764,4 @@ class Points(PointTable):
         unit="Hz",
         allowed=((3840, 17920),),
     )
-    """Monitoring start frequency: 15..70 Hz (when password)."""
+    """Monitoring start frequency: 15..70 Hz. To write it takes: password."""

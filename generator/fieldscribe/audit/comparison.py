@@ -54,6 +54,7 @@ class _Comparison:
         self.subjects: dict[Extent, dict[str, None]] = {}
         cited = sorted({first for claim in claims for first, _ in claim.cited})
         self.now = {line: line for line in cited} if found.same_text else self._moved(cited)
+        self.cited = sorted(self.now)
         self.starts = sorted(set(self.now.values()))
         self.empty = {self._now(line) for line in looked_through}
         self._extents: dict[tuple[int, int], Extent] = {}
@@ -72,13 +73,13 @@ class _Comparison:
 
     def _now(self, line: int) -> int:
         """Where a line stands that nothing cites: it moved as the cited line above it did."""
-        above = max((one for one in self.now if one <= line), default=None)
-        return line if above is None else line + self.now[above] - above
+        place = bisect_right(self.cited, line)
+        return line + self.now[self.cited[place - 1]] - self.cited[place - 1] if place else line
 
     def _extent(self, first: int, last: int) -> Extent:
         key = (first, last)
         if key not in self._extents:
-            start = self.now.get(first, first)
+            start = self._now(first)
             if last:
                 found = Extent(start, start + last - first, "lines")
             else:

@@ -2,7 +2,14 @@
 """The CAN family: messages of 8 bytes, multiplexed telegrams, and devices over a transport."""
 
 from ..facts import Telegram
-from .device import AsyncCanDevice, AsyncCanTransport, CanDevice, CanTransport
+from .device import (
+    AsyncCanDevice,
+    AsyncCanTransport,
+    AsyncWaitingCanTransport,
+    CanDevice,
+    CanTransport,
+    WaitingCanTransport,
+)
 from .frames import Frame, Message, Profile, Role, build, parse
 from .receiver import Receiver
 from .session import CanSession
@@ -10,6 +17,7 @@ from .session import CanSession
 __all__ = [
     "AsyncCanDevice",
     "AsyncCanTransport",
+    "AsyncWaitingCanTransport",
     "CanDevice",
     "CanSession",
     "CanTransport",
@@ -19,6 +27,7 @@ __all__ = [
     "Receiver",
     "Role",
     "Telegram",
+    "WaitingCanTransport",
     "build",
     "parse",
 ]

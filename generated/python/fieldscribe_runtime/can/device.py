@@ -3,11 +3,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
 from ..device import AnyAsyncDevice, AnyDevice
-from ..facts import Place
-from .session import CanSession
+from .session import CanSession, Wanted
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -16,7 +15,12 @@ if TYPE_CHECKING:
 
 
 class CanTransport(Protocol):
-    """Carries frames to the bus and from it."""
+    """Carries frames to the bus and from it.
+
+    An answer that comes too late looks like the answer to the next question for the same parameter. Before a request
+    therefore everything that came earlier is taken off the queue: by `receive_waiting`, where the transport has that
+    method (see `WaitingCanTransport`), else only after a request that nobody seemed to answer, by `receive`.
+    """
 
     def send(self, frame: Frame) -> None:
         """Send a frame."""
@@ -25,14 +29,30 @@ class CanTransport(Protocol):
         """The next frame from the bus, whoever sent it; raises TimeoutError when none comes in time."""
 
 
+@runtime_checkable
+class WaitingCanTransport(CanTransport, Protocol):
+    """A transport that tells what has come already; with python-can that is `bus.recv(0)`."""
+
+    def receive_waiting(self) -> Frame | None:
+        """The next frame that is there already; None at once when there is none."""
+
+
 class AsyncCanTransport(Protocol):
-    """Carries frames to the bus and from it, asynchronously."""
+    """Carries frames to the bus and from it, asynchronously; `CanTransport` says what `receive_waiting` is for."""
 
     async def send(self, frame: Frame) -> None:
         """Send a frame."""
 
     async def receive(self) -> Frame:
         """The next frame from the bus, whoever sent it; raises TimeoutError when none comes in time."""
+
+
+@runtime_checkable
+class AsyncWaitingCanTransport(AsyncCanTransport, Protocol):
+    """An asynchronous transport that tells what has come already."""
+
+    def receive_waiting(self) -> Frame | None:
+        """The next frame that is there already; None at once when there is none. It does not wait: it is not async."""
 
 
 class CanDevice(CanSession, AnyDevice):
@@ -42,19 +62,21 @@ class CanDevice(CanSession, AnyDevice):
         super().__init__(unit, variants or {})
         self.transport = transport
 
-    def _carry(self, request: Frame | None) -> Frame | None:
-        if request is None:
+    def _carry(self, request: Frame | Wanted) -> Frame | None:
+        if request is Wanted.NEXT:
             return self.transport.receive()
+        if isinstance(request, Wanted):
+            return self.transport.receive_waiting() if isinstance(self.transport, WaitingCanTransport) else None
         self.transport.send(request)
         return None
 
     def read_at(self, space: str, address: int, count: int = 1) -> tuple[int, ...]:
-        """Read parameters by address, without any meaning."""
-        return self.run(self.get_steps(Place(space, tuple(range(address, address + count)))))
+        """Read parameters by address, or words of the telegram that `space` names, without any meaning."""
+        return self._run(self._get_steps(self._place(space, address, count)))
 
     def write_at(self, space: str, address: int, *values: int) -> None:
         """Write parameters by address. Nothing is checked: this can set what no point allows."""
-        self.run(self.put_steps(Place(space, tuple(range(address, address + len(values)))), values))
+        self._run(self._put_steps(self._place(space, address, len(values)), values))
 
 
 class AsyncCanDevice(CanSession, AnyAsyncDevice):
@@ -66,16 +88,18 @@ class AsyncCanDevice(CanSession, AnyAsyncDevice):
         super().__init__(unit, variants or {})
         self.transport = transport
 
-    async def _carry(self, request: Frame | None) -> Frame | None:
-        if request is None:
+    async def _carry(self, request: Frame | Wanted) -> Frame | None:
+        if request is Wanted.NEXT:
             return await self.transport.receive()
+        if isinstance(request, Wanted):
+            return self.transport.receive_waiting() if isinstance(self.transport, AsyncWaitingCanTransport) else None
         await self.transport.send(request)
         return None
 
     async def read_at(self, space: str, address: int, count: int = 1) -> tuple[int, ...]:
-        """Read parameters by address, without any meaning."""
-        return await self.run(self.get_steps(Place(space, tuple(range(address, address + count)))))
+        """Read parameters by address, or words of the telegram that `space` names, without any meaning."""
+        return await self._run(self._get_steps(self._place(space, address, count)))
 
     async def write_at(self, space: str, address: int, *values: int) -> None:
         """Write parameters by address. Nothing is checked: this can set what no point allows."""
-        await self.run(self.put_steps(Place(space, tuple(range(address, address + len(values)))), values))
+        await self._run(self._put_steps(self._place(space, address, len(values)), values))

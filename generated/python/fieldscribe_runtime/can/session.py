@@ -3,22 +3,42 @@
 
 from __future__ import annotations
 
+import enum
 from collections.abc import Generator, Mapping, Sequence
 from time import monotonic
 from typing import TYPE_CHECKING, ClassVar, TypeVar
 
-from ..errors import FrameError, NoReplyError, RequestError, TelegramError
+from ..errors import (
+    EchoError,
+    FrameError,
+    NoReplyError,
+    RequestError,
+    TelegramError,
+)
+from ..facts import Place
 from ..session import Session
 from .frames import Frame, Message, Profile, build, parse
 from .receiver import Receiver
 
 if TYPE_CHECKING:
-    from ..facts import Place
     from ..points import Point
 
+
+class Wanted(enum.Enum):
+    """What a step asks of a transport beside sending a frame."""
+
+    NEXT = enum.auto()
+    """The next frame that comes."""
+    WAITING = enum.auto()
+    """The next frame that is there already, or None, also where the transport cannot tell."""
+
+
 T = TypeVar("T")
-Steps = Generator[Frame | None, Frame | None, T]
-"""Each step yields a frame to send (and is sent None), or None to be sent the next frame that comes."""
+Steps = Generator[Frame | Wanted, Frame | None, T]
+"""Each step yields a frame to send (and is sent None), or what frame it wants to be sent."""
+
+_SETTLED = 0.2
+"""After so many seconds what is received was not on the queue before."""
 
 
 class CanSession(Session):
@@ -34,16 +54,17 @@ class CanSession(Session):
 
     def __init__(self, unit: int, variants: Mapping[str, str | None]) -> None:
         super().__init__(unit, variants)
-        self.receivers = {one.name: Receiver(self.PROFILE, one.name, unit) for one in self.PROFILE.telegrams}
+        self._receivers = {one.name: Receiver(self.PROFILE, one.name, unit) for one in self.PROFILE.telegrams}
         self._since: float | None = None
+        self._unanswered = False
 
     def take(self, frame: Frame) -> bool:
         """Feed a frame that came by another way; whether it is of a telegram of this device."""
         moment = monotonic()
-        taken = [receiver.take(frame, moment) for receiver in self.receivers.values()]
+        taken = [receiver.take(frame, moment) for receiver in self._receivers.values()]
         return any(taken)
 
-    def get_steps(self, place: Place) -> Steps[tuple[int, ...]]:
+    def _get_steps(self, place: Place) -> Steps[tuple[int, ...]]:
         """Read parameters one by one, or listen for words of a telegram; in ascending order of address."""
         if place.telegram is not None:
             return (yield from self._listen_steps(place))
@@ -56,15 +77,15 @@ class CanSession(Session):
             words = (*words, (yield from self._ask_steps(request, answer, address, 0)))
         return words
 
-    def gather_steps(self, points: Sequence[Point], group: str | None) -> Steps[dict[str, int]]:
+    def _gather_steps(self, points: Sequence[Point], group: str | None) -> Steps[dict[str, int]]:
         """Read the raw numbers of several points; those of a telegram out of the same frames."""
         self._since = monotonic() - self.fresh_for
         try:
-            return (yield from super().gather_steps(points, group))
+            return (yield from super()._gather_steps(points, group))
         finally:
             self._since = None
 
-    def store_steps(self, place: Place, values: tuple[int, ...]) -> Steps[None]:
+    def _store_steps(self, place: Place, values: tuple[int, ...]) -> Steps[None]:
         """Write parameters one by one."""
         if place.space != "parameter":
             raise RequestError("bad_space", f"the space {place.space!r} cannot be written, only parameter")
@@ -73,13 +94,17 @@ class CanSession(Session):
         for address, word in zip(sorted(place.addresses), values, strict=True):
             raw = yield from self._ask_steps(request, answer, address, word)
             if answer is not None and answer.carries("raw") and raw != word:
-                raise FrameError("echo_mismatch", f"{word} was written to {address}, and the device answered {raw}")
+                text = f"{word} was written to {address}, and the device answered {raw}"
+                raise EchoError(text, (word,), (raw,))
 
     def _ask_steps(self, request: Message, answer: Message | None, address: int, raw: int) -> Steps[int]:
         """One request, and the raw number of its answer; all other frames are offered to the receivers."""
-        yield build(request, self.PROFILE, self.unit, address, raw)
+        frame = build(request, self.PROFILE, self.unit, address, raw)
+        yield from self._clear_steps()
+        yield frame
         if answer is None:
             return raw
+        self._unanswered = True  # until the answer came, whatever ends the wait
         deadline = monotonic() + self.patience
         spoiled: FrameError | None = None
         while True:
@@ -90,13 +115,29 @@ class CanSession(Session):
                 spoiled = error if error.status == "wrong_check" else spoiled
             else:
                 if found == address or not answer.carries("address"):
+                    self._unanswered = False
                     return word
             self.take(frame)
+
+    def _clear_steps(self) -> Steps[None]:
+        """Take what came before a request off the queue, so that no late answer passes for the one to come."""
+        deadline = monotonic() + self.patience
+        while (frame := (yield Wanted.WAITING)) is not None and monotonic() < deadline:
+            self.take(frame)
+        deadline = monotonic() + _SETTLED
+        while self._unanswered and monotonic() < deadline:
+            try:
+                late = yield Wanted.NEXT
+            except TimeoutError:
+                self._unanswered = False
+            else:
+                if late is not None:
+                    self.take(late)
 
     def _listen_steps(self, place: Place) -> Steps[tuple[int, ...]]:
         """Words of a telegram, as soon as all of them are there, fresh, and belong together."""
         self.PROFILE.telegram(place.telegram)
-        receiver = self.receivers[place.telegram or ""]
+        receiver = self._receivers[place.telegram or ""]
         since = monotonic() - self.fresh_for if self._since is None else self._since
         deadline = monotonic() + self.patience
         awaited = f"{receiver.telegram} with words {', '.join(map(str, place.addresses))}"
@@ -111,13 +152,20 @@ class CanSession(Session):
                     return tuple([by_address[address] for address in sorted(place.addresses)])
             self.take((yield from self._next_steps(deadline, awaited, trouble)))
 
+    def _place(self, space: str, address: int, count: int) -> Place:
+        """Parameters by address, or words of the telegram of that name."""
+        addresses = tuple(range(address, address + count))
+        if space in self._receivers:
+            return Place("telegram", addresses, telegram=space)
+        return Place(space, addresses)
+
     def _next_steps(self, deadline: float, awaited: str, trouble: Exception | None) -> Steps[Frame]:
         """The next frame, whatever it is; raises NoReplyError when none comes, or the wait has been too long."""
         reason = f"{awaited} did not come" + (f" ({trouble})" if trouble else "")
         if monotonic() > deadline:
             raise NoReplyError(f"{reason} within {self.patience:g} s") from trouble
         try:
-            frame = yield None
+            frame = yield Wanted.NEXT
         except TimeoutError as error:
             raise NoReplyError(reason) from trouble or error
         assert frame is not None, "a transport returned nothing instead of raising TimeoutError"

@@ -48,11 +48,11 @@ class ModbusDevice(ModbusSession, AnyDevice):
 
     def read_at(self, space: str, address: int, count: int = 1) -> tuple[int, ...]:
         """Read words or bits by address, without any meaning."""
-        return self.run(self.ask(read_function(Place(space, (address,))), address, count))
+        return self._run(self._ask(read_function(Place(space, (address,))), address, count))
 
     def write_at(self, space: str, address: int, *values: int) -> None:
         """Write words or bits by address. Nothing is checked: this can set what no point allows."""
-        self.run(self.put_steps(Place(space, tuple(range(address, address + len(values)))), values))
+        self._run(self._put_steps(Place(space, tuple(range(address, address + len(values)))), values))
 
 
 class AsyncModbusDevice(ModbusSession, AnyAsyncDevice):
@@ -67,8 +67,8 @@ class AsyncModbusDevice(ModbusSession, AnyAsyncDevice):
 
     async def read_at(self, space: str, address: int, count: int = 1) -> tuple[int, ...]:
         """Read words or bits by address, without any meaning."""
-        return await self.run(self.ask(read_function(Place(space, (address,))), address, count))
+        return await self._run(self._ask(read_function(Place(space, (address,))), address, count))
 
     async def write_at(self, space: str, address: int, *values: int) -> None:
         """Write words or bits by address. Nothing is checked: this can set what no point allows."""
-        await self.run(self.put_steps(Place(space, tuple(range(address, address + len(values)))), values))
+        await self._run(self._put_steps(Place(space, tuple(range(address, address + len(values)))), values))

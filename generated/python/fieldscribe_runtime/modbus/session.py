@@ -50,7 +50,7 @@ class ModbusSession(Session):
         self._transaction = 0
         self._readable: frozenset[tuple[str, int]] | None = None
 
-    def ask(self, function: int, address: int, count: int = 0, values: tuple[int, ...] = ()) -> Steps[tuple[int, ...]]:
+    def _ask(self, function: int, address: int, count: int = 0, values: tuple[int, ...] = ()) -> Steps[tuple[int, ...]]:
         """One request and its reply."""
         self._transaction = self._transaction + 1 & 0xFFFF
         request = Request(self.unit, function, address, count, values)
@@ -59,12 +59,12 @@ class ModbusSession(Session):
             return ()
         return parse(request, reply, self.PROFILE, self._framing, self._transaction)
 
-    def get_steps(self, place: Place) -> Steps[tuple[int, ...]]:
+    def _get_steps(self, place: Place) -> Steps[tuple[int, ...]]:
         """Read the words or bits of a place, in ascending order of address."""
-        words = yield from self.ask(read_function(place), place.address, place.span)
+        words = yield from self._ask(read_function(place), place.address, place.span)
         return tuple([words[address - place.address] for address in sorted(place.addresses)])
 
-    def store_steps(self, place: Place, values: tuple[int, ...]) -> Steps[None]:
+    def _store_steps(self, place: Place, values: tuple[int, ...]) -> Steps[None]:
         """Write words or bits at a place."""
         if place.space not in _WRITES:
             raise RequestError("bad_space", f"the space {place.space!r} cannot be written, only coil and holding")
@@ -72,19 +72,19 @@ class ModbusSession(Session):
         function = single if len(values) == 1 and single in self.PROFILE.functions else block
         if place.function in WRITES:
             function = place.function
-        yield from self.ask(function, place.address, values=values)
+        yield from self._ask(function, place.address, values=values)
 
-    def gather_steps(self, points: Sequence[Point], group: str | None) -> Steps[dict[str, int]]:
+    def _gather_steps(self, points: Sequence[Point], group: str | None) -> Steps[dict[str, int]]:
         """Read the raw numbers of several points with few requests, in the blocks that the group was planned in."""
         blocks: tuple[Block, ...] = self.BLOCKS.get(group, ()) if group is not None else ()
         rest = [one.facts.at for one in points if not any(block.covers(one.facts.at) for block in blocks)]
         raws: dict[str, int] = {}
         for block in (*blocks, *plan(rest, self.PROFILE, self._bridges())):
-            words = yield from self.ask(block.function, block.address, block.count)
+            words = yield from self._ask(block.function, block.address, block.count)
             for point in points:
                 if block.covers(point.facts.at):
                     own = [words[address - block.address] for address in sorted(point.facts.at.addresses)]
-                    raws[point.facts.item] = self.taken(point, own)
+                    raws[point.facts.item] = self._taken(point, own)
         return raws
 
     def _bridges(self) -> frozenset[tuple[str, int]]:

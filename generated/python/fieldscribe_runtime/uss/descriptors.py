@@ -32,11 +32,11 @@ class StoredWriteHandle(WriteHandle[W_contra]):
 
     def write(self, value: W_contra, *, keep: bool = False) -> None:
         """Write a value that the range allows; with `keep` it survives power-off, which wears the EEPROM."""
-        self._device.run(self._device.write_steps(self, value, _place(self, keep)))
+        self._device._run(self._device._write_steps(self, value, _place(self, keep)))
 
     def write_raw(self, raw: int, *, keep: bool = False) -> None:
         """Write a raw number that the range allows; with `keep` it survives power-off, which wears the EEPROM."""
-        self._device.run(self._device.write_raw_steps(self, raw, _place(self, keep)))
+        self._device._run(self._device._write_raw_steps(self, raw, _place(self, keep)))
 
 
 class StoredHandle(ReadHandle[R_co], StoredWriteHandle[W_contra], Generic[R_co, W_contra]):
@@ -48,11 +48,11 @@ class AsyncStoredWriteHandle(AsyncWriteHandle[W_contra]):
 
     async def write(self, value: W_contra, *, keep: bool = False) -> None:
         """Write a value that the range allows; with `keep` it survives power-off, which wears the EEPROM."""
-        await self._device.run(self._device.write_steps(self, value, _place(self, keep)))
+        await self._device._run(self._device._write_steps(self, value, _place(self, keep)))
 
     async def write_raw(self, raw: int, *, keep: bool = False) -> None:
         """Write a raw number that the range allows; with `keep` it survives power-off, which wears the EEPROM."""
-        await self._device.run(self._device.write_raw_steps(self, raw, _place(self, keep)))
+        await self._device._run(self._device._write_raw_steps(self, raw, _place(self, keep)))
 
 
 class AsyncStoredHandle(AsyncReadHandle[R_co], AsyncStoredWriteHandle[W_contra], Generic[R_co, W_contra]):

@@ -6,11 +6,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Protocol
 
 from ..device import AnyAsyncDevice, AnyDevice
-from ..facts import Place
 from .session import UssSession
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     from .frames import Link
 
@@ -19,18 +18,27 @@ class UssTransport(Protocol):
     """Carries one request to the line and one reply back."""
 
     def exchange(self, request: bytes) -> bytes:
-        """Send a telegram and return the whole reply; raises TimeoutError when none comes in time."""
+        """Send a telegram and return the whole reply; raises TimeoutError when none comes in time.
+
+        Nobody answers a broadcast: for it return no bytes (or wait in vain and raise TimeoutError).
+        """
 
 
 class AsyncUssTransport(Protocol):
     """Carries one request to the line and one reply back, asynchronously."""
 
     async def exchange(self, request: bytes) -> bytes:
-        """Send a telegram and return the whole reply; raises TimeoutError when none comes in time."""
+        """Send a telegram and return the whole reply; raises TimeoutError when none comes in time.
+
+        Nobody answers a broadcast: for it return no bytes (or wait in vain and raise TimeoutError).
+        """
 
 
 class UssDevice(UssSession, AnyDevice):
-    """A device on a USS line."""
+    """A device on a USS line.
+
+    Its process data is 0 until it is written, and again after a telegram that changes it has failed: see `UssSession`.
+    """
 
     def __init__(
         self, transport: UssTransport, unit: int, link: Link, variants: Mapping[str, str | None] | None = None
@@ -42,16 +50,34 @@ class UssDevice(UssSession, AnyDevice):
         return self.transport.exchange(request)
 
     def read_at(self, space: str, address: int, index: int | None = None) -> tuple[int, ...]:
-        """Read a parameter by number, without any meaning: one word, or two with the high one first."""
-        return self.run(self.get_steps(Place(space, (address,), index=index)))
+        """Read a parameter by number, without any meaning: one word, or two with the high one first.
+
+        With the name of a telegram for the space it is a word of process data, counted from 0.
+        """
+        return self._run(self._get_steps(self._place(space, address, 1, index)))
 
     def write_at(self, space: str, address: int, *words: int, index: int | None = None) -> None:
-        """Write a parameter by number to RAM. Nothing is checked: this can set what no point allows."""
-        self.run(self.put_steps(Place(space, (address,), index=index), words))
+        """Write a parameter by number to RAM, or with the name of a telegram words of process data.
+
+        Nothing is checked: this can set what no point allows.
+        """
+        self._run(self._put_steps(self._place(space, address, len(words), index), words))
+
+    def broadcast(self, mask: tuple[int, int, int, int], words: Sequence[int] | None = None) -> None:
+        """Send process data to all units of the line, which nobody answers: `words`, or those written to this device.
+
+        The mask says what counts: the first word which words (bit 1 the first one), the second which bits of the first
+        word. Afterwards the process data of this device falls back to 0, see `drop_process_data`: call that on the
+        objects of all other units too, or their next telegram takes the broadcast back.
+        """
+        self._run(self._broadcast_steps(mask, words))
 
 
 class AsyncUssDevice(UssSession, AnyAsyncDevice):
-    """A device on a USS line, asynchronously."""
+    """A device on a USS line, asynchronously.
+
+    Its process data is 0 until it is written, and again after a telegram that changes it has failed: see `UssSession`.
+    """
 
     def __init__(
         self, transport: AsyncUssTransport, unit: int, link: Link, variants: Mapping[str, str | None] | None = None
@@ -63,9 +89,24 @@ class AsyncUssDevice(UssSession, AnyAsyncDevice):
         return await self.transport.exchange(request)
 
     async def read_at(self, space: str, address: int, index: int | None = None) -> tuple[int, ...]:
-        """Read a parameter by number, without any meaning: one word, or two with the high one first."""
-        return await self.run(self.get_steps(Place(space, (address,), index=index)))
+        """Read a parameter by number, without any meaning: one word, or two with the high one first.
+
+        With the name of a telegram for the space it is a word of process data, counted from 0.
+        """
+        return await self._run(self._get_steps(self._place(space, address, 1, index)))
 
     async def write_at(self, space: str, address: int, *words: int, index: int | None = None) -> None:
-        """Write a parameter by number to RAM. Nothing is checked: this can set what no point allows."""
-        await self.run(self.put_steps(Place(space, (address,), index=index), words))
+        """Write a parameter by number to RAM, or with the name of a telegram words of process data.
+
+        Nothing is checked: this can set what no point allows.
+        """
+        await self._run(self._put_steps(self._place(space, address, len(words), index), words))
+
+    async def broadcast(self, mask: tuple[int, int, int, int], words: Sequence[int] | None = None) -> None:
+        """Send process data to all units of the line, which nobody answers: `words`, or those written to this device.
+
+        The mask says what counts: the first word which words (bit 1 the first one), the second which bits of the first
+        word. Afterwards the process data of this device falls back to 0, see `drop_process_data`: call that on the
+        objects of all other units too, or their next telegram takes the broadcast back.
+        """
+        await self._run(self._broadcast_steps(mask, words))

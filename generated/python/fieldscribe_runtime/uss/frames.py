@@ -55,7 +55,8 @@ class Link:
 class Profile:
     """What a device takes: unit numbers, the address byte for all of them, lengths, tasks with their answers.
 
-    `errors` names the numbers with which tasks are refused, `telegrams` the process data.
+    `errors` names the numbers with which tasks are refused, `telegrams` the process data. `pzd` holds for all variants
+    together; `variant_pzd` says by axis and value which of them take less.
     """
 
     units: tuple[int, int]
@@ -65,6 +66,7 @@ class Profile:
     broadcast: int | None = None
     errors: Mapping[int, str] = field(default_factory=dict)
     telegrams: tuple[Telegram, ...] = ()
+    variant_pzd: Mapping[tuple[str, str], tuple[int, int]] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,10 +112,24 @@ def _named(task: int, parameter: int, index: int) -> tuple[int, int]:
     return task << 12 | number, pages | index
 
 
-def _check_process_data(profile: Profile, link: Link, words: Sequence[int]) -> None:
-    low, high = profile.pzd
+def check_link(profile: Profile, link: Link, variants: Mapping[str, str | None]) -> None:
+    """Raises RequestError (bad_link) if a device, of these variants as far as they are known, has no such link."""
+    if link.pkw not in profile.pkw:
+        raise RequestError("bad_link", f"the parameter part has one of {profile.pkw} words, not {link.pkw}")
+    _check_length(profile.pzd, link, "the device")
+    for axis, value in variants.items():
+        if value is not None:
+            _check_length(profile.variant_pzd.get((axis, value), profile.pzd), link, f"{axis} {value}")
+
+
+def _check_length(limits: tuple[int, int], link: Link, whose: str) -> None:
+    low, high = limits
     if not low <= link.pzd <= high:
-        raise RequestError("bad_link", f"the device takes {low}..{high} words of process data, not {link.pzd}")
+        raise RequestError("bad_link", f"{whose} takes {low}..{high} words of process data, not {link.pzd}")
+
+
+def _check_process_data(profile: Profile, link: Link, words: Sequence[int]) -> None:
+    _check_length(profile.pzd, link, "the device")
     if len(words) != link.pzd:
         raise RequestError("bad_link", f"the link carries {link.pzd} words of process data, not {len(words)}")
 
@@ -176,7 +192,8 @@ def parse(request: Request, reply: bytes, profile: Profile, link: Link) -> Reply
     """What a reply to `request` brings.
 
     Raises FrameError, the first failure deciding: wrong_start, wrong_length, wrong_check, wrong_unit, no_answer,
-    wrong_parameter, refused (RefusedError, with the device's number), no_rights, wrong_response.
+    wrong_parameter, refused (RefusedError, with the device's number), no_rights, wrong_response. From no_answer on the
+    error holds the process data, which came all the same.
     """
     words = _opened(request, reply, link)
     part, data = words[: len(words) - link.pzd], words[len(words) - link.pzd :]
@@ -185,7 +202,11 @@ def parse(request: Request, reply: bytes, profile: Profile, link: Link) -> Reply
     response = part[0] >> 12
     if request.task == NO_TASK:
         return Reply(response, words=data)
-    _check_answer(request, part, profile)
+    try:
+        _check_answer(request, part, profile)
+    except FrameError as error:
+        error.words = data
+        raise
     if response in _DOUBLE:
         return Reply(response, 2, part[2] << 16 | part[3], data)
     return Reply(response, 1, part[3 if link.single_last else 2], data)

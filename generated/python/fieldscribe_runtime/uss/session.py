@@ -4,15 +4,29 @@
 from __future__ import annotations
 
 from collections.abc import Generator, Mapping, Sequence
+from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar, TypeVar
 
-from ..errors import NoReplyError, RequestError
+from ..errors import EchoError, FrameError, NoReplyError, RequestError
+from ..facts import Place
 from ..session import Session
-from .frames import NO_TASK, RAM, READ, Link, Profile, Reply, Request, build, parse
+from .frames import (
+    NO_TASK,
+    RAM,
+    READ,
+    Link,
+    Profile,
+    Reply,
+    Request,
+    broadcast,
+    build,
+    check_link,
+    check_request,
+    parse,
+)
 
 if TYPE_CHECKING:
-    from ..facts import Place
     from ..points import Point
 
 T = TypeVar("T")
@@ -23,102 +37,164 @@ Steps = Generator[bytes, bytes, T]
 class UssSession(Session):
     """The state of one USS device: how its link is set, and the process data that its next telegrams carry.
 
-    Until a word of process data is written, all of them are 0, so that reading parameters commands nothing. From then
-    on words that were not written are 0 but for the bits that are always written as a constant.
+    Each telegram carries process data, those that read a parameter too. A word is 0 until it is written, all bits of
+    it; the bits that are always written as a constant come with the first point of their word, so that reading, or
+    writing a setpoint alone, commands nothing.
+
+    When a telegram that changes words fails, nobody knows which words the device has now, and neither the new nor the
+    old ones may be repeated: what seems to have failed must not start a motor, and a stop must not be taken back. All
+    words are 0 then until some are written again; write the setpoint again, too.
+
+    A task that the device has not answered yet is sent again up to `repeats` times.
     """
 
     PROFILE: ClassVar[Profile]
+    repeats: int = 20
 
     def __init__(self, link: Link, unit: int, variants: Mapping[str, str | None]) -> None:
         super().__init__(unit, variants)
+        check_link(self.PROFILE, link, variants)
         self.link = link
         self._sent: dict[int, int] = {}
 
-    def get_steps(self, place: Place) -> Steps[tuple[int, ...]]:
+    def drop_process_data(self) -> None:
+        """Let all words of process data be 0 until they are written again, because others have commanded the device."""
+        self._sent = {}
+
+    def _get_steps(self, place: Place) -> Steps[tuple[int, ...]]:
         """Read a parameter (the high word first), or words of the process data that comes back."""
         if place.telegram is None:
             request = Request(self.unit, READ, self._number(place), place.index or 0)
             reply = yield from self._exchange_steps(request, self._sent)
             return divmod(reply.value, 0x10000) if reply.width == 2 else (reply.value,)
         if self._is_sent(place):
-            return self._process_data(self._sent, place)
+            return self._chosen(self._words(self._sent), place)
+        self._chosen((0,) * self.link.pzd, place)  # raises if the link does not carry them
         reply = yield from self._exchange_steps(Request(self.unit), self._sent)
         return self._chosen(reply.words, place)
 
-    def gather_steps(self, points: Sequence[Point], group: str | None) -> Steps[dict[str, int]]:
+    def _gather_steps(self, points: Sequence[Point], group: str | None) -> Steps[dict[str, int]]:
         """Read the raw numbers of several points; process data out of one telegram."""
         raws: dict[str, int] = {}
         heard = [point for point in points if point.facts.at.telegram and not self._is_sent(point.facts.at)]
         if heard:
             reply = yield from self._exchange_steps(Request(self.unit), self._sent)
             for point in heard:
-                raws[point.facts.item] = self.taken(point, self._chosen(reply.words, point.facts.at))
+                raws[point.facts.item] = self._taken(point, self._chosen(reply.words, point.facts.at))
         rest = [point for point in points if point not in heard]
-        return {**raws, **(yield from super().gather_steps(rest, group))}
+        return {**raws, **(yield from super()._gather_steps(rest, group))}
 
-    def shared_word_steps(self, point: Point) -> Steps[int]:
-        """The word that a bit group shares with others; of process data that is sent, the word as it is sent."""
+    def _shared_word_steps(self, point: Point) -> Steps[int]:
+        """The word that a bit group shares with others; of process data that is sent, the word as it will be sent."""
         at = point.facts.at
         if at.telegram is None or not self._is_sent(at):
-            return (yield from super().shared_word_steps(point))
-        return self._process_data(self._sent, at)[0]
+            return (yield from super()._shared_word_steps(point))
+        return self._sent.get(at.address, self._constants.get(at.address, (0, 0))[1])
 
-    def store_steps(self, place: Place, values: tuple[int, ...]) -> Steps[None]:
+    def _store_steps(self, place: Place, values: tuple[int, ...]) -> Steps[None]:
         """Write a parameter by the task that `place` names (RAM unless it does), or words of the process data."""
         if place.telegram is None:
-            task = place.function or RAM.get((len(values), place.index is not None))
-            if task is None:
-                raise RequestError("bad_value", f"a parameter has one word or two, not {len(values)}")
-            value = sum(word << 16 * part for part, word in enumerate(reversed(values)))
-            request = Request(self.unit, task, self._number(place), place.index or 0, len(values), value)
-            yield from self._exchange_steps(request, self._sent)
+            yield from self._change_steps(place, values)
             return
         if not self._is_sent(place):
             raise RequestError("bad_space", f"the words of {place.telegram} come from the device")
+        if len(values) != len(place.addresses):
+            raise RequestError("bad_value", f"{len(values)} words do not fill {len(place.addresses)}")
         self._chosen((0,) * self.link.pzd, place)  # raises if the link does not carry them
         sent = {**self._sent, **dict(zip(sorted(place.addresses), values, strict=True))}
-        yield from self._exchange_steps(Request(self.unit), sent)
-        self._sent = sent  # only now: after a failure the next telegram must not start what seemed to have failed
+        request = Request(self.unit, words=self._words(sent))
+        check_request(request, self.PROFILE, self.link)  # what raises here was not sent: the old words still hold
+        self._sent = {}  # until the device has answered, whatever ends the wait
+        yield from self._exchange_steps(request, sent)
+        self._sent = sent
+
+    def _change_steps(self, place: Place, values: tuple[int, ...]) -> Steps[None]:
+        """Write a parameter; the answer confirms the change with the value that the device has now."""
+        task = place.function or RAM.get((len(values), place.index is not None))
+        if task is None:
+            raise RequestError("bad_value", f"a parameter has one word or two, not {len(values)}")
+        value = sum(word << 16 * part for part, word in enumerate(reversed(values)))
+        request = Request(self.unit, task, self._number(place), place.index or 0, len(values), value)
+        reply = yield from self._exchange_steps(request, self._sent)
+        if reply.value != value:
+            answered = divmod(reply.value, 0x10000) if reply.width == 2 else (reply.value,)
+            text = f"{value} was written to {request.parameter}, and the device answered {reply.value}"
+            raise EchoError(text, values, answered)
+
+    def _broadcast_steps(self, mask: tuple[int, int, int, int], words: Sequence[int] | None) -> Steps[None]:
+        """Process data for all units; raises RequestError (bad_link, bad_value)."""
+        chosen = self._words(self._sent) if words is None else tuple(words)
+        request = broadcast(mask, chosen, self.PROFILE, self.link)
+        for at, (fixed, bits) in self._constants.items():
+            if mask[0] >> at + 1 & 1 and chosen[at] & fixed != bits:
+                text = f"word {at + 1} is {chosen[at]:04X}h and has not {bits:04X}h in {fixed:04X}h"
+                raise RequestError("bad_value", text)
+        if missing := self._constants.get(0, (0, 0))[1] & ~mask[1]:
+            raise RequestError("bad_value", f"the mask leaves out {missing:04X}h of the first word, which has to count")
+        self._sent = {}
+        try:
+            yield request
+        except TimeoutError:
+            return
 
     def _exchange_steps(self, request: Request, sent: Mapping[int, int]) -> Steps[Reply]:
-        """One telegram with its process data, and the reply."""
-        words = tuple([sent.get(at, self._constants.get(at, 0) if sent else 0) for at in range(self.link.pzd)])
-        request = Request(
-            request.unit, request.task, request.parameter, request.index, request.width, request.value, words
-        )
-        try:
-            reply = yield build(request, self.PROFILE, self.link)
-        except TimeoutError as error:
-            about = f" to task {request.task} for {request.parameter}" if request.task != NO_TASK else ""
-            raise NoReplyError(f"unit {self.unit} did not reply{about}") from error
-        return parse(request, reply, self.PROFILE, self.link)
+        """One task with process data, and the reply; a task is repeated until the device answers it."""
+        request = replace(request, words=self._words(sent))
+        frame = build(request, self.PROFILE, self.link)
+        left = self.repeats
+        while True:
+            try:
+                reply = yield frame
+            except TimeoutError as error:
+                about = f" to task {request.task} for {request.parameter}" if request.task != NO_TASK else ""
+                raise NoReplyError(f"unit {self.unit} did not reply{about}") from error
+            try:
+                return parse(request, reply, self.PROFILE, self.link)
+            except FrameError as error:
+                if error.status != "no_answer" or left <= 0:
+                    raise
+            left -= 1
 
     def _number(self, place: Place) -> int:
         if place.space != "parameter":
-            raise RequestError("bad_space", f"there is no space {place.space!r}, only parameter")
+            known = ", ".join(("parameter", *(one.name for one in self.PROFILE.telegrams)))
+            raise RequestError("bad_space", f"there is no space {place.space!r}, only {known}")
         return place.address
+
+    def _place(self, space: str, address: int, count: int, index: int | None) -> Place:
+        """A parameter by number, or words of the telegram of that name."""
+        if any(one.name == space for one in self.PROFILE.telegrams):
+            return Place("telegram", tuple(range(address, address + max(1, count))), telegram=space)
+        return Place(space, (address,), index=index)
 
     def _is_sent(self, place: Place) -> bool:
         """Whether words of a telegram go to the device."""
         return any(one.name == place.telegram and one.direction == "request" for one in self.PROFILE.telegrams)
 
-    def _process_data(self, sent: Mapping[int, int], place: Place) -> tuple[int, ...]:
-        """Words as they are sent."""
-        return tuple([sent.get(at, self._constants.get(at, 0)) for at in sorted(place.addresses)])
+    def _carried(self, point: Point) -> bool:
+        """Whether the link has room for the words of a point."""
+        if point.facts.at.telegram is not None:
+            return max(point.facts.at.addresses) < self.link.pzd
+        return self.link.sent >= (4 if point.size > 1 else 3)
+
+    def _words(self, sent: Mapping[int, int]) -> tuple[int, ...]:
+        """All words of process data as they are sent."""
+        return tuple([sent.get(at, 0) for at in range(self.link.pzd)])
 
     def _chosen(self, words: tuple[int, ...], place: Place) -> tuple[int, ...]:
         """The words of a place out of the process data."""
-        if max(place.addresses) >= len(words):
+        if not 0 <= place.address <= max(place.addresses) < len(words):
             text = f"the link carries {len(words)} words of process data, and this is word {max(place.addresses) + 1}"
             raise RequestError("bad_link", text)
         return tuple([words[at] for at in sorted(place.addresses)])
 
     @cached_property
-    def _constants(self) -> dict[int, int]:
-        """The bits that are always written as a constant, by the word of process data."""
-        bits: dict[int, int] = {}
+    def _constants(self) -> dict[int, tuple[int, int]]:
+        """The bits that are always written as a constant, mask and bits, by the word of process data."""
+        found: dict[int, tuple[int, int]] = {}
         for point in self.POINTS.values():
             at = point.facts.write_at or point.facts.at
             if point.facts.fixed and at.telegram is not None and self._is_sent(at):
-                bits[at.address] = bits.get(at.address, 0) | point.facts.fixed[1]
-        return bits
+                mask, bits = found.get(at.address, (0, 0))
+                found[at.address] = mask | point.facts.fixed[0], bits | point.facts.fixed[1]
+        return found

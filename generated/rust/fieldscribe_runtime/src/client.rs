@@ -14,6 +14,9 @@ pub trait Transport {
 
     /// Sends `request`, puts the reply into `reply` and gives its length in bytes.
     ///
+    /// What came before the request is to be thrown away first: a late answer to an earlier request, which was given up,
+    /// could else be taken for the answer to this one, as nothing in it tells them apart.
+    ///
     /// An empty `reply` says that none will come: the request went to all units.
     ///
     /// # Errors
@@ -27,6 +30,8 @@ pub trait AsyncTransport {
     type Error;
 
     /// As [`Transport::exchange`].
+    ///
+    /// A future that is dropped gives the request up.
     fn exchange(
         &mut self,
         request: &[u8],

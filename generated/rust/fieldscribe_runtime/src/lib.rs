@@ -11,6 +11,7 @@ pub mod arithmetic;
 pub mod can;
 pub mod client;
 pub mod digits;
+pub mod flags;
 pub mod modbus;
 mod pattern;
 mod point;
@@ -19,6 +20,7 @@ mod rule;
 pub mod text;
 pub mod uss;
 
+pub use flags::{Flag, Flags};
 pub use point::{
     allowed, has_value, in_address_order, in_reading_order, listed, BitGroup, CountReadable,
     CountWritable, Decoded, Digits, Point, Readable, Scaled, Space, Whole, Writable,
@@ -51,6 +53,8 @@ pub enum Error {
     WrongLength,
     /// The reply is of another space than the point's.
     WrongSpace,
+    /// The last telegram was not answered, so nothing was heard of the point.
+    NotHeard,
 }
 
 impl Error {
@@ -67,6 +71,7 @@ impl Error {
             Self::NoValue => "no_value",
             Self::WrongLength => "wrong_length",
             Self::WrongSpace => "wrong_space",
+            Self::NotHeard => "not_heard",
         }
     }
 }
@@ -83,6 +88,7 @@ impl fmt::Display for Error {
             Self::NoValue => "the device has no value",
             Self::WrongLength => "the point has another number of words",
             Self::WrongSpace => "the reply is of another space than the point's",
+            Self::NotHeard => "the last telegram was not answered",
         })
     }
 }

@@ -65,6 +65,8 @@ pub trait Point {
     const FIXED_MASK: u32 = 0;
     /// What the bits of [`Point::FIXED_MASK`] are written as.
     const FIXED_BITS: u32 = 0;
+    /// Whether the raw number is the pattern of a binary floating-point number.
+    const FLOATING: bool = false;
     /// How many words, or bits of a bit space, the point takes.
     const WORDS: u16 = 1;
     /// How many decimals counts have: they are in units of `10^-DECIMALS`.

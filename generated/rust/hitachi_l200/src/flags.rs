@@ -3,12 +3,25 @@
 // SPDX-License-Identifier: 0BSD
 
 //! Words whose bits have names.
+//!
+//! Functions speak of what is true, whatever the bit is then: [`ALL_FALSE`] and `with_` functions make a word. The
+//! constants are bits; setting the bit of one that ends in `_ACTIVE_LOW` makes what it names false.
+//!
+//! [`ALL_FALSE`]: DigitalInputs::ALL_FALSE
+
+use core::fmt;
+
+use fieldscribe_runtime::flags as runtime;
 
 /// Digital inputs.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct DigitalInputs(pub u16);
 
 impl DigitalInputs {
+    /// The word in which nothing is true and every number is 0.
+    pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Input 1.
     pub const INPUT_1: u16 = 0x0001;
     /// The bit of: Input 2.
@@ -101,6 +114,33 @@ impl DigitalInputs {
     }
 }
 
+impl runtime::Flags for DigitalInputs {
+    const NAME: &'static str = "DigitalInputs";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("input_1", 0x0001),
+        runtime::Flag::new("input_2", 0x0002),
+        runtime::Flag::new("input_3", 0x0004),
+        runtime::Flag::new("input_4", 0x0008),
+        runtime::Flag::new("input_5", 0x0010),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for DigitalInputs {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for DigitalInputs {
+    fn default() -> Self {
+        Self::ALL_FALSE
+    }
+}
+
 impl From<u16> for DigitalInputs {
     #[inline]
     fn from(raw: u16) -> Self {
@@ -116,10 +156,14 @@ impl From<DigitalInputs> for u16 {
 }
 
 /// Digital outputs.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct DigitalOutputs(pub u16);
 
 impl DigitalOutputs {
+    /// The word in which nothing is true and every number is 0.
+    pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Output 11.
     pub const OUTPUT_11: u16 = 0x0001;
     /// The bit of: Output 12.
@@ -173,6 +217,31 @@ impl DigitalOutputs {
         } else {
             Self(self.0 & !Self::RELAY_AL)
         }
+    }
+}
+
+impl runtime::Flags for DigitalOutputs {
+    const NAME: &'static str = "DigitalOutputs";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("output_11", 0x0001),
+        runtime::Flag::new("output_12", 0x0002),
+        runtime::Flag::new("relay_al", 0x0004),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for DigitalOutputs {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for DigitalOutputs {
+    fn default() -> Self {
+        Self::ALL_FALSE
     }
 }
 

@@ -5,6 +5,7 @@
 //! `Hitachi L200`.
 //!
 //! Each point is a type of [`points`]; what may be done with it is a trait: [`Readable`], [`Writable`].
+//! [`Client`](runtime::modbus::Client) and [`AsyncClient`](runtime::modbus::AsyncClient) do it over a transport that you bring.
 //! No warranty, no affiliation with the maker; a write may move a machine.
 
 #![no_std]
@@ -59,6 +60,19 @@ pub mod exceptions {
 
     /// Not available.
     pub const NOT_AVAILABLE: u8 = 0x22;
+
+    /// The name of a code in the description, if it has one.
+    #[must_use]
+    pub const fn name(code: u8) -> Option<&'static str> {
+        match code {
+            FUNCTION_NOT_SUPPORTED => Some("function_not_supported"),
+            ADDRESS_NOT_FOUND => Some("address_not_found"),
+            DATA_FORMAT_WRONG => Some("data_format_wrong"),
+            VALUE_OUT_OF_RANGE => Some("value_out_of_range"),
+            NOT_AVAILABLE => Some("not_available"),
+            _ => None,
+        }
+    }
 }
 
 /// Reads that bring all readable points of a group, as the device allows them.

@@ -4,27 +4,27 @@
 
 //! The points of the device.
 //!
-//! Documented only:
-//! - `reserved_coil_0004`
-//! - `reserved_coil_0005`
-//! - `unused_coil_000c`
-//! - `reserved_coil_0010`
-//! - `reserved_coil_0011`
-//! - `reserved_coil_0012`
-//! - `scaled_output_frequency` (`d007`)
-//! - `frequency_setpoint` (`F001`)
-//! - `acceleration_time_2_set_2` (`A292`)
-//! - `country_code` (`b085`)
-//! - `carrier_reduction` (`b150`)
-//! - `quick_start` (`b151`)
-//! - `baud_rate` (`C071`)
-//! - `unit_address` (`C072`)
-//! - `parity` (`C074`)
-//! - `stop_bits` (`C075`)
-//! - `communication_error_action` (`C076`)
-//! - `communication_timeout` (`C077`)
-//! - `response_delay` (`C078`)
-//! - `debug_mode` (`C091`)
+//! Documented only, as the documentation explains; one with an address is reached by it, as raw words:
+//! - `reserved_coil_0004`, coil 0004h (4)
+//! - `reserved_coil_0005`, coil 0005h (5)
+//! - `unused_coil_000c`, coil 000Ch (12)
+//! - `reserved_coil_0010`, coil 0010h (16)
+//! - `reserved_coil_0011`, coil 0011h (17)
+//! - `reserved_coil_0012`, coil 0012h (18)
+//! - `scaled_output_frequency`, `d007`, holding 1008h (4104)
+//! - `frequency_setpoint`, `F001`
+//! - `acceleration_time_2_set_2`, `A292`
+//! - `country_code`, `b085`, holding 10D3h (4307)
+//! - `carrier_reduction`, `b150`, holding 10F7h (4343)
+//! - `quick_start`, `b151`, holding 10F8h (4344)
+//! - `baud_rate`, `C071`, holding 1137h (4407)
+//! - `unit_address`, `C072`, holding 1138h (4408)
+//! - `parity`, `C074`, holding 113Ah (4410)
+//! - `stop_bits`, `C075`, holding 113Bh (4411)
+//! - `communication_error_action`, `C076`, holding 113Ch (4412)
+//! - `communication_timeout`, `C077`, holding 113Dh (4413)
+//! - `response_delay`, `C078`, holding 113Eh (4414)
+//! - `debug_mode`, `C091`, holding 1147h (4423)
 
 use fieldscribe_runtime as runtime;
 use fieldscribe_runtime::arithmetic;

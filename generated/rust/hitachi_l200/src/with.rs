@@ -7,70 +7,70 @@
 /// Raw numbers that `motor_rated_frequency` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct MotorRatedFrequency {
-    /// The raw number of `maximum_frequency`.
+    /// The raw number of [`MaximumFrequency`](crate::points::MaximumFrequency).
     pub maximum_frequency: u16,
 }
 
 /// Raw numbers that `motor_rated_frequency_set_2` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct MotorRatedFrequencySet2 {
-    /// The raw number of `maximum_frequency_set_2`.
+    /// The raw number of [`MaximumFrequencySet2`](crate::points::MaximumFrequencySet2).
     pub maximum_frequency_set_2: u16,
 }
 
 /// Raw numbers that `maximum_frequency` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct MaximumFrequency {
-    /// The raw number of `motor_rated_frequency`.
+    /// The raw number of [`MotorRatedFrequency`](crate::points::MotorRatedFrequency).
     pub motor_rated_frequency: u16,
 }
 
 /// Raw numbers that `maximum_frequency_set_2` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct MaximumFrequencySet2 {
-    /// The raw number of `motor_rated_frequency_set_2`.
+    /// The raw number of [`MotorRatedFrequencySet2`](crate::points::MotorRatedFrequencySet2).
     pub motor_rated_frequency_set_2: u16,
 }
 
 /// Raw numbers that `dc_brake_frequency` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct DcBrakeFrequency {
-    /// The raw number of `start_frequency`.
+    /// The raw number of [`StartFrequency`](crate::points::StartFrequency).
     pub start_frequency: u16,
 }
 
 /// Raw numbers that `upper_frequency_limit` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct UpperFrequencyLimit {
-    /// The raw number of `lower_frequency_limit`.
+    /// The raw number of [`LowerFrequencyLimit`](crate::points::LowerFrequencyLimit).
     pub lower_frequency_limit: u16,
-    /// The raw number of `maximum_frequency`.
+    /// The raw number of [`MaximumFrequency`](crate::points::MaximumFrequency).
     pub maximum_frequency: u16,
 }
 
 /// Raw numbers that `upper_frequency_limit_set_2` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct UpperFrequencyLimitSet2 {
-    /// The raw number of `lower_frequency_limit_set_2`.
+    /// The raw number of [`LowerFrequencyLimitSet2`](crate::points::LowerFrequencyLimitSet2).
     pub lower_frequency_limit_set_2: u16,
-    /// The raw number of `maximum_frequency_set_2`.
+    /// The raw number of [`MaximumFrequencySet2`](crate::points::MaximumFrequencySet2).
     pub maximum_frequency_set_2: u16,
 }
 
 /// Raw numbers that `lower_frequency_limit` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct LowerFrequencyLimit {
-    /// The raw number of `start_frequency`.
+    /// The raw number of [`StartFrequency`](crate::points::StartFrequency).
     pub start_frequency: u16,
-    /// The raw number of `upper_frequency_limit`.
+    /// The raw number of [`UpperFrequencyLimit`](crate::points::UpperFrequencyLimit).
     pub upper_frequency_limit: u16,
 }
 
 /// Raw numbers that `lower_frequency_limit_set_2` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct LowerFrequencyLimitSet2 {
-    /// The raw number of `start_frequency`.
+    /// The raw number of [`StartFrequency`](crate::points::StartFrequency).
     pub start_frequency: u16,
-    /// The raw number of `upper_frequency_limit_set_2`.
+    /// The raw number of [`UpperFrequencyLimitSet2`](crate::points::UpperFrequencyLimitSet2).
     pub upper_frequency_limit_set_2: u16,
 }

@@ -3,12 +3,25 @@
 // SPDX-License-Identifier: 0BSD
 
 //! Words whose bits have names.
+//!
+//! Functions speak of what is true, whatever the bit is then: [`ALL_FALSE`] and `with_` functions make a word. The
+//! constants are bits; setting the bit of one that ends in `_ACTIVE_LOW` makes what it names false.
+//!
+//! [`ALL_FALSE`]: ProgramStatus::ALL_FALSE
+
+use core::fmt;
+
+use fieldscribe_runtime::flags as runtime;
 
 /// Program status.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct ProgramStatus(pub u16);
 
 impl ProgramStatus {
+    /// The word in which nothing is true and every number is 0.
+    pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Program hold.
     pub const PROGRAM_HOLD: u16 = 0x0002;
     /// The bit of: Basic position.
@@ -101,6 +114,33 @@ impl ProgramStatus {
     }
 }
 
+impl runtime::Flags for ProgramStatus {
+    const NAME: &'static str = "ProgramStatus";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("program_hold", 0x0002),
+        runtime::Flag::new("basic_position", 0x0004),
+        runtime::Flag::new("automatic_mode", 0x0020),
+        runtime::Flag::new("program_end_signal", 0x0040),
+        runtime::Flag::new("tolerance_band_signal", 0x0080),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for ProgramStatus {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for ProgramStatus {
+    fn default() -> Self {
+        Self::ALL_FALSE
+    }
+}
+
 impl From<u16> for ProgramStatus {
     #[inline]
     fn from(raw: u16) -> Self {
@@ -116,70 +156,34 @@ impl From<ProgramStatus> for u16 {
 }
 
 /// Binary outputs.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct BinaryOutputs(pub u16);
 
 impl BinaryOutputs {
+    /// The word in which nothing is true and every number is 0.
+    pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Binary output 1.
     pub const BINARY_OUTPUT_1: u16 = 0x0001;
-    /// Zero.
-    pub const BINARY_OUTPUT_1_ZERO: u16 = 0;
-    /// One.
-    pub const BINARY_OUTPUT_1_ONE: u16 = 1;
     /// The bit of: Binary output 2.
     pub const BINARY_OUTPUT_2: u16 = 0x0002;
-    /// Zero.
-    pub const BINARY_OUTPUT_2_ZERO: u16 = 0;
-    /// One.
-    pub const BINARY_OUTPUT_2_ONE: u16 = 1;
     /// The bit of: Binary output 3.
     pub const BINARY_OUTPUT_3: u16 = 0x0004;
-    /// Zero.
-    pub const BINARY_OUTPUT_3_ZERO: u16 = 0;
-    /// One.
-    pub const BINARY_OUTPUT_3_ONE: u16 = 1;
     /// The bit of: Binary output 4.
     pub const BINARY_OUTPUT_4: u16 = 0x0008;
-    /// Zero.
-    pub const BINARY_OUTPUT_4_ZERO: u16 = 0;
-    /// One.
-    pub const BINARY_OUTPUT_4_ONE: u16 = 1;
     /// The bit of: Binary output 5.
     pub const BINARY_OUTPUT_5: u16 = 0x0010;
-    /// Zero.
-    pub const BINARY_OUTPUT_5_ZERO: u16 = 0;
-    /// One.
-    pub const BINARY_OUTPUT_5_ONE: u16 = 1;
     /// The bit of: Binary output 6.
     pub const BINARY_OUTPUT_6: u16 = 0x0020;
-    /// Zero.
-    pub const BINARY_OUTPUT_6_ZERO: u16 = 0;
-    /// One.
-    pub const BINARY_OUTPUT_6_ONE: u16 = 1;
     /// The bit of: Binary output 7.
     pub const BINARY_OUTPUT_7: u16 = 0x0040;
-    /// Zero.
-    pub const BINARY_OUTPUT_7_ZERO: u16 = 0;
-    /// One.
-    pub const BINARY_OUTPUT_7_ONE: u16 = 1;
     /// The bit of: Binary output 8.
     pub const BINARY_OUTPUT_8: u16 = 0x0080;
-    /// Zero.
-    pub const BINARY_OUTPUT_8_ZERO: u16 = 0;
-    /// One.
-    pub const BINARY_OUTPUT_8_ONE: u16 = 1;
     /// The bit of: Binary output 9.
     pub const BINARY_OUTPUT_9: u16 = 0x0100;
-    /// Zero.
-    pub const BINARY_OUTPUT_9_ZERO: u16 = 0;
-    /// One.
-    pub const BINARY_OUTPUT_9_ONE: u16 = 1;
     /// The bit of: Binary output 10.
     pub const BINARY_OUTPUT_10: u16 = 0x0200;
-    /// Zero.
-    pub const BINARY_OUTPUT_10_ZERO: u16 = 0;
-    /// One.
-    pub const BINARY_OUTPUT_10_ONE: u16 = 1;
 
     /// Binary output 1.
     #[must_use]
@@ -342,6 +346,38 @@ impl BinaryOutputs {
     }
 }
 
+impl runtime::Flags for BinaryOutputs {
+    const NAME: &'static str = "BinaryOutputs";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("binary_output_1", 0x0001),
+        runtime::Flag::new("binary_output_2", 0x0002),
+        runtime::Flag::new("binary_output_3", 0x0004),
+        runtime::Flag::new("binary_output_4", 0x0008),
+        runtime::Flag::new("binary_output_5", 0x0010),
+        runtime::Flag::new("binary_output_6", 0x0020),
+        runtime::Flag::new("binary_output_7", 0x0040),
+        runtime::Flag::new("binary_output_8", 0x0080),
+        runtime::Flag::new("binary_output_9", 0x0100),
+        runtime::Flag::new("binary_output_10", 0x0200),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for BinaryOutputs {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for BinaryOutputs {
+    fn default() -> Self {
+        Self::ALL_FALSE
+    }
+}
+
 impl From<u16> for BinaryOutputs {
     #[inline]
     fn from(raw: u16) -> Self {
@@ -357,58 +393,30 @@ impl From<BinaryOutputs> for u16 {
 }
 
 /// Binary inputs.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct BinaryInputs(pub u16);
 
 impl BinaryInputs {
+    /// The word in which nothing is true and every number is 0.
+    pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Binary input 1.
     pub const BINARY_INPUT_1: u16 = 0x0001;
-    /// Zero.
-    pub const BINARY_INPUT_1_ZERO: u16 = 0;
-    /// One.
-    pub const BINARY_INPUT_1_ONE: u16 = 1;
     /// The bit of: Binary input 2.
     pub const BINARY_INPUT_2: u16 = 0x0002;
-    /// Zero.
-    pub const BINARY_INPUT_2_ZERO: u16 = 0;
-    /// One.
-    pub const BINARY_INPUT_2_ONE: u16 = 1;
     /// The bit of: Binary input 3.
     pub const BINARY_INPUT_3: u16 = 0x0004;
-    /// Zero.
-    pub const BINARY_INPUT_3_ZERO: u16 = 0;
-    /// One.
-    pub const BINARY_INPUT_3_ONE: u16 = 1;
     /// The bit of: Binary input 4.
     pub const BINARY_INPUT_4: u16 = 0x0008;
-    /// Zero.
-    pub const BINARY_INPUT_4_ZERO: u16 = 0;
-    /// One.
-    pub const BINARY_INPUT_4_ONE: u16 = 1;
     /// The bit of: Binary input 6.
     pub const BINARY_INPUT_6: u16 = 0x0010;
-    /// Zero.
-    pub const BINARY_INPUT_6_ZERO: u16 = 0;
-    /// One.
-    pub const BINARY_INPUT_6_ONE: u16 = 1;
     /// The bit of: Binary input 5.
     pub const BINARY_INPUT_5: u16 = 0x0020;
-    /// Zero.
-    pub const BINARY_INPUT_5_ZERO: u16 = 0;
-    /// One.
-    pub const BINARY_INPUT_5_ONE: u16 = 1;
     /// The bit of: Binary input 8.
     pub const BINARY_INPUT_8: u16 = 0x0040;
-    /// Zero.
-    pub const BINARY_INPUT_8_ZERO: u16 = 0;
-    /// One.
-    pub const BINARY_INPUT_8_ONE: u16 = 1;
     /// The bit of: Binary input 7.
     pub const BINARY_INPUT_7: u16 = 0x0080;
-    /// Zero.
-    pub const BINARY_INPUT_7_ZERO: u16 = 0;
-    /// One.
-    pub const BINARY_INPUT_7_ONE: u16 = 1;
 
     /// Binary input 1.
     #[must_use]
@@ -539,6 +547,36 @@ impl BinaryInputs {
     }
 }
 
+impl runtime::Flags for BinaryInputs {
+    const NAME: &'static str = "BinaryInputs";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("binary_input_1", 0x0001),
+        runtime::Flag::new("binary_input_2", 0x0002),
+        runtime::Flag::new("binary_input_3", 0x0004),
+        runtime::Flag::new("binary_input_4", 0x0008),
+        runtime::Flag::new("binary_input_6", 0x0010),
+        runtime::Flag::new("binary_input_5", 0x0020),
+        runtime::Flag::new("binary_input_8", 0x0040),
+        runtime::Flag::new("binary_input_7", 0x0080),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for BinaryInputs {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for BinaryInputs {
+    fn default() -> Self {
+        Self::ALL_FALSE
+    }
+}
+
 impl From<u16> for BinaryInputs {
     #[inline]
     fn from(raw: u16) -> Self {
@@ -554,10 +592,14 @@ impl From<BinaryInputs> for u16 {
 }
 
 /// Control contacts.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct ControlContacts(pub u16);
 
 impl ControlContacts {
+    /// The word in which nothing is true and every number is 0.
+    pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Control contact 1.
     pub const CONTROL_CONTACT_1: u16 = 0x0001;
     /// The bit of: Control contact 2.
@@ -632,6 +674,32 @@ impl ControlContacts {
     }
 }
 
+impl runtime::Flags for ControlContacts {
+    const NAME: &'static str = "ControlContacts";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("control_contact_1", 0x0001),
+        runtime::Flag::new("control_contact_2", 0x0002),
+        runtime::Flag::new("control_contact_3", 0x0004),
+        runtime::Flag::new("control_contact_4", 0x0008),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for ControlContacts {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for ControlContacts {
+    fn default() -> Self {
+        Self::ALL_FALSE
+    }
+}
+
 impl From<u16> for ControlContacts {
     #[inline]
     fn from(raw: u16) -> Self {
@@ -647,10 +715,14 @@ impl From<ControlContacts> for u16 {
 }
 
 /// Binary signals.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct BinarySignals(pub u16);
 
 impl BinarySignals {
+    /// The word in which nothing is true and every number is 0.
+    pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Control contact 1.
     pub const CONTROL_CONTACT_1: u16 = 0x0001;
     /// The bit of: Control contact 2.
@@ -761,6 +833,34 @@ impl BinarySignals {
     }
 }
 
+impl runtime::Flags for BinarySignals {
+    const NAME: &'static str = "BinarySignals";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("control_contact_1", 0x0001),
+        runtime::Flag::new("control_contact_2", 0x0002),
+        runtime::Flag::new("control_contact_3", 0x0004),
+        runtime::Flag::new("control_contact_4", 0x0008),
+        runtime::Flag::new("timer_1", 0x0010),
+        runtime::Flag::new("timer_2", 0x0020),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for BinarySignals {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for BinarySignals {
+    fn default() -> Self {
+        Self::ALL_FALSE
+    }
+}
+
 impl From<u16> for BinarySignals {
     #[inline]
     fn from(raw: u16) -> Self {
@@ -776,10 +876,14 @@ impl From<BinarySignals> for u16 {
 }
 
 /// Binary output control.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct BinaryOutputControl(pub u16);
 
 impl BinaryOutputControl {
+    /// The word in which nothing is true and every number is 0.
+    pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Output 1.
     pub const OUTPUT_1: u16 = 0x0001;
     /// The bit of: Output 2.
@@ -962,6 +1066,38 @@ impl BinaryOutputControl {
     }
 }
 
+impl runtime::Flags for BinaryOutputControl {
+    const NAME: &'static str = "BinaryOutputControl";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("output_1", 0x0001),
+        runtime::Flag::new("output_2", 0x0002),
+        runtime::Flag::new("output_3", 0x0004),
+        runtime::Flag::new("output_4", 0x0008),
+        runtime::Flag::new("output_5", 0x0010),
+        runtime::Flag::new("output_6", 0x0020),
+        runtime::Flag::new("output_7", 0x0040),
+        runtime::Flag::new("output_8", 0x0080),
+        runtime::Flag::new("output_9", 0x0100),
+        runtime::Flag::new("output_10", 0x0200),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for BinaryOutputControl {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for BinaryOutputControl {
+    fn default() -> Self {
+        Self::ALL_FALSE
+    }
+}
+
 impl From<u16> for BinaryOutputControl {
     #[inline]
     fn from(raw: u16) -> Self {
@@ -977,10 +1113,14 @@ impl From<BinaryOutputControl> for u16 {
 }
 
 /// Program controller commands.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct ProgramControllerCommands(pub u16);
 
 impl ProgramControllerCommands {
+    /// The word in which nothing is true and every number is 0.
+    pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Hold program.
     pub const HOLD_PROGRAM: u16 = 0x0002;
     /// The bit of: Abort program.
@@ -1055,6 +1195,32 @@ impl ProgramControllerCommands {
     }
 }
 
+impl runtime::Flags for ProgramControllerCommands {
+    const NAME: &'static str = "ProgramControllerCommands";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("hold_program", 0x0002),
+        runtime::Flag::new("abort_program", 0x0004),
+        runtime::Flag::new("start_program", 0x0008),
+        runtime::Flag::new("change_section", 0x0100),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for ProgramControllerCommands {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for ProgramControllerCommands {
+    fn default() -> Self {
+        Self::ALL_FALSE
+    }
+}
+
 impl From<u16> for ProgramControllerCommands {
     #[inline]
     fn from(raw: u16) -> Self {
@@ -1070,10 +1236,14 @@ impl From<ProgramControllerCommands> for u16 {
 }
 
 /// Controller commands.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct ControllerCommands(pub u16);
 
 impl ControllerCommands {
+    /// The word in which nothing is true and every number is 0.
+    pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Hold ramp.
     pub const HOLD_RAMP: u16 = 0x0002;
     /// The bit of: Abort ramp.
@@ -1202,6 +1372,35 @@ impl ControllerCommands {
     }
 }
 
+impl runtime::Flags for ControllerCommands {
+    const NAME: &'static str = "ControllerCommands";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("hold_ramp", 0x0002),
+        runtime::Flag::new("abort_ramp", 0x0004),
+        runtime::Flag::new("activate_manual_mode", 0x0010),
+        runtime::Flag::new("automatic_mode", 0x0020),
+        runtime::Flag::new("controller_off", 0x0040),
+        runtime::Flag::new("start_self_optimisation", 0x0080),
+        runtime::Flag::new("abort_self_optimisation", 0x2000),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for ControllerCommands {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for ControllerCommands {
+    fn default() -> Self {
+        Self::ALL_FALSE
+    }
+}
+
 impl From<u16> for ControllerCommands {
     #[inline]
     fn from(raw: u16) -> Self {
@@ -1217,10 +1416,14 @@ impl From<ControllerCommands> for u16 {
 }
 
 /// Operation commands.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct OperationCommands(pub u16);
 
 impl OperationCommands {
+    /// The word in which nothing is true and every number is 0.
+    pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Displays off.
     pub const DISPLAYS_OFF: u16 = 0x0010;
     /// The bit of: Acknowledge limit comparators.
@@ -1277,6 +1480,31 @@ impl OperationCommands {
     }
 }
 
+impl runtime::Flags for OperationCommands {
+    const NAME: &'static str = "OperationCommands";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("displays_off", 0x0010),
+        runtime::Flag::new("acknowledge_limit_comparators", 0x0020),
+        runtime::Flag::new("text_display", 0x0040),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for OperationCommands {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for OperationCommands {
+    fn default() -> Self {
+        Self::ALL_FALSE
+    }
+}
+
 impl From<u16> for OperationCommands {
     #[inline]
     fn from(raw: u16) -> Self {
@@ -1292,10 +1520,14 @@ impl From<OperationCommands> for u16 {
 }
 
 /// Timer commands.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct TimerCommands(pub u16);
 
 impl TimerCommands {
+    /// The word in which nothing is true and every number is 0.
+    pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Hold timer 1.
     pub const HOLD_TIMER_1: u16 = 0x0002;
     /// The bit of: Abort timer 1.
@@ -1367,6 +1599,32 @@ impl TimerCommands {
         } else {
             Self(self.0 & !Self::HOLD_TIMER_2)
         }
+    }
+}
+
+impl runtime::Flags for TimerCommands {
+    const NAME: &'static str = "TimerCommands";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("hold_timer_1", 0x0002),
+        runtime::Flag::new("abort_timer_1", 0x0004),
+        runtime::Flag::new("start_timer_1", 0x0008),
+        runtime::Flag::new("hold_timer_2", 0x0200),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for TimerCommands {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for TimerCommands {
+    fn default() -> Self {
+        Self::ALL_FALSE
     }
 }
 

@@ -5,6 +5,7 @@
 //! `JUMO Controller with MOD-Bus`.
 //!
 //! Each point is a type of [`points`]; what may be done with it is a trait: [`Readable`], [`Writable`].
+//! [`Client`](runtime::modbus::Client) and [`AsyncClient`](runtime::modbus::AsyncClient) do it over a transport that you bring.
 //! No warranty, no affiliation with the maker; a write may move a machine.
 
 #![no_std]
@@ -50,6 +51,17 @@ pub mod exceptions {
 
     /// Write refused.
     pub const WRITE_REFUSED: u8 = 0x08;
+
+    /// The name of a code in the description, if it has one.
+    #[must_use]
+    pub const fn name(code: u8) -> Option<&'static str> {
+        match code {
+            INVALID_FUNCTION => Some("invalid_function"),
+            INVALID_PARAMETER_ADDRESS => Some("invalid_parameter_address"),
+            WRITE_REFUSED => Some("write_refused"),
+            _ => None,
+        }
+    }
 }
 
 /// Reads that bring all readable points of a group, as the device allows them.

@@ -4,7 +4,7 @@
 
 //! The points of the device.
 //!
-//! Documented only:
+//! Documented only, as the documentation explains; one with an address is reached by it, as raw words:
 //! - `limit_comparators`
 
 use fieldscribe_runtime as runtime;
@@ -627,6 +627,7 @@ impl runtime::Point for Setpoint1 {
     const ADDRESS: u16 = 0x3100;
     const ADDRESSES: &'static [u16] = &[0x3101, 0x3100];
     const WORDS: u16 = 2;
+    const FLOATING: bool = true;
 
     #[inline]
     fn from_words([b, a]: [u16; 2]) -> u32 {
@@ -685,6 +686,7 @@ impl runtime::Point for Setpoint2 {
     const ADDRESS: u16 = 0x3102;
     const ADDRESSES: &'static [u16] = &[0x3103, 0x3102];
     const WORDS: u16 = 2;
+    const FLOATING: bool = true;
 
     #[inline]
     fn from_words([b, a]: [u16; 2]) -> u32 {
@@ -745,6 +747,7 @@ impl runtime::Point for ProportionalBand1Set2 {
     const ADDRESS: u16 = 0x3014;
     const ADDRESSES: &'static [u16] = &[0x3015, 0x3014];
     const WORDS: u16 = 2;
+    const FLOATING: bool = true;
 
     #[inline]
     fn from_words([b, a]: [u16; 2]) -> u32 {
@@ -803,6 +806,7 @@ impl runtime::Point for Value0077 {
     const ADDRESS: u16 = 0x0077;
     const ADDRESSES: &'static [u16] = &[0x0078, 0x0077];
     const WORDS: u16 = 2;
+    const FLOATING: bool = true;
 
     #[inline]
     fn from_words([b, a]: [u16; 2]) -> u32 {
@@ -851,6 +855,7 @@ impl runtime::Point for Value00ce {
     const ADDRESS: u16 = 0x00CE;
     const ADDRESSES: &'static [u16] = &[0x00CF, 0x00CE];
     const WORDS: u16 = 2;
+    const FLOATING: bool = true;
 
     #[inline]
     fn from_words([b, a]: [u16; 2]) -> u32 {

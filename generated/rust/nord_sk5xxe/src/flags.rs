@@ -3,84 +3,57 @@
 // SPDX-License-Identifier: 0BSD
 
 //! Words whose bits have names.
+//!
+//! Functions speak of what is true, whatever the bit is then: [`ALL_FALSE`] and `with_` functions make a word. The
+//! constants are bits; setting the bit of one that ends in `_ACTIVE_LOW` makes what it names false.
+//!
+//! [`ALL_FALSE`]: ControlWord::ALL_FALSE
+
+use core::fmt;
+
+use fieldscribe_runtime::flags as runtime;
 
 /// Control word.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct ControlWord(pub u16);
 
 impl ControlWord {
+    /// The word in which nothing is true and every number is 0.
+    ///
+    /// Its active-low bits are 1.
+    pub const ALL_FALSE: Self = Self(0x0006);
     /// The bit of: Ready to run.
     pub const READY_TO_RUN: u16 = 0x0001;
-    /// Zero.
-    pub const READY_TO_RUN_ZERO: u16 = 0;
-    /// One.
-    pub const READY_TO_RUN_ONE: u16 = 1;
     /// The bit of: Inhibit voltage.
-    pub const INHIBIT_VOLTAGE: u16 = 0x0002;
-    /// Zero.
-    pub const INHIBIT_VOLTAGE_ZERO: u16 = 0;
-    /// One.
-    pub const INHIBIT_VOLTAGE_ONE: u16 = 1;
+    ///
+    /// It is true while this bit is 0.
+    pub const INHIBIT_VOLTAGE_ACTIVE_LOW: u16 = 0x0002;
     /// The bit of: Quick stop.
-    pub const QUICK_STOP: u16 = 0x0004;
-    /// Zero.
-    pub const QUICK_STOP_ZERO: u16 = 0;
-    /// One.
-    pub const QUICK_STOP_ONE: u16 = 1;
+    ///
+    /// It is true while this bit is 0.
+    pub const QUICK_STOP_ACTIVE_LOW: u16 = 0x0004;
     /// The bit of: Enable operation.
     pub const ENABLE_OPERATION: u16 = 0x0008;
-    /// Zero.
-    pub const ENABLE_OPERATION_ZERO: u16 = 0;
-    /// One.
-    pub const ENABLE_OPERATION_ONE: u16 = 1;
     /// The bit of: Enable pulses.
     pub const ENABLE_PULSES: u16 = 0x0010;
-    /// Zero.
-    pub const ENABLE_PULSES_ZERO: u16 = 0;
-    /// One.
-    pub const ENABLE_PULSES_ONE: u16 = 1;
     /// The bit of: Enable ramp.
     pub const ENABLE_RAMP: u16 = 0x0020;
-    /// Zero.
-    pub const ENABLE_RAMP_ZERO: u16 = 0;
-    /// One.
-    pub const ENABLE_RAMP_ONE: u16 = 1;
     /// The bit of: Enable setpoint.
     pub const ENABLE_SETPOINT: u16 = 0x0040;
-    /// Zero.
-    pub const ENABLE_SETPOINT_ZERO: u16 = 0;
-    /// One.
-    pub const ENABLE_SETPOINT_ONE: u16 = 1;
     /// The bit of: Acknowledge fault.
     pub const ACKNOWLEDGE_FAULT: u16 = 0x0080;
-    /// Zero.
-    pub const ACKNOWLEDGE_FAULT_ZERO: u16 = 0;
-    /// One.
-    pub const ACKNOWLEDGE_FAULT_ONE: u16 = 1;
     /// The bit of: Start function 480 11.
     pub const START_FUNCTION_480_11: u16 = 0x0100;
-    /// One.
-    pub const START_FUNCTION_480_11_ONE: u16 = 1;
     /// The bit of: Start function 480 12.
     pub const START_FUNCTION_480_12: u16 = 0x0200;
-    /// One.
-    pub const START_FUNCTION_480_12_ONE: u16 = 1;
     /// The bit of: Control data valid.
     pub const CONTROL_DATA_VALID: u16 = 0x0400;
-    /// Zero.
-    pub const CONTROL_DATA_VALID_ZERO: u16 = 0;
-    /// One.
-    pub const CONTROL_DATA_VALID_ONE: u16 = 1;
     /// The bit of: Clockwise.
     pub const CLOCKWISE: u16 = 0x0800;
-    /// One.
-    pub const CLOCKWISE_ONE: u16 = 1;
     /// The bit of: Counter clockwise.
     pub const COUNTER_CLOCKWISE: u16 = 0x1000;
-    /// Zero.
-    pub const COUNTER_CLOCKWISE_ZERO: u16 = 0;
-    /// One.
-    pub const COUNTER_CLOCKWISE_ONE: u16 = 1;
     /// The bit of: Reserved.
     pub const RESERVED: u16 = 0x2000;
     /// The bits of: Parameter set.
@@ -111,34 +84,42 @@ impl ControlWord {
     }
 
     /// Inhibit voltage.
+    ///
+    /// True while the bit is 0.
     #[must_use]
     pub const fn inhibit_voltage(self) -> bool {
-        self.0 & Self::INHIBIT_VOLTAGE == 0
+        self.0 & Self::INHIBIT_VOLTAGE_ACTIVE_LOW == 0
     }
 
     /// The same word with another state of: Inhibit voltage.
+    ///
+    /// `true` clears the bit.
     #[must_use]
     pub const fn with_inhibit_voltage(self, state: bool) -> Self {
         if state {
-            Self(self.0 & !Self::INHIBIT_VOLTAGE)
+            Self(self.0 & !Self::INHIBIT_VOLTAGE_ACTIVE_LOW)
         } else {
-            Self(self.0 | Self::INHIBIT_VOLTAGE)
+            Self(self.0 | Self::INHIBIT_VOLTAGE_ACTIVE_LOW)
         }
     }
 
     /// Quick stop.
+    ///
+    /// True while the bit is 0.
     #[must_use]
     pub const fn quick_stop(self) -> bool {
-        self.0 & Self::QUICK_STOP == 0
+        self.0 & Self::QUICK_STOP_ACTIVE_LOW == 0
     }
 
     /// The same word with another state of: Quick stop.
+    ///
+    /// `true` clears the bit.
     #[must_use]
     pub const fn with_quick_stop(self, state: bool) -> Self {
         if state {
-            Self(self.0 & !Self::QUICK_STOP)
+            Self(self.0 & !Self::QUICK_STOP_ACTIVE_LOW)
         } else {
-            Self(self.0 | Self::QUICK_STOP)
+            Self(self.0 | Self::QUICK_STOP_ACTIVE_LOW)
         }
     }
 
@@ -319,16 +300,55 @@ impl ControlWord {
     }
 
     /// Parameter set.
+    ///
+    /// A number.
     #[must_use]
     pub const fn parameter_set(self) -> u16 {
         (self.0 & Self::PARAMETER_SET) >> 14
     }
 
-    /// The same word with another state of: Parameter set.
+    /// The same word with another number of: Parameter set.
     #[must_use]
     pub const fn with_parameter_set(self, number: u16) -> Self {
         let mask = Self::PARAMETER_SET;
         Self((self.0 & !mask) | ((number << 14) & mask))
+    }
+}
+
+impl runtime::Flags for ControlWord {
+    const NAME: &'static str = "ControlWord";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("ready_to_run", 0x0001),
+        runtime::Flag::active_low("inhibit_voltage", 0x0002),
+        runtime::Flag::active_low("quick_stop", 0x0004),
+        runtime::Flag::new("enable_operation", 0x0008),
+        runtime::Flag::new("enable_pulses", 0x0010),
+        runtime::Flag::new("enable_ramp", 0x0020),
+        runtime::Flag::new("enable_setpoint", 0x0040),
+        runtime::Flag::new("acknowledge_fault", 0x0080),
+        runtime::Flag::new("start_function_480_11", 0x0100),
+        runtime::Flag::new("start_function_480_12", 0x0200),
+        runtime::Flag::new("control_data_valid", 0x0400),
+        runtime::Flag::new("clockwise", 0x0800),
+        runtime::Flag::new("counter_clockwise", 0x1000),
+        runtime::Flag::new("reserved", 0x2000),
+        runtime::Flag::new("parameter_set", 0xC000),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for ControlWord {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for ControlWord {
+    fn default() -> Self {
+        Self::ALL_FALSE
     }
 }
 
@@ -347,86 +367,46 @@ impl From<ControlWord> for u16 {
 }
 
 /// Status word.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct StatusWord(pub u16);
 
 impl StatusWord {
+    /// The word in which nothing is true and every number is 0.
+    ///
+    /// Its active-low bits are 1.
+    pub const ALL_FALSE: Self = Self(0x0020);
     /// The bit of: Ready to switch on.
     pub const READY_TO_SWITCH_ON: u16 = 0x0001;
-    /// Zero.
-    pub const READY_TO_SWITCH_ON_ZERO: u16 = 0;
-    /// One.
-    pub const READY_TO_SWITCH_ON_ONE: u16 = 1;
     /// The bit of: Ready to run.
     pub const READY_TO_RUN: u16 = 0x0002;
-    /// Zero.
-    pub const READY_TO_RUN_ZERO: u16 = 0;
-    /// One.
-    pub const READY_TO_RUN_ONE: u16 = 1;
     /// The bit of: Operation enabled.
     pub const OPERATION_ENABLED: u16 = 0x0004;
-    /// Zero.
-    pub const OPERATION_ENABLED_ZERO: u16 = 0;
-    /// One.
-    pub const OPERATION_ENABLED_ONE: u16 = 1;
     /// The bit of: Fault.
     pub const FAULT: u16 = 0x0008;
-    /// Zero.
-    pub const FAULT_ZERO: u16 = 0;
-    /// One.
-    pub const FAULT_ONE: u16 = 1;
     /// The bit of: Voltage enabled.
     pub const VOLTAGE_ENABLED: u16 = 0x0010;
-    /// Zero.
-    pub const VOLTAGE_ENABLED_ZERO: u16 = 0;
-    /// One.
-    pub const VOLTAGE_ENABLED_ONE: u16 = 1;
     /// The bit of: Quick stop.
-    pub const QUICK_STOP: u16 = 0x0020;
-    /// Zero.
-    pub const QUICK_STOP_ZERO: u16 = 0;
-    /// One.
-    pub const QUICK_STOP_ONE: u16 = 1;
+    ///
+    /// It is true while this bit is 0.
+    pub const QUICK_STOP_ACTIVE_LOW: u16 = 0x0020;
     /// The bit of: Switch on inhibit.
     pub const SWITCH_ON_INHIBIT: u16 = 0x0040;
-    /// Zero.
-    pub const SWITCH_ON_INHIBIT_ZERO: u16 = 0;
-    /// One.
-    pub const SWITCH_ON_INHIBIT_ONE: u16 = 1;
     /// The bit of: Warning.
     pub const WARNING: u16 = 0x0080;
-    /// Zero.
-    pub const WARNING_ZERO: u16 = 0;
-    /// One.
-    pub const WARNING_ONE: u16 = 1;
     /// The bit of: Setpoint reached.
     pub const SETPOINT_REACHED: u16 = 0x0100;
-    /// Zero.
-    pub const SETPOINT_REACHED_ZERO: u16 = 0;
-    /// One.
-    pub const SETPOINT_REACHED_ONE: u16 = 1;
     /// The bit of: Bus control.
     pub const BUS_CONTROL: u16 = 0x0200;
-    /// Zero.
-    pub const BUS_CONTROL_ZERO: u16 = 0;
-    /// One.
-    pub const BUS_CONTROL_ONE: u16 = 1;
     /// The bit of: Function 481 9.
     pub const FUNCTION_481_9: u16 = 0x0400;
-    /// One.
-    pub const FUNCTION_481_9_ONE: u16 = 1;
     /// The bit of: Clockwise.
     pub const CLOCKWISE: u16 = 0x0800;
-    /// One.
-    pub const CLOCKWISE_ONE: u16 = 1;
     /// The bit of: Counter clockwise.
     pub const COUNTER_CLOCKWISE: u16 = 0x1000;
-    /// One.
-    pub const COUNTER_CLOCKWISE_ONE: u16 = 1;
     /// The bit of: Function 481 10.
     pub const FUNCTION_481_10: u16 = 0x2000;
-    /// One.
-    pub const FUNCTION_481_10_ONE: u16 = 1;
     /// The bits of: Parameter set.
     pub const PARAMETER_SET: u16 = 0xC000;
     /// Set 1.
@@ -519,18 +499,22 @@ impl StatusWord {
     }
 
     /// Quick stop.
+    ///
+    /// True while the bit is 0.
     #[must_use]
     pub const fn quick_stop(self) -> bool {
-        self.0 & Self::QUICK_STOP == 0
+        self.0 & Self::QUICK_STOP_ACTIVE_LOW == 0
     }
 
     /// The same word with another state of: Quick stop.
+    ///
+    /// `true` clears the bit.
     #[must_use]
     pub const fn with_quick_stop(self, state: bool) -> Self {
         if state {
-            Self(self.0 & !Self::QUICK_STOP)
+            Self(self.0 & !Self::QUICK_STOP_ACTIVE_LOW)
         } else {
-            Self(self.0 | Self::QUICK_STOP)
+            Self(self.0 | Self::QUICK_STOP_ACTIVE_LOW)
         }
     }
 
@@ -663,16 +647,55 @@ impl StatusWord {
     }
 
     /// Parameter set.
+    ///
+    /// A number.
     #[must_use]
     pub const fn parameter_set(self) -> u16 {
         (self.0 & Self::PARAMETER_SET) >> 14
     }
 
-    /// The same word with another state of: Parameter set.
+    /// The same word with another number of: Parameter set.
     #[must_use]
     pub const fn with_parameter_set(self, number: u16) -> Self {
         let mask = Self::PARAMETER_SET;
         Self((self.0 & !mask) | ((number << 14) & mask))
+    }
+}
+
+impl runtime::Flags for StatusWord {
+    const NAME: &'static str = "StatusWord";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("ready_to_switch_on", 0x0001),
+        runtime::Flag::new("ready_to_run", 0x0002),
+        runtime::Flag::new("operation_enabled", 0x0004),
+        runtime::Flag::new("fault", 0x0008),
+        runtime::Flag::new("voltage_enabled", 0x0010),
+        runtime::Flag::active_low("quick_stop", 0x0020),
+        runtime::Flag::new("switch_on_inhibit", 0x0040),
+        runtime::Flag::new("warning", 0x0080),
+        runtime::Flag::new("setpoint_reached", 0x0100),
+        runtime::Flag::new("bus_control", 0x0200),
+        runtime::Flag::new("function_481_9", 0x0400),
+        runtime::Flag::new("clockwise", 0x0800),
+        runtime::Flag::new("counter_clockwise", 0x1000),
+        runtime::Flag::new("function_481_10", 0x2000),
+        runtime::Flag::new("parameter_set", 0xC000),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for StatusWord {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for StatusWord {
+    fn default() -> Self {
+        Self::ALL_FALSE
     }
 }
 

@@ -5,6 +5,7 @@
 //! `NORD SK 5xxE`.
 //!
 //! Each point is a type of [`points`]; what may be done with it is a trait: [`Readable`], [`Writable`].
+//! [`Client`](runtime::modbus::Client) and [`AsyncClient`](runtime::modbus::AsyncClient) do it over a transport that you bring.
 //! No warranty, no affiliation with the maker; a write may move a machine.
 
 #![no_std]

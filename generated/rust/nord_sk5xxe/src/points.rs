@@ -4,61 +4,61 @@
 
 //! The points of the device.
 //!
-//! Documented only:
-//! - `acceleration_time_set_1` (`P102`)
-//! - `acceleration_time_set_2` (`P102`)
-//! - `acceleration_time_set_3` (`P102`)
-//! - `acceleration_time_set_4` (`P102`)
-//! - `maximum_frequency` (`P103`)
-//! - `bus_bit_8_function` (`P480[11]`)
-//! - `bus_bit_9_function` (`P480[12]`)
-//! - `bus_bit_10_function` (`P481[9]`)
-//! - `bus_bit_13_function` (`P481[10]`)
-//! - `p502` (`P502`)
-//! - `control_word_source` (`P509`)
-//! - `uss_baud_rate` (`P511`)
-//! - `uss_address` (`P512`)
-//! - `p513_index_2` (`P513[2]`)
-//! - `actual_value_source_set_1_index_1` (`P543`)
-//! - `actual_value_source_set_1_index_2` (`P543`)
-//! - `actual_value_source_set_1_index_3` (`P543`)
-//! - `actual_value_source_set_1_index_4` (`P543`)
-//! - `actual_value_source_set_1_index_5` (`P543`)
-//! - `actual_value_source_set_2_index_1` (`P543`)
-//! - `actual_value_source_set_2_index_2` (`P543`)
-//! - `actual_value_source_set_2_index_3` (`P543`)
-//! - `actual_value_source_set_2_index_4` (`P543`)
-//! - `actual_value_source_set_2_index_5` (`P543`)
-//! - `actual_value_source_set_3_index_1` (`P543`)
-//! - `actual_value_source_set_3_index_2` (`P543`)
-//! - `actual_value_source_set_3_index_3` (`P543`)
-//! - `actual_value_source_set_3_index_4` (`P543`)
-//! - `actual_value_source_set_3_index_5` (`P543`)
-//! - `actual_value_source_set_4_index_1` (`P543`)
-//! - `actual_value_source_set_4_index_2` (`P543`)
-//! - `actual_value_source_set_4_index_3` (`P543`)
-//! - `actual_value_source_set_4_index_4` (`P543`)
-//! - `actual_value_source_set_4_index_5` (`P543`)
-//! - `setpoint_1_function` (`P546[1]`)
-//! - `setpoint_2_function` (`P546[2]`)
-//! - `setpoint_3_function` (`P546[3]`)
-//! - `setpoint_4_function` (`P546[4]`)
-//! - `setpoint_5_function` (`P546[5]`)
-//! - `p601` (`P601`)
-//! - `p607_index_1` (`P607`)
-//! - `p607_index_2` (`P607`)
-//! - `received_control_word` (`P740[1]`)
-//! - `received_setpoint_1` (`P740[2]`)
-//! - `received_setpoint_2` (`P740[3]`)
-//! - `received_setpoint_3` (`P740[4]`)
-//! - `received_setpoint_4` (`P740[5]`)
-//! - `received_setpoint_5` (`P740[6]`)
-//! - `sent_status_word` (`P741[1]`)
-//! - `sent_actual_value_1` (`P741[2]`)
-//! - `sent_actual_value_2` (`P741[3]`)
-//! - `sent_actual_value_3` (`P741[4]`)
-//! - `sent_actual_value_4` (`P741[5]`)
-//! - `sent_actual_value_5` (`P741[6]`)
+//! Documented only, as the documentation explains; one with an address is reached by it, as raw words:
+//! - `acceleration_time_set_1`, `P102`, holding 1980h (6528)
+//! - `acceleration_time_set_2`, `P102`, holding 1981h (6529)
+//! - `acceleration_time_set_3`, `P102`, holding 1982h (6530)
+//! - `acceleration_time_set_4`, `P102`, holding 1983h (6531)
+//! - `maximum_frequency`, `P103`, holding 19C0h (6592)
+//! - `bus_bit_8_function`, `P480[11]`
+//! - `bus_bit_9_function`, `P480[12]`
+//! - `bus_bit_10_function`, `P481[9]`
+//! - `bus_bit_13_function`, `P481[10]`
+//! - `p502`, `P502`, holding 7D80h (32128)
+//! - `control_word_source`, `P509`, holding 7F40h (32576)
+//! - `uss_baud_rate`, `P511`, holding 7FC0h (32704)
+//! - `uss_address`, `P512`, holding 8000h (32768)
+//! - `p513_index_2`, `P513[2]`
+//! - `actual_value_source_set_1_index_1`, `P543`, holding 87C0h (34752) index 1
+//! - `actual_value_source_set_1_index_2`, `P543`, holding 87C4h (34756) index 2
+//! - `actual_value_source_set_1_index_3`, `P543`, holding 87C8h (34760) index 3
+//! - `actual_value_source_set_1_index_4`, `P543`, holding 87CCh (34764) index 4
+//! - `actual_value_source_set_1_index_5`, `P543`, holding 87D0h (34768) index 5
+//! - `actual_value_source_set_2_index_1`, `P543`, holding 87C1h (34753) index 1
+//! - `actual_value_source_set_2_index_2`, `P543`, holding 87C5h (34757) index 2
+//! - `actual_value_source_set_2_index_3`, `P543`, holding 87C9h (34761) index 3
+//! - `actual_value_source_set_2_index_4`, `P543`, holding 87CDh (34765) index 4
+//! - `actual_value_source_set_2_index_5`, `P543`, holding 87D1h (34769) index 5
+//! - `actual_value_source_set_3_index_1`, `P543`, holding 87C2h (34754) index 1
+//! - `actual_value_source_set_3_index_2`, `P543`, holding 87C6h (34758) index 2
+//! - `actual_value_source_set_3_index_3`, `P543`, holding 87CAh (34762) index 3
+//! - `actual_value_source_set_3_index_4`, `P543`, holding 87CEh (34766) index 4
+//! - `actual_value_source_set_3_index_5`, `P543`, holding 87D2h (34770) index 5
+//! - `actual_value_source_set_4_index_1`, `P543`, holding 87C3h (34755) index 1
+//! - `actual_value_source_set_4_index_2`, `P543`, holding 87C7h (34759) index 2
+//! - `actual_value_source_set_4_index_3`, `P543`, holding 87CBh (34763) index 3
+//! - `actual_value_source_set_4_index_4`, `P543`, holding 87CFh (34767) index 4
+//! - `actual_value_source_set_4_index_5`, `P543`, holding 87D3h (34771) index 5
+//! - `setpoint_1_function`, `P546[1]`, holding 8880h (34944) index 1
+//! - `setpoint_2_function`, `P546[2]`
+//! - `setpoint_3_function`, `P546[3]`
+//! - `setpoint_4_function`, `P546[4]`
+//! - `setpoint_5_function`, `P546[5]`
+//! - `p601`, `P601`, holding 9640h (38464)
+//! - `p607_index_1`, `P607`, holding 97C0h (38848) index 1
+//! - `p607_index_2`, `P607`, holding 97C1h (38849) index 2
+//! - `received_control_word`, `P740[1]`, holding B900h (47360) index 1
+//! - `received_setpoint_1`, `P740[2]`
+//! - `received_setpoint_2`, `P740[3]`
+//! - `received_setpoint_3`, `P740[4]`
+//! - `received_setpoint_4`, `P740[5]`
+//! - `received_setpoint_5`, `P740[6]`
+//! - `sent_status_word`, `P741[1]`, holding B940h (47424) index 1
+//! - `sent_actual_value_1`, `P741[2]`
+//! - `sent_actual_value_2`, `P741[3]`
+//! - `sent_actual_value_3`, `P741[4]`
+//! - `sent_actual_value_4`, `P741[5]`
+//! - `sent_actual_value_5`, `P741[6]`
 
 use fieldscribe_runtime as runtime;
 use fieldscribe_runtime::arithmetic;

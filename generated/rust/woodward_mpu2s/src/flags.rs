@@ -3,12 +3,25 @@
 // SPDX-License-Identifier: 0BSD
 
 //! Words whose bits have names.
+//!
+//! Functions speak of what is true, whatever the bit is then: [`ALL_FALSE`] and `with_` functions make a word. The
+//! constants are bits; setting the bit of one that ends in `_ACTIVE_LOW` makes what it names false.
+//!
+//! [`ALL_FALSE`]: PresentFaultClasses::ALL_FALSE
+
+use core::fmt;
+
+use fieldscribe_runtime::flags as runtime;
 
 /// Present fault classes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct PresentFaultClasses(pub u16);
 
 impl PresentFaultClasses {
+    /// The word in which nothing is true and every number is 0.
+    pub const ALL_FALSE: Self = Self(0);
     /// The bits of: Fault class 3.
     pub const FAULT_CLASS_3: u16 = 0x00C0;
     /// Inactive.
@@ -35,12 +48,14 @@ impl PresentFaultClasses {
     pub const FAULT_CLASS_0_ACTIVE: u16 = 3;
 
     /// Fault class 3.
+    ///
+    /// A number.
     #[must_use]
     pub const fn fault_class_3(self) -> u16 {
         (self.0 & Self::FAULT_CLASS_3) >> 6
     }
 
-    /// The same word with another state of: Fault class 3.
+    /// The same word with another number of: Fault class 3.
     #[must_use]
     pub const fn with_fault_class_3(self, number: u16) -> Self {
         let mask = Self::FAULT_CLASS_3;
@@ -48,12 +63,14 @@ impl PresentFaultClasses {
     }
 
     /// Fault class 2.
+    ///
+    /// A number.
     #[must_use]
     pub const fn fault_class_2(self) -> u16 {
         (self.0 & Self::FAULT_CLASS_2) >> 4
     }
 
-    /// The same word with another state of: Fault class 2.
+    /// The same word with another number of: Fault class 2.
     #[must_use]
     pub const fn with_fault_class_2(self, number: u16) -> Self {
         let mask = Self::FAULT_CLASS_2;
@@ -61,12 +78,14 @@ impl PresentFaultClasses {
     }
 
     /// Fault class 1.
+    ///
+    /// A number.
     #[must_use]
     pub const fn fault_class_1(self) -> u16 {
         (self.0 & Self::FAULT_CLASS_1) >> 2
     }
 
-    /// The same word with another state of: Fault class 1.
+    /// The same word with another number of: Fault class 1.
     #[must_use]
     pub const fn with_fault_class_1(self, number: u16) -> Self {
         let mask = Self::FAULT_CLASS_1;
@@ -74,16 +93,44 @@ impl PresentFaultClasses {
     }
 
     /// Fault class 0.
+    ///
+    /// A number.
     #[must_use]
     pub const fn fault_class_0(self) -> u16 {
         self.0 & Self::FAULT_CLASS_0
     }
 
-    /// The same word with another state of: Fault class 0.
+    /// The same word with another number of: Fault class 0.
     #[must_use]
     pub const fn with_fault_class_0(self, number: u16) -> Self {
         let mask = Self::FAULT_CLASS_0;
         Self((self.0 & !mask) | (number & mask))
+    }
+}
+
+impl runtime::Flags for PresentFaultClasses {
+    const NAME: &'static str = "PresentFaultClasses";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("fault_class_3", 0x00C0),
+        runtime::Flag::new("fault_class_2", 0x0030),
+        runtime::Flag::new("fault_class_1", 0x000C),
+        runtime::Flag::new("fault_class_0", 0x0003),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for PresentFaultClasses {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for PresentFaultClasses {
+    fn default() -> Self {
+        Self::ALL_FALSE
     }
 }
 
@@ -102,10 +149,14 @@ impl From<PresentFaultClasses> for u16 {
 }
 
 /// Control register 2.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct ControlRegister2(pub u16);
 
 impl ControlRegister2 {
+    /// The word in which nothing is true and every number is 0.
+    pub const ALL_FALSE: Self = Self(0);
     /// The bits of: Terminal 3 generator breaker enable.
     pub const TERMINAL_3_GENERATOR_BREAKER_ENABLE: u16 = 0xC000;
     /// Inactive.
@@ -138,12 +189,14 @@ impl ControlRegister2 {
     pub const TERMINAL_6_SYNCHRONISATION_ON_ACTIVE: u16 = 3;
 
     /// Terminal 3 generator breaker enable.
+    ///
+    /// A number.
     #[must_use]
     pub const fn terminal_3_generator_breaker_enable(self) -> u16 {
         (self.0 & Self::TERMINAL_3_GENERATOR_BREAKER_ENABLE) >> 14
     }
 
-    /// The same word with another state of: Terminal 3 generator breaker enable.
+    /// The same word with another number of: Terminal 3 generator breaker enable.
     #[must_use]
     pub const fn with_terminal_3_generator_breaker_enable(self, number: u16) -> Self {
         let mask = Self::TERMINAL_3_GENERATOR_BREAKER_ENABLE;
@@ -151,12 +204,14 @@ impl ControlRegister2 {
     }
 
     /// Terminal 5 generator breaker closed.
+    ///
+    /// A number.
     #[must_use]
     pub const fn terminal_5_generator_breaker_closed(self) -> u16 {
         (self.0 & Self::TERMINAL_5_GENERATOR_BREAKER_CLOSED) >> 12
     }
 
-    /// The same word with another state of: Terminal 5 generator breaker closed.
+    /// The same word with another number of: Terminal 5 generator breaker closed.
     #[must_use]
     pub const fn with_terminal_5_generator_breaker_closed(self, number: u16) -> Self {
         let mask = Self::TERMINAL_5_GENERATOR_BREAKER_CLOSED;
@@ -164,12 +219,14 @@ impl ControlRegister2 {
     }
 
     /// Terminal 4 breaker open.
+    ///
+    /// A number.
     #[must_use]
     pub const fn terminal_4_breaker_open(self) -> u16 {
         (self.0 & Self::TERMINAL_4_BREAKER_OPEN) >> 6
     }
 
-    /// The same word with another state of: Terminal 4 breaker open.
+    /// The same word with another number of: Terminal 4 breaker open.
     #[must_use]
     pub const fn with_terminal_4_breaker_open(self, number: u16) -> Self {
         let mask = Self::TERMINAL_4_BREAKER_OPEN;
@@ -177,12 +234,14 @@ impl ControlRegister2 {
     }
 
     /// Terminal 54 mains parallel.
+    ///
+    /// A number.
     #[must_use]
     pub const fn terminal_54_mains_parallel(self) -> u16 {
         (self.0 & Self::TERMINAL_54_MAINS_PARALLEL) >> 4
     }
 
-    /// The same word with another state of: Terminal 54 mains parallel.
+    /// The same word with another number of: Terminal 54 mains parallel.
     #[must_use]
     pub const fn with_terminal_54_mains_parallel(self, number: u16) -> Self {
         let mask = Self::TERMINAL_54_MAINS_PARALLEL;
@@ -190,16 +249,45 @@ impl ControlRegister2 {
     }
 
     /// Terminal 6 synchronisation on.
+    ///
+    /// A number.
     #[must_use]
     pub const fn terminal_6_synchronisation_on(self) -> u16 {
         (self.0 & Self::TERMINAL_6_SYNCHRONISATION_ON) >> 2
     }
 
-    /// The same word with another state of: Terminal 6 synchronisation on.
+    /// The same word with another number of: Terminal 6 synchronisation on.
     #[must_use]
     pub const fn with_terminal_6_synchronisation_on(self, number: u16) -> Self {
         let mask = Self::TERMINAL_6_SYNCHRONISATION_ON;
         Self((self.0 & !mask) | ((number << 2) & mask))
+    }
+}
+
+impl runtime::Flags for ControlRegister2 {
+    const NAME: &'static str = "ControlRegister2";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("terminal_3_generator_breaker_enable", 0xC000),
+        runtime::Flag::new("terminal_5_generator_breaker_closed", 0x3000),
+        runtime::Flag::new("terminal_4_breaker_open", 0x00C0),
+        runtime::Flag::new("terminal_54_mains_parallel", 0x0030),
+        runtime::Flag::new("terminal_6_synchronisation_on", 0x000C),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for ControlRegister2 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for ControlRegister2 {
+    fn default() -> Self {
+        Self::ALL_FALSE
     }
 }
 
@@ -218,10 +306,14 @@ impl From<ControlRegister2> for u16 {
 }
 
 /// Control register 1.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct ControlRegister1(pub u16);
 
 impl ControlRegister1 {
+    /// The word in which nothing is true and every number is 0.
+    pub const ALL_FALSE: Self = Self(0);
     /// The bits of: Acknowledge f2 f3.
     pub const ACKNOWLEDGE_F2_F3: u16 = 0x0C00;
     /// Inactive.
@@ -236,12 +328,14 @@ impl ControlRegister1 {
     pub const ACKNOWLEDGE_F1_ACTIVE: u16 = 3;
 
     /// Acknowledge f2 f3.
+    ///
+    /// A number.
     #[must_use]
     pub const fn acknowledge_f2_f3(self) -> u16 {
         (self.0 & Self::ACKNOWLEDGE_F2_F3) >> 10
     }
 
-    /// The same word with another state of: Acknowledge f2 f3.
+    /// The same word with another number of: Acknowledge f2 f3.
     #[must_use]
     pub const fn with_acknowledge_f2_f3(self, number: u16) -> Self {
         let mask = Self::ACKNOWLEDGE_F2_F3;
@@ -249,16 +343,42 @@ impl ControlRegister1 {
     }
 
     /// Acknowledge f1.
+    ///
+    /// A number.
     #[must_use]
     pub const fn acknowledge_f1(self) -> u16 {
         (self.0 & Self::ACKNOWLEDGE_F1) >> 8
     }
 
-    /// The same word with another state of: Acknowledge f1.
+    /// The same word with another number of: Acknowledge f1.
     #[must_use]
     pub const fn with_acknowledge_f1(self, number: u16) -> Self {
         let mask = Self::ACKNOWLEDGE_F1;
         Self((self.0 & !mask) | ((number << 8) & mask))
+    }
+}
+
+impl runtime::Flags for ControlRegister1 {
+    const NAME: &'static str = "ControlRegister1";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("acknowledge_f2_f3", 0x0C00),
+        runtime::Flag::new("acknowledge_f1", 0x0300),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for ControlRegister1 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for ControlRegister1 {
+    fn default() -> Self {
+        Self::ALL_FALSE
     }
 }
 
@@ -277,10 +397,14 @@ impl From<ControlRegister1> for u16 {
 }
 
 /// Internal faults 8.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct InternalFaults8(pub u16);
 
 impl InternalFaults8 {
+    /// The word in which nothing is true and every number is 0.
+    pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Generator overfrequency stage 2.
     pub const GENERATOR_OVERFREQUENCY_STAGE_2: u16 = 0x8000;
     /// The bit of: Generator underfrequency stage 2.
@@ -391,6 +515,34 @@ impl InternalFaults8 {
     }
 }
 
+impl runtime::Flags for InternalFaults8 {
+    const NAME: &'static str = "InternalFaults8";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("generator_overfrequency_stage_2", 0x8000),
+        runtime::Flag::new("generator_underfrequency_stage_2", 0x4000),
+        runtime::Flag::new("generator_overvoltage_stage_2", 0x2000),
+        runtime::Flag::new("generator_undervoltage_stage_2", 0x1000),
+        runtime::Flag::new("reactive_power_inductive", 0x0800),
+        runtime::Flag::new("reactive_power_capacitive", 0x0400),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for InternalFaults8 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for InternalFaults8 {
+    fn default() -> Self {
+        Self::ALL_FALSE
+    }
+}
+
 impl From<u16> for InternalFaults8 {
     #[inline]
     fn from(raw: u16) -> Self {
@@ -406,10 +558,14 @@ impl From<InternalFaults8> for u16 {
 }
 
 /// Internal faults 6.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct InternalFaults6(pub u16);
 
 impl InternalFaults6 {
+    /// The word in which nothing is true and every number is 0.
+    pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Analog input 8 wire break.
     pub const ANALOG_INPUT_8_WIRE_BREAK: u16 = 0x0080;
     /// The bit of: Analog input 7 wire break.
@@ -556,6 +712,36 @@ impl InternalFaults6 {
     }
 }
 
+impl runtime::Flags for InternalFaults6 {
+    const NAME: &'static str = "InternalFaults6";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("analog_input_8_wire_break", 0x0080),
+        runtime::Flag::new("analog_input_7_wire_break", 0x0040),
+        runtime::Flag::new("analog_input_6_wire_break", 0x0020),
+        runtime::Flag::new("analog_input_5_wire_break", 0x0010),
+        runtime::Flag::new("analog_input_4_wire_break", 0x0008),
+        runtime::Flag::new("analog_input_3_wire_break", 0x0004),
+        runtime::Flag::new("analog_input_2_wire_break", 0x0002),
+        runtime::Flag::new("analog_input_1_wire_break", 0x0001),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for InternalFaults6 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for InternalFaults6 {
+    fn default() -> Self {
+        Self::ALL_FALSE
+    }
+}
+
 impl From<u16> for InternalFaults6 {
     #[inline]
     fn from(raw: u16) -> Self {
@@ -571,10 +757,14 @@ impl From<InternalFaults6> for u16 {
 }
 
 /// Internal faults 1.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct InternalFaults1(pub u16);
 
 impl InternalFaults1 {
+    /// The word in which nothing is true and every number is 0.
+    pub const ALL_FALSE: Self = Self(0);
     /// The bits of: Generator overfrequency 1.
     pub const GENERATOR_OVERFREQUENCY_1: u16 = 0xC000;
     /// Inactive.
@@ -619,12 +809,14 @@ impl InternalFaults1 {
     pub const REVERSE_POWER_ACTIVE: u16 = 3;
 
     /// Generator overfrequency 1.
+    ///
+    /// A number.
     #[must_use]
     pub const fn generator_overfrequency_1(self) -> u16 {
         (self.0 & Self::GENERATOR_OVERFREQUENCY_1) >> 14
     }
 
-    /// The same word with another state of: Generator overfrequency 1.
+    /// The same word with another number of: Generator overfrequency 1.
     #[must_use]
     pub const fn with_generator_overfrequency_1(self, number: u16) -> Self {
         let mask = Self::GENERATOR_OVERFREQUENCY_1;
@@ -632,12 +824,14 @@ impl InternalFaults1 {
     }
 
     /// Generator underfrequency 1.
+    ///
+    /// A number.
     #[must_use]
     pub const fn generator_underfrequency_1(self) -> u16 {
         (self.0 & Self::GENERATOR_UNDERFREQUENCY_1) >> 12
     }
 
-    /// The same word with another state of: Generator underfrequency 1.
+    /// The same word with another number of: Generator underfrequency 1.
     #[must_use]
     pub const fn with_generator_underfrequency_1(self, number: u16) -> Self {
         let mask = Self::GENERATOR_UNDERFREQUENCY_1;
@@ -645,12 +839,14 @@ impl InternalFaults1 {
     }
 
     /// Generator overvoltage 1.
+    ///
+    /// A number.
     #[must_use]
     pub const fn generator_overvoltage_1(self) -> u16 {
         (self.0 & Self::GENERATOR_OVERVOLTAGE_1) >> 10
     }
 
-    /// The same word with another state of: Generator overvoltage 1.
+    /// The same word with another number of: Generator overvoltage 1.
     #[must_use]
     pub const fn with_generator_overvoltage_1(self, number: u16) -> Self {
         let mask = Self::GENERATOR_OVERVOLTAGE_1;
@@ -658,12 +854,14 @@ impl InternalFaults1 {
     }
 
     /// Generator undervoltage 1.
+    ///
+    /// A number.
     #[must_use]
     pub const fn generator_undervoltage_1(self) -> u16 {
         (self.0 & Self::GENERATOR_UNDERVOLTAGE_1) >> 8
     }
 
-    /// The same word with another state of: Generator undervoltage 1.
+    /// The same word with another number of: Generator undervoltage 1.
     #[must_use]
     pub const fn with_generator_undervoltage_1(self, number: u16) -> Self {
         let mask = Self::GENERATOR_UNDERVOLTAGE_1;
@@ -671,12 +869,14 @@ impl InternalFaults1 {
     }
 
     /// Battery undervoltage.
+    ///
+    /// A number.
     #[must_use]
     pub const fn battery_undervoltage(self) -> u16 {
         (self.0 & Self::BATTERY_UNDERVOLTAGE) >> 4
     }
 
-    /// The same word with another state of: Battery undervoltage.
+    /// The same word with another number of: Battery undervoltage.
     #[must_use]
     pub const fn with_battery_undervoltage(self, number: u16) -> Self {
         let mask = Self::BATTERY_UNDERVOLTAGE;
@@ -684,12 +884,14 @@ impl InternalFaults1 {
     }
 
     /// Overload.
+    ///
+    /// A number.
     #[must_use]
     pub const fn overload(self) -> u16 {
         (self.0 & Self::OVERLOAD) >> 2
     }
 
-    /// The same word with another state of: Overload.
+    /// The same word with another number of: Overload.
     #[must_use]
     pub const fn with_overload(self, number: u16) -> Self {
         let mask = Self::OVERLOAD;
@@ -697,16 +899,47 @@ impl InternalFaults1 {
     }
 
     /// Reverse power.
+    ///
+    /// A number.
     #[must_use]
     pub const fn reverse_power(self) -> u16 {
         self.0 & Self::REVERSE_POWER
     }
 
-    /// The same word with another state of: Reverse power.
+    /// The same word with another number of: Reverse power.
     #[must_use]
     pub const fn with_reverse_power(self, number: u16) -> Self {
         let mask = Self::REVERSE_POWER;
         Self((self.0 & !mask) | (number & mask))
+    }
+}
+
+impl runtime::Flags for InternalFaults1 {
+    const NAME: &'static str = "InternalFaults1";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("generator_overfrequency_1", 0xC000),
+        runtime::Flag::new("generator_underfrequency_1", 0x3000),
+        runtime::Flag::new("generator_overvoltage_1", 0x0C00),
+        runtime::Flag::new("generator_undervoltage_1", 0x0300),
+        runtime::Flag::new("battery_undervoltage", 0x0030),
+        runtime::Flag::new("overload", 0x000C),
+        runtime::Flag::new("reverse_power", 0x0003),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for InternalFaults1 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for InternalFaults1 {
+    fn default() -> Self {
+        Self::ALL_FALSE
     }
 }
 
@@ -725,10 +958,14 @@ impl From<InternalFaults1> for u16 {
 }
 
 /// Internal faults 2.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct InternalFaults2(pub u16);
 
 impl InternalFaults2 {
+    /// The word in which nothing is true and every number is 0.
+    pub const ALL_FALSE: Self = Self(0);
     /// The bits of: Mains overfrequency.
     pub const MAINS_OVERFREQUENCY: u16 = 0xC000;
     /// Inactive.
@@ -773,12 +1010,14 @@ impl InternalFaults2 {
     pub const PHASE_SHIFT_ACTIVE: u16 = 3;
 
     /// Mains overfrequency.
+    ///
+    /// A number.
     #[must_use]
     pub const fn mains_overfrequency(self) -> u16 {
         (self.0 & Self::MAINS_OVERFREQUENCY) >> 14
     }
 
-    /// The same word with another state of: Mains overfrequency.
+    /// The same word with another number of: Mains overfrequency.
     #[must_use]
     pub const fn with_mains_overfrequency(self, number: u16) -> Self {
         let mask = Self::MAINS_OVERFREQUENCY;
@@ -786,12 +1025,14 @@ impl InternalFaults2 {
     }
 
     /// Mains underfrequency.
+    ///
+    /// A number.
     #[must_use]
     pub const fn mains_underfrequency(self) -> u16 {
         (self.0 & Self::MAINS_UNDERFREQUENCY) >> 12
     }
 
-    /// The same word with another state of: Mains underfrequency.
+    /// The same word with another number of: Mains underfrequency.
     #[must_use]
     pub const fn with_mains_underfrequency(self, number: u16) -> Self {
         let mask = Self::MAINS_UNDERFREQUENCY;
@@ -799,12 +1040,14 @@ impl InternalFaults2 {
     }
 
     /// Mains overvoltage.
+    ///
+    /// A number.
     #[must_use]
     pub const fn mains_overvoltage(self) -> u16 {
         (self.0 & Self::MAINS_OVERVOLTAGE) >> 10
     }
 
-    /// The same word with another state of: Mains overvoltage.
+    /// The same word with another number of: Mains overvoltage.
     #[must_use]
     pub const fn with_mains_overvoltage(self, number: u16) -> Self {
         let mask = Self::MAINS_OVERVOLTAGE;
@@ -812,12 +1055,14 @@ impl InternalFaults2 {
     }
 
     /// Mains undervoltage.
+    ///
+    /// A number.
     #[must_use]
     pub const fn mains_undervoltage(self) -> u16 {
         (self.0 & Self::MAINS_UNDERVOLTAGE) >> 8
     }
 
-    /// The same word with another state of: Mains undervoltage.
+    /// The same word with another number of: Mains undervoltage.
     #[must_use]
     pub const fn with_mains_undervoltage(self, number: u16) -> Self {
         let mask = Self::MAINS_UNDERVOLTAGE;
@@ -825,12 +1070,14 @@ impl InternalFaults2 {
     }
 
     /// Interface x1 x5 fault.
+    ///
+    /// A number.
     #[must_use]
     pub const fn interface_x1_x5_fault(self) -> u16 {
         (self.0 & Self::INTERFACE_X1_X5_FAULT) >> 6
     }
 
-    /// The same word with another state of: Interface x1 x5 fault.
+    /// The same word with another number of: Interface x1 x5 fault.
     #[must_use]
     pub const fn with_interface_x1_x5_fault(self, number: u16) -> Self {
         let mask = Self::INTERFACE_X1_X5_FAULT;
@@ -838,12 +1085,14 @@ impl InternalFaults2 {
     }
 
     /// Frequency gradient fault.
+    ///
+    /// A number.
     #[must_use]
     pub const fn frequency_gradient_fault(self) -> u16 {
         (self.0 & Self::FREQUENCY_GRADIENT_FAULT) >> 2
     }
 
-    /// The same word with another state of: Frequency gradient fault.
+    /// The same word with another number of: Frequency gradient fault.
     #[must_use]
     pub const fn with_frequency_gradient_fault(self, number: u16) -> Self {
         let mask = Self::FREQUENCY_GRADIENT_FAULT;
@@ -851,16 +1100,47 @@ impl InternalFaults2 {
     }
 
     /// Phase shift.
+    ///
+    /// A number.
     #[must_use]
     pub const fn phase_shift(self) -> u16 {
         self.0 & Self::PHASE_SHIFT
     }
 
-    /// The same word with another state of: Phase shift.
+    /// The same word with another number of: Phase shift.
     #[must_use]
     pub const fn with_phase_shift(self, number: u16) -> Self {
         let mask = Self::PHASE_SHIFT;
         Self((self.0 & !mask) | (number & mask))
+    }
+}
+
+impl runtime::Flags for InternalFaults2 {
+    const NAME: &'static str = "InternalFaults2";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("mains_overfrequency", 0xC000),
+        runtime::Flag::new("mains_underfrequency", 0x3000),
+        runtime::Flag::new("mains_overvoltage", 0x0C00),
+        runtime::Flag::new("mains_undervoltage", 0x0300),
+        runtime::Flag::new("interface_x1_x5_fault", 0x00C0),
+        runtime::Flag::new("frequency_gradient_fault", 0x000C),
+        runtime::Flag::new("phase_shift", 0x0003),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for InternalFaults2 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for InternalFaults2 {
+    fn default() -> Self {
+        Self::ALL_FALSE
     }
 }
 
@@ -879,10 +1159,14 @@ impl From<InternalFaults2> for u16 {
 }
 
 /// Internal faults 3.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct InternalFaults3(pub u16);
 
 impl InternalFaults3 {
+    /// The word in which nothing is true and every number is 0.
+    pub const ALL_FALSE: Self = Self(0);
     /// The bits of: Generator overcurrent stage 1.
     pub const GENERATOR_OVERCURRENT_STAGE_1: u16 = 0xC000;
     /// Inactive.
@@ -915,12 +1199,14 @@ impl InternalFaults3 {
     pub const MAINTENANCE_CALL_ACTIVE: u16 = 3;
 
     /// Generator overcurrent stage 1.
+    ///
+    /// A number.
     #[must_use]
     pub const fn generator_overcurrent_stage_1(self) -> u16 {
         (self.0 & Self::GENERATOR_OVERCURRENT_STAGE_1) >> 14
     }
 
-    /// The same word with another state of: Generator overcurrent stage 1.
+    /// The same word with another number of: Generator overcurrent stage 1.
     #[must_use]
     pub const fn with_generator_overcurrent_stage_1(self, number: u16) -> Self {
         let mask = Self::GENERATOR_OVERCURRENT_STAGE_1;
@@ -928,12 +1214,14 @@ impl InternalFaults3 {
     }
 
     /// Unbalanced load.
+    ///
+    /// A number.
     #[must_use]
     pub const fn unbalanced_load(self) -> u16 {
         (self.0 & Self::UNBALANCED_LOAD) >> 8
     }
 
-    /// The same word with another state of: Unbalanced load.
+    /// The same word with another number of: Unbalanced load.
     #[must_use]
     pub const fn with_unbalanced_load(self, number: u16) -> Self {
         let mask = Self::UNBALANCED_LOAD;
@@ -941,12 +1229,14 @@ impl InternalFaults3 {
     }
 
     /// Generator overcurrent stage 2.
+    ///
+    /// A number.
     #[must_use]
     pub const fn generator_overcurrent_stage_2(self) -> u16 {
         (self.0 & Self::GENERATOR_OVERCURRENT_STAGE_2) >> 6
     }
 
-    /// The same word with another state of: Generator overcurrent stage 2.
+    /// The same word with another number of: Generator overcurrent stage 2.
     #[must_use]
     pub const fn with_generator_overcurrent_stage_2(self, number: u16) -> Self {
         let mask = Self::GENERATOR_OVERCURRENT_STAGE_2;
@@ -954,12 +1244,14 @@ impl InternalFaults3 {
     }
 
     /// Interface y1 y5 fault.
+    ///
+    /// A number.
     #[must_use]
     pub const fn interface_y1_y5_fault(self) -> u16 {
         (self.0 & Self::INTERFACE_Y1_Y5_FAULT) >> 4
     }
 
-    /// The same word with another state of: Interface y1 y5 fault.
+    /// The same word with another number of: Interface y1 y5 fault.
     #[must_use]
     pub const fn with_interface_y1_y5_fault(self, number: u16) -> Self {
         let mask = Self::INTERFACE_Y1_Y5_FAULT;
@@ -967,16 +1259,45 @@ impl InternalFaults3 {
     }
 
     /// Maintenance call.
+    ///
+    /// A number.
     #[must_use]
     pub const fn maintenance_call(self) -> u16 {
         (self.0 & Self::MAINTENANCE_CALL) >> 2
     }
 
-    /// The same word with another state of: Maintenance call.
+    /// The same word with another number of: Maintenance call.
     #[must_use]
     pub const fn with_maintenance_call(self, number: u16) -> Self {
         let mask = Self::MAINTENANCE_CALL;
         Self((self.0 & !mask) | ((number << 2) & mask))
+    }
+}
+
+impl runtime::Flags for InternalFaults3 {
+    const NAME: &'static str = "InternalFaults3";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("generator_overcurrent_stage_1", 0xC000),
+        runtime::Flag::new("unbalanced_load", 0x0300),
+        runtime::Flag::new("generator_overcurrent_stage_2", 0x00C0),
+        runtime::Flag::new("interface_y1_y5_fault", 0x0030),
+        runtime::Flag::new("maintenance_call", 0x000C),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for InternalFaults3 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for InternalFaults3 {
+    fn default() -> Self {
+        Self::ALL_FALSE
     }
 }
 
@@ -995,10 +1316,14 @@ impl From<InternalFaults3> for u16 {
 }
 
 /// Internal faults 4.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct InternalFaults4(pub u16);
 
 impl InternalFaults4 {
+    /// The word in which nothing is true and every number is 0.
+    pub const ALL_FALSE: Self = Self(0);
     /// The bits of: Analog input 1 stage 1.
     pub const ANALOG_INPUT_1_STAGE_1: u16 = 0xC000;
     /// Inactive.
@@ -1049,12 +1374,14 @@ impl InternalFaults4 {
     pub const ANALOG_INPUT_4_STAGE_2_ACTIVE: u16 = 3;
 
     /// Analog input 1 stage 1.
+    ///
+    /// A number.
     #[must_use]
     pub const fn analog_input_1_stage_1(self) -> u16 {
         (self.0 & Self::ANALOG_INPUT_1_STAGE_1) >> 14
     }
 
-    /// The same word with another state of: Analog input 1 stage 1.
+    /// The same word with another number of: Analog input 1 stage 1.
     #[must_use]
     pub const fn with_analog_input_1_stage_1(self, number: u16) -> Self {
         let mask = Self::ANALOG_INPUT_1_STAGE_1;
@@ -1062,12 +1389,14 @@ impl InternalFaults4 {
     }
 
     /// Analog input 1 stage 2.
+    ///
+    /// A number.
     #[must_use]
     pub const fn analog_input_1_stage_2(self) -> u16 {
         (self.0 & Self::ANALOG_INPUT_1_STAGE_2) >> 12
     }
 
-    /// The same word with another state of: Analog input 1 stage 2.
+    /// The same word with another number of: Analog input 1 stage 2.
     #[must_use]
     pub const fn with_analog_input_1_stage_2(self, number: u16) -> Self {
         let mask = Self::ANALOG_INPUT_1_STAGE_2;
@@ -1075,12 +1404,14 @@ impl InternalFaults4 {
     }
 
     /// Analog input 2 stage 1.
+    ///
+    /// A number.
     #[must_use]
     pub const fn analog_input_2_stage_1(self) -> u16 {
         (self.0 & Self::ANALOG_INPUT_2_STAGE_1) >> 10
     }
 
-    /// The same word with another state of: Analog input 2 stage 1.
+    /// The same word with another number of: Analog input 2 stage 1.
     #[must_use]
     pub const fn with_analog_input_2_stage_1(self, number: u16) -> Self {
         let mask = Self::ANALOG_INPUT_2_STAGE_1;
@@ -1088,12 +1419,14 @@ impl InternalFaults4 {
     }
 
     /// Analog input 2 stage 2.
+    ///
+    /// A number.
     #[must_use]
     pub const fn analog_input_2_stage_2(self) -> u16 {
         (self.0 & Self::ANALOG_INPUT_2_STAGE_2) >> 8
     }
 
-    /// The same word with another state of: Analog input 2 stage 2.
+    /// The same word with another number of: Analog input 2 stage 2.
     #[must_use]
     pub const fn with_analog_input_2_stage_2(self, number: u16) -> Self {
         let mask = Self::ANALOG_INPUT_2_STAGE_2;
@@ -1101,12 +1434,14 @@ impl InternalFaults4 {
     }
 
     /// Analog input 3 stage 1.
+    ///
+    /// A number.
     #[must_use]
     pub const fn analog_input_3_stage_1(self) -> u16 {
         (self.0 & Self::ANALOG_INPUT_3_STAGE_1) >> 6
     }
 
-    /// The same word with another state of: Analog input 3 stage 1.
+    /// The same word with another number of: Analog input 3 stage 1.
     #[must_use]
     pub const fn with_analog_input_3_stage_1(self, number: u16) -> Self {
         let mask = Self::ANALOG_INPUT_3_STAGE_1;
@@ -1114,12 +1449,14 @@ impl InternalFaults4 {
     }
 
     /// Analog input 3 stage 2.
+    ///
+    /// A number.
     #[must_use]
     pub const fn analog_input_3_stage_2(self) -> u16 {
         (self.0 & Self::ANALOG_INPUT_3_STAGE_2) >> 4
     }
 
-    /// The same word with another state of: Analog input 3 stage 2.
+    /// The same word with another number of: Analog input 3 stage 2.
     #[must_use]
     pub const fn with_analog_input_3_stage_2(self, number: u16) -> Self {
         let mask = Self::ANALOG_INPUT_3_STAGE_2;
@@ -1127,12 +1464,14 @@ impl InternalFaults4 {
     }
 
     /// Analog input 4 stage 1.
+    ///
+    /// A number.
     #[must_use]
     pub const fn analog_input_4_stage_1(self) -> u16 {
         (self.0 & Self::ANALOG_INPUT_4_STAGE_1) >> 2
     }
 
-    /// The same word with another state of: Analog input 4 stage 1.
+    /// The same word with another number of: Analog input 4 stage 1.
     #[must_use]
     pub const fn with_analog_input_4_stage_1(self, number: u16) -> Self {
         let mask = Self::ANALOG_INPUT_4_STAGE_1;
@@ -1140,16 +1479,48 @@ impl InternalFaults4 {
     }
 
     /// Analog input 4 stage 2.
+    ///
+    /// A number.
     #[must_use]
     pub const fn analog_input_4_stage_2(self) -> u16 {
         self.0 & Self::ANALOG_INPUT_4_STAGE_2
     }
 
-    /// The same word with another state of: Analog input 4 stage 2.
+    /// The same word with another number of: Analog input 4 stage 2.
     #[must_use]
     pub const fn with_analog_input_4_stage_2(self, number: u16) -> Self {
         let mask = Self::ANALOG_INPUT_4_STAGE_2;
         Self((self.0 & !mask) | (number & mask))
+    }
+}
+
+impl runtime::Flags for InternalFaults4 {
+    const NAME: &'static str = "InternalFaults4";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("analog_input_1_stage_1", 0xC000),
+        runtime::Flag::new("analog_input_1_stage_2", 0x3000),
+        runtime::Flag::new("analog_input_2_stage_1", 0x0C00),
+        runtime::Flag::new("analog_input_2_stage_2", 0x0300),
+        runtime::Flag::new("analog_input_3_stage_1", 0x00C0),
+        runtime::Flag::new("analog_input_3_stage_2", 0x0030),
+        runtime::Flag::new("analog_input_4_stage_1", 0x000C),
+        runtime::Flag::new("analog_input_4_stage_2", 0x0003),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for InternalFaults4 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for InternalFaults4 {
+    fn default() -> Self {
+        Self::ALL_FALSE
     }
 }
 
@@ -1168,10 +1539,14 @@ impl From<InternalFaults4> for u16 {
 }
 
 /// Internal faults 5.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct InternalFaults5(pub u16);
 
 impl InternalFaults5 {
+    /// The word in which nothing is true and every number is 0.
+    pub const ALL_FALSE: Self = Self(0);
     /// The bits of: Analog input 5 stage 1.
     pub const ANALOG_INPUT_5_STAGE_1: u16 = 0xC000;
     /// Inactive.
@@ -1222,12 +1597,14 @@ impl InternalFaults5 {
     pub const ANALOG_INPUT_8_STAGE_2_ACTIVE: u16 = 3;
 
     /// Analog input 5 stage 1.
+    ///
+    /// A number.
     #[must_use]
     pub const fn analog_input_5_stage_1(self) -> u16 {
         (self.0 & Self::ANALOG_INPUT_5_STAGE_1) >> 14
     }
 
-    /// The same word with another state of: Analog input 5 stage 1.
+    /// The same word with another number of: Analog input 5 stage 1.
     #[must_use]
     pub const fn with_analog_input_5_stage_1(self, number: u16) -> Self {
         let mask = Self::ANALOG_INPUT_5_STAGE_1;
@@ -1235,12 +1612,14 @@ impl InternalFaults5 {
     }
 
     /// Analog input 5 stage 2.
+    ///
+    /// A number.
     #[must_use]
     pub const fn analog_input_5_stage_2(self) -> u16 {
         (self.0 & Self::ANALOG_INPUT_5_STAGE_2) >> 12
     }
 
-    /// The same word with another state of: Analog input 5 stage 2.
+    /// The same word with another number of: Analog input 5 stage 2.
     #[must_use]
     pub const fn with_analog_input_5_stage_2(self, number: u16) -> Self {
         let mask = Self::ANALOG_INPUT_5_STAGE_2;
@@ -1248,12 +1627,14 @@ impl InternalFaults5 {
     }
 
     /// Analog input 6 stage 1.
+    ///
+    /// A number.
     #[must_use]
     pub const fn analog_input_6_stage_1(self) -> u16 {
         (self.0 & Self::ANALOG_INPUT_6_STAGE_1) >> 10
     }
 
-    /// The same word with another state of: Analog input 6 stage 1.
+    /// The same word with another number of: Analog input 6 stage 1.
     #[must_use]
     pub const fn with_analog_input_6_stage_1(self, number: u16) -> Self {
         let mask = Self::ANALOG_INPUT_6_STAGE_1;
@@ -1261,12 +1642,14 @@ impl InternalFaults5 {
     }
 
     /// Analog input 6 stage 2.
+    ///
+    /// A number.
     #[must_use]
     pub const fn analog_input_6_stage_2(self) -> u16 {
         (self.0 & Self::ANALOG_INPUT_6_STAGE_2) >> 8
     }
 
-    /// The same word with another state of: Analog input 6 stage 2.
+    /// The same word with another number of: Analog input 6 stage 2.
     #[must_use]
     pub const fn with_analog_input_6_stage_2(self, number: u16) -> Self {
         let mask = Self::ANALOG_INPUT_6_STAGE_2;
@@ -1274,12 +1657,14 @@ impl InternalFaults5 {
     }
 
     /// Analog input 7 stage 1.
+    ///
+    /// A number.
     #[must_use]
     pub const fn analog_input_7_stage_1(self) -> u16 {
         (self.0 & Self::ANALOG_INPUT_7_STAGE_1) >> 6
     }
 
-    /// The same word with another state of: Analog input 7 stage 1.
+    /// The same word with another number of: Analog input 7 stage 1.
     #[must_use]
     pub const fn with_analog_input_7_stage_1(self, number: u16) -> Self {
         let mask = Self::ANALOG_INPUT_7_STAGE_1;
@@ -1287,12 +1672,14 @@ impl InternalFaults5 {
     }
 
     /// Analog input 7 stage 2.
+    ///
+    /// A number.
     #[must_use]
     pub const fn analog_input_7_stage_2(self) -> u16 {
         (self.0 & Self::ANALOG_INPUT_7_STAGE_2) >> 4
     }
 
-    /// The same word with another state of: Analog input 7 stage 2.
+    /// The same word with another number of: Analog input 7 stage 2.
     #[must_use]
     pub const fn with_analog_input_7_stage_2(self, number: u16) -> Self {
         let mask = Self::ANALOG_INPUT_7_STAGE_2;
@@ -1300,12 +1687,14 @@ impl InternalFaults5 {
     }
 
     /// Analog input 8 stage 1.
+    ///
+    /// A number.
     #[must_use]
     pub const fn analog_input_8_stage_1(self) -> u16 {
         (self.0 & Self::ANALOG_INPUT_8_STAGE_1) >> 2
     }
 
-    /// The same word with another state of: Analog input 8 stage 1.
+    /// The same word with another number of: Analog input 8 stage 1.
     #[must_use]
     pub const fn with_analog_input_8_stage_1(self, number: u16) -> Self {
         let mask = Self::ANALOG_INPUT_8_STAGE_1;
@@ -1313,16 +1702,48 @@ impl InternalFaults5 {
     }
 
     /// Analog input 8 stage 2.
+    ///
+    /// A number.
     #[must_use]
     pub const fn analog_input_8_stage_2(self) -> u16 {
         self.0 & Self::ANALOG_INPUT_8_STAGE_2
     }
 
-    /// The same word with another state of: Analog input 8 stage 2.
+    /// The same word with another number of: Analog input 8 stage 2.
     #[must_use]
     pub const fn with_analog_input_8_stage_2(self, number: u16) -> Self {
         let mask = Self::ANALOG_INPUT_8_STAGE_2;
         Self((self.0 & !mask) | (number & mask))
+    }
+}
+
+impl runtime::Flags for InternalFaults5 {
+    const NAME: &'static str = "InternalFaults5";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("analog_input_5_stage_1", 0xC000),
+        runtime::Flag::new("analog_input_5_stage_2", 0x3000),
+        runtime::Flag::new("analog_input_6_stage_1", 0x0C00),
+        runtime::Flag::new("analog_input_6_stage_2", 0x0300),
+        runtime::Flag::new("analog_input_7_stage_1", 0x00C0),
+        runtime::Flag::new("analog_input_7_stage_2", 0x0030),
+        runtime::Flag::new("analog_input_8_stage_1", 0x000C),
+        runtime::Flag::new("analog_input_8_stage_2", 0x0003),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for InternalFaults5 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for InternalFaults5 {
+    fn default() -> Self {
+        Self::ALL_FALSE
     }
 }
 
@@ -1341,10 +1762,14 @@ impl From<InternalFaults5> for u16 {
 }
 
 /// Digital input faults 1 to 8.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct DigitalInputFaults1To8(pub u16);
 
 impl DigitalInputFaults1To8 {
+    /// The word in which nothing is true and every number is 0.
+    pub const ALL_FALSE: Self = Self(0);
     /// The bits of: Digital input 1.
     pub const DIGITAL_INPUT_1: u16 = 0xC000;
     /// Inactive.
@@ -1395,12 +1820,14 @@ impl DigitalInputFaults1To8 {
     pub const DIGITAL_INPUT_8_ACTIVE: u16 = 3;
 
     /// Digital input 1.
+    ///
+    /// A number.
     #[must_use]
     pub const fn digital_input_1(self) -> u16 {
         (self.0 & Self::DIGITAL_INPUT_1) >> 14
     }
 
-    /// The same word with another state of: Digital input 1.
+    /// The same word with another number of: Digital input 1.
     #[must_use]
     pub const fn with_digital_input_1(self, number: u16) -> Self {
         let mask = Self::DIGITAL_INPUT_1;
@@ -1408,12 +1835,14 @@ impl DigitalInputFaults1To8 {
     }
 
     /// Digital input 2.
+    ///
+    /// A number.
     #[must_use]
     pub const fn digital_input_2(self) -> u16 {
         (self.0 & Self::DIGITAL_INPUT_2) >> 12
     }
 
-    /// The same word with another state of: Digital input 2.
+    /// The same word with another number of: Digital input 2.
     #[must_use]
     pub const fn with_digital_input_2(self, number: u16) -> Self {
         let mask = Self::DIGITAL_INPUT_2;
@@ -1421,12 +1850,14 @@ impl DigitalInputFaults1To8 {
     }
 
     /// Digital input 3.
+    ///
+    /// A number.
     #[must_use]
     pub const fn digital_input_3(self) -> u16 {
         (self.0 & Self::DIGITAL_INPUT_3) >> 10
     }
 
-    /// The same word with another state of: Digital input 3.
+    /// The same word with another number of: Digital input 3.
     #[must_use]
     pub const fn with_digital_input_3(self, number: u16) -> Self {
         let mask = Self::DIGITAL_INPUT_3;
@@ -1434,12 +1865,14 @@ impl DigitalInputFaults1To8 {
     }
 
     /// Digital input 4.
+    ///
+    /// A number.
     #[must_use]
     pub const fn digital_input_4(self) -> u16 {
         (self.0 & Self::DIGITAL_INPUT_4) >> 8
     }
 
-    /// The same word with another state of: Digital input 4.
+    /// The same word with another number of: Digital input 4.
     #[must_use]
     pub const fn with_digital_input_4(self, number: u16) -> Self {
         let mask = Self::DIGITAL_INPUT_4;
@@ -1447,12 +1880,14 @@ impl DigitalInputFaults1To8 {
     }
 
     /// Digital input 5.
+    ///
+    /// A number.
     #[must_use]
     pub const fn digital_input_5(self) -> u16 {
         (self.0 & Self::DIGITAL_INPUT_5) >> 6
     }
 
-    /// The same word with another state of: Digital input 5.
+    /// The same word with another number of: Digital input 5.
     #[must_use]
     pub const fn with_digital_input_5(self, number: u16) -> Self {
         let mask = Self::DIGITAL_INPUT_5;
@@ -1460,12 +1895,14 @@ impl DigitalInputFaults1To8 {
     }
 
     /// Digital input 6.
+    ///
+    /// A number.
     #[must_use]
     pub const fn digital_input_6(self) -> u16 {
         (self.0 & Self::DIGITAL_INPUT_6) >> 4
     }
 
-    /// The same word with another state of: Digital input 6.
+    /// The same word with another number of: Digital input 6.
     #[must_use]
     pub const fn with_digital_input_6(self, number: u16) -> Self {
         let mask = Self::DIGITAL_INPUT_6;
@@ -1473,12 +1910,14 @@ impl DigitalInputFaults1To8 {
     }
 
     /// Digital input 7.
+    ///
+    /// A number.
     #[must_use]
     pub const fn digital_input_7(self) -> u16 {
         (self.0 & Self::DIGITAL_INPUT_7) >> 2
     }
 
-    /// The same word with another state of: Digital input 7.
+    /// The same word with another number of: Digital input 7.
     #[must_use]
     pub const fn with_digital_input_7(self, number: u16) -> Self {
         let mask = Self::DIGITAL_INPUT_7;
@@ -1486,16 +1925,48 @@ impl DigitalInputFaults1To8 {
     }
 
     /// Digital input 8.
+    ///
+    /// A number.
     #[must_use]
     pub const fn digital_input_8(self) -> u16 {
         self.0 & Self::DIGITAL_INPUT_8
     }
 
-    /// The same word with another state of: Digital input 8.
+    /// The same word with another number of: Digital input 8.
     #[must_use]
     pub const fn with_digital_input_8(self, number: u16) -> Self {
         let mask = Self::DIGITAL_INPUT_8;
         Self((self.0 & !mask) | (number & mask))
+    }
+}
+
+impl runtime::Flags for DigitalInputFaults1To8 {
+    const NAME: &'static str = "DigitalInputFaults1To8";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("digital_input_1", 0xC000),
+        runtime::Flag::new("digital_input_2", 0x3000),
+        runtime::Flag::new("digital_input_3", 0x0C00),
+        runtime::Flag::new("digital_input_4", 0x0300),
+        runtime::Flag::new("digital_input_5", 0x00C0),
+        runtime::Flag::new("digital_input_6", 0x0030),
+        runtime::Flag::new("digital_input_7", 0x000C),
+        runtime::Flag::new("digital_input_8", 0x0003),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for DigitalInputFaults1To8 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for DigitalInputFaults1To8 {
+    fn default() -> Self {
+        Self::ALL_FALSE
     }
 }
 
@@ -1514,10 +1985,14 @@ impl From<DigitalInputFaults1To8> for u16 {
 }
 
 /// Digital input faults 9 to 16.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct DigitalInputFaults9To16(pub u16);
 
 impl DigitalInputFaults9To16 {
+    /// The word in which nothing is true and every number is 0.
+    pub const ALL_FALSE: Self = Self(0);
     /// The bits of: Digital input 9.
     pub const DIGITAL_INPUT_9: u16 = 0xC000;
     /// Inactive.
@@ -1568,12 +2043,14 @@ impl DigitalInputFaults9To16 {
     pub const DIGITAL_INPUT_16_ACTIVE: u16 = 3;
 
     /// Digital input 9.
+    ///
+    /// A number.
     #[must_use]
     pub const fn digital_input_9(self) -> u16 {
         (self.0 & Self::DIGITAL_INPUT_9) >> 14
     }
 
-    /// The same word with another state of: Digital input 9.
+    /// The same word with another number of: Digital input 9.
     #[must_use]
     pub const fn with_digital_input_9(self, number: u16) -> Self {
         let mask = Self::DIGITAL_INPUT_9;
@@ -1581,12 +2058,14 @@ impl DigitalInputFaults9To16 {
     }
 
     /// Digital input 10.
+    ///
+    /// A number.
     #[must_use]
     pub const fn digital_input_10(self) -> u16 {
         (self.0 & Self::DIGITAL_INPUT_10) >> 12
     }
 
-    /// The same word with another state of: Digital input 10.
+    /// The same word with another number of: Digital input 10.
     #[must_use]
     pub const fn with_digital_input_10(self, number: u16) -> Self {
         let mask = Self::DIGITAL_INPUT_10;
@@ -1594,12 +2073,14 @@ impl DigitalInputFaults9To16 {
     }
 
     /// Digital input 11.
+    ///
+    /// A number.
     #[must_use]
     pub const fn digital_input_11(self) -> u16 {
         (self.0 & Self::DIGITAL_INPUT_11) >> 10
     }
 
-    /// The same word with another state of: Digital input 11.
+    /// The same word with another number of: Digital input 11.
     #[must_use]
     pub const fn with_digital_input_11(self, number: u16) -> Self {
         let mask = Self::DIGITAL_INPUT_11;
@@ -1607,12 +2088,14 @@ impl DigitalInputFaults9To16 {
     }
 
     /// Digital input 12.
+    ///
+    /// A number.
     #[must_use]
     pub const fn digital_input_12(self) -> u16 {
         (self.0 & Self::DIGITAL_INPUT_12) >> 8
     }
 
-    /// The same word with another state of: Digital input 12.
+    /// The same word with another number of: Digital input 12.
     #[must_use]
     pub const fn with_digital_input_12(self, number: u16) -> Self {
         let mask = Self::DIGITAL_INPUT_12;
@@ -1620,12 +2103,14 @@ impl DigitalInputFaults9To16 {
     }
 
     /// Digital input 13.
+    ///
+    /// A number.
     #[must_use]
     pub const fn digital_input_13(self) -> u16 {
         (self.0 & Self::DIGITAL_INPUT_13) >> 6
     }
 
-    /// The same word with another state of: Digital input 13.
+    /// The same word with another number of: Digital input 13.
     #[must_use]
     pub const fn with_digital_input_13(self, number: u16) -> Self {
         let mask = Self::DIGITAL_INPUT_13;
@@ -1633,12 +2118,14 @@ impl DigitalInputFaults9To16 {
     }
 
     /// Digital input 14.
+    ///
+    /// A number.
     #[must_use]
     pub const fn digital_input_14(self) -> u16 {
         (self.0 & Self::DIGITAL_INPUT_14) >> 4
     }
 
-    /// The same word with another state of: Digital input 14.
+    /// The same word with another number of: Digital input 14.
     #[must_use]
     pub const fn with_digital_input_14(self, number: u16) -> Self {
         let mask = Self::DIGITAL_INPUT_14;
@@ -1646,12 +2133,14 @@ impl DigitalInputFaults9To16 {
     }
 
     /// Digital input 15.
+    ///
+    /// A number.
     #[must_use]
     pub const fn digital_input_15(self) -> u16 {
         (self.0 & Self::DIGITAL_INPUT_15) >> 2
     }
 
-    /// The same word with another state of: Digital input 15.
+    /// The same word with another number of: Digital input 15.
     #[must_use]
     pub const fn with_digital_input_15(self, number: u16) -> Self {
         let mask = Self::DIGITAL_INPUT_15;
@@ -1659,16 +2148,48 @@ impl DigitalInputFaults9To16 {
     }
 
     /// Digital input 16.
+    ///
+    /// A number.
     #[must_use]
     pub const fn digital_input_16(self) -> u16 {
         self.0 & Self::DIGITAL_INPUT_16
     }
 
-    /// The same word with another state of: Digital input 16.
+    /// The same word with another number of: Digital input 16.
     #[must_use]
     pub const fn with_digital_input_16(self, number: u16) -> Self {
         let mask = Self::DIGITAL_INPUT_16;
         Self((self.0 & !mask) | (number & mask))
+    }
+}
+
+impl runtime::Flags for DigitalInputFaults9To16 {
+    const NAME: &'static str = "DigitalInputFaults9To16";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("digital_input_9", 0xC000),
+        runtime::Flag::new("digital_input_10", 0x3000),
+        runtime::Flag::new("digital_input_11", 0x0C00),
+        runtime::Flag::new("digital_input_12", 0x0300),
+        runtime::Flag::new("digital_input_13", 0x00C0),
+        runtime::Flag::new("digital_input_14", 0x0030),
+        runtime::Flag::new("digital_input_15", 0x000C),
+        runtime::Flag::new("digital_input_16", 0x0003),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for DigitalInputFaults9To16 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for DigitalInputFaults9To16 {
+    fn default() -> Self {
+        Self::ALL_FALSE
     }
 }
 
@@ -1687,10 +2208,14 @@ impl From<DigitalInputFaults9To16> for u16 {
 }
 
 /// Internal faults 7.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct InternalFaults7(pub u16);
 
 impl InternalFaults7 {
+    /// The word in which nothing is true and every number is 0.
+    pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Earth fault.
     pub const EARTH_FAULT: u16 = 0x2000;
     /// The bit of: Overcurrent inverse time.
@@ -1729,6 +2254,30 @@ impl InternalFaults7 {
     }
 }
 
+impl runtime::Flags for InternalFaults7 {
+    const NAME: &'static str = "InternalFaults7";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("earth_fault", 0x2000),
+        runtime::Flag::new("overcurrent_inverse_time", 0x1000),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for InternalFaults7 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for InternalFaults7 {
+    fn default() -> Self {
+        Self::ALL_FALSE
+    }
+}
+
 impl From<u16> for InternalFaults7 {
     #[inline]
     fn from(raw: u16) -> Self {
@@ -1744,34 +2293,22 @@ impl From<InternalFaults7> for u16 {
 }
 
 /// Digital inputs 1 to 4 logic.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct DigitalInputs1To4Logic(pub u8);
 
 impl DigitalInputs1To4Logic {
+    /// The word in which nothing is true and every number is 0.
+    pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Input 1.
     pub const INPUT_1: u8 = 0x08;
-    /// Zero.
-    pub const INPUT_1_ZERO: u8 = 0;
-    /// One.
-    pub const INPUT_1_ONE: u8 = 1;
     /// The bit of: Input 2.
     pub const INPUT_2: u8 = 0x04;
-    /// Zero.
-    pub const INPUT_2_ZERO: u8 = 0;
-    /// One.
-    pub const INPUT_2_ONE: u8 = 1;
     /// The bit of: Input 3.
     pub const INPUT_3: u8 = 0x02;
-    /// Zero.
-    pub const INPUT_3_ZERO: u8 = 0;
-    /// One.
-    pub const INPUT_3_ONE: u8 = 1;
     /// The bit of: Input 4.
     pub const INPUT_4: u8 = 0x01;
-    /// Zero.
-    pub const INPUT_4_ZERO: u8 = 0;
-    /// One.
-    pub const INPUT_4_ONE: u8 = 1;
 
     /// Input 1.
     #[must_use]
@@ -1835,6 +2372,32 @@ impl DigitalInputs1To4Logic {
         } else {
             Self(self.0 & !Self::INPUT_4)
         }
+    }
+}
+
+impl runtime::Flags for DigitalInputs1To4Logic {
+    const NAME: &'static str = "DigitalInputs1To4Logic";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("input_1", 0x08),
+        runtime::Flag::new("input_2", 0x04),
+        runtime::Flag::new("input_3", 0x02),
+        runtime::Flag::new("input_4", 0x01),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for DigitalInputs1To4Logic {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for DigitalInputs1To4Logic {
+    fn default() -> Self {
+        Self::ALL_FALSE
     }
 }
 
@@ -1853,34 +2416,22 @@ impl From<DigitalInputs1To4Logic> for u8 {
 }
 
 /// Digital inputs 1 to 4 engine delay.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct DigitalInputs1To4EngineDelay(pub u8);
 
 impl DigitalInputs1To4EngineDelay {
+    /// The word in which nothing is true and every number is 0.
+    pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Input 1.
     pub const INPUT_1: u8 = 0x08;
-    /// Zero.
-    pub const INPUT_1_ZERO: u8 = 0;
-    /// One.
-    pub const INPUT_1_ONE: u8 = 1;
     /// The bit of: Input 2.
     pub const INPUT_2: u8 = 0x04;
-    /// Zero.
-    pub const INPUT_2_ZERO: u8 = 0;
-    /// One.
-    pub const INPUT_2_ONE: u8 = 1;
     /// The bit of: Input 3.
     pub const INPUT_3: u8 = 0x02;
-    /// Zero.
-    pub const INPUT_3_ZERO: u8 = 0;
-    /// One.
-    pub const INPUT_3_ONE: u8 = 1;
     /// The bit of: Input 4.
     pub const INPUT_4: u8 = 0x01;
-    /// Zero.
-    pub const INPUT_4_ZERO: u8 = 0;
-    /// One.
-    pub const INPUT_4_ONE: u8 = 1;
 
     /// Input 1.
     #[must_use]
@@ -1947,6 +2498,32 @@ impl DigitalInputs1To4EngineDelay {
     }
 }
 
+impl runtime::Flags for DigitalInputs1To4EngineDelay {
+    const NAME: &'static str = "DigitalInputs1To4EngineDelay";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("input_1", 0x08),
+        runtime::Flag::new("input_2", 0x04),
+        runtime::Flag::new("input_3", 0x02),
+        runtime::Flag::new("input_4", 0x01),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for DigitalInputs1To4EngineDelay {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for DigitalInputs1To4EngineDelay {
+    fn default() -> Self {
+        Self::ALL_FALSE
+    }
+}
+
 impl From<u8> for DigitalInputs1To4EngineDelay {
     #[inline]
     fn from(raw: u8) -> Self {
@@ -1962,34 +2539,22 @@ impl From<DigitalInputs1To4EngineDelay> for u8 {
 }
 
 /// Digital inputs 5 to 8 logic.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct DigitalInputs5To8Logic(pub u8);
 
 impl DigitalInputs5To8Logic {
+    /// The word in which nothing is true and every number is 0.
+    pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Input 5.
     pub const INPUT_5: u8 = 0x08;
-    /// Zero.
-    pub const INPUT_5_ZERO: u8 = 0;
-    /// One.
-    pub const INPUT_5_ONE: u8 = 1;
     /// The bit of: Input 6.
     pub const INPUT_6: u8 = 0x04;
-    /// Zero.
-    pub const INPUT_6_ZERO: u8 = 0;
-    /// One.
-    pub const INPUT_6_ONE: u8 = 1;
     /// The bit of: Input 7.
     pub const INPUT_7: u8 = 0x02;
-    /// Zero.
-    pub const INPUT_7_ZERO: u8 = 0;
-    /// One.
-    pub const INPUT_7_ONE: u8 = 1;
     /// The bit of: Input 8.
     pub const INPUT_8: u8 = 0x01;
-    /// Zero.
-    pub const INPUT_8_ZERO: u8 = 0;
-    /// One.
-    pub const INPUT_8_ONE: u8 = 1;
 
     /// Input 5.
     #[must_use]
@@ -2053,6 +2618,32 @@ impl DigitalInputs5To8Logic {
         } else {
             Self(self.0 & !Self::INPUT_8)
         }
+    }
+}
+
+impl runtime::Flags for DigitalInputs5To8Logic {
+    const NAME: &'static str = "DigitalInputs5To8Logic";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("input_5", 0x08),
+        runtime::Flag::new("input_6", 0x04),
+        runtime::Flag::new("input_7", 0x02),
+        runtime::Flag::new("input_8", 0x01),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for DigitalInputs5To8Logic {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for DigitalInputs5To8Logic {
+    fn default() -> Self {
+        Self::ALL_FALSE
     }
 }
 
@@ -2071,34 +2662,22 @@ impl From<DigitalInputs5To8Logic> for u8 {
 }
 
 /// Digital inputs 5 to 8 engine delay.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct DigitalInputs5To8EngineDelay(pub u8);
 
 impl DigitalInputs5To8EngineDelay {
+    /// The word in which nothing is true and every number is 0.
+    pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Input 5.
     pub const INPUT_5: u8 = 0x08;
-    /// Zero.
-    pub const INPUT_5_ZERO: u8 = 0;
-    /// One.
-    pub const INPUT_5_ONE: u8 = 1;
     /// The bit of: Input 6.
     pub const INPUT_6: u8 = 0x04;
-    /// Zero.
-    pub const INPUT_6_ZERO: u8 = 0;
-    /// One.
-    pub const INPUT_6_ONE: u8 = 1;
     /// The bit of: Input 7.
     pub const INPUT_7: u8 = 0x02;
-    /// Zero.
-    pub const INPUT_7_ZERO: u8 = 0;
-    /// One.
-    pub const INPUT_7_ONE: u8 = 1;
     /// The bit of: Input 8.
     pub const INPUT_8: u8 = 0x01;
-    /// Zero.
-    pub const INPUT_8_ZERO: u8 = 0;
-    /// One.
-    pub const INPUT_8_ONE: u8 = 1;
 
     /// Input 5.
     #[must_use]
@@ -2165,6 +2744,32 @@ impl DigitalInputs5To8EngineDelay {
     }
 }
 
+impl runtime::Flags for DigitalInputs5To8EngineDelay {
+    const NAME: &'static str = "DigitalInputs5To8EngineDelay";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("input_5", 0x08),
+        runtime::Flag::new("input_6", 0x04),
+        runtime::Flag::new("input_7", 0x02),
+        runtime::Flag::new("input_8", 0x01),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for DigitalInputs5To8EngineDelay {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for DigitalInputs5To8EngineDelay {
+    fn default() -> Self {
+        Self::ALL_FALSE
+    }
+}
+
 impl From<u8> for DigitalInputs5To8EngineDelay {
     #[inline]
     fn from(raw: u8) -> Self {
@@ -2180,34 +2785,22 @@ impl From<DigitalInputs5To8EngineDelay> for u8 {
 }
 
 /// Digital inputs 9 to 12 logic.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct DigitalInputs9To12Logic(pub u8);
 
 impl DigitalInputs9To12Logic {
+    /// The word in which nothing is true and every number is 0.
+    pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Input 9.
     pub const INPUT_9: u8 = 0x08;
-    /// Zero.
-    pub const INPUT_9_ZERO: u8 = 0;
-    /// One.
-    pub const INPUT_9_ONE: u8 = 1;
     /// The bit of: Input 10.
     pub const INPUT_10: u8 = 0x04;
-    /// Zero.
-    pub const INPUT_10_ZERO: u8 = 0;
-    /// One.
-    pub const INPUT_10_ONE: u8 = 1;
     /// The bit of: Input 11.
     pub const INPUT_11: u8 = 0x02;
-    /// Zero.
-    pub const INPUT_11_ZERO: u8 = 0;
-    /// One.
-    pub const INPUT_11_ONE: u8 = 1;
     /// The bit of: Input 12.
     pub const INPUT_12: u8 = 0x01;
-    /// Zero.
-    pub const INPUT_12_ZERO: u8 = 0;
-    /// One.
-    pub const INPUT_12_ONE: u8 = 1;
 
     /// Input 9.
     #[must_use]
@@ -2271,6 +2864,32 @@ impl DigitalInputs9To12Logic {
         } else {
             Self(self.0 & !Self::INPUT_12)
         }
+    }
+}
+
+impl runtime::Flags for DigitalInputs9To12Logic {
+    const NAME: &'static str = "DigitalInputs9To12Logic";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("input_9", 0x08),
+        runtime::Flag::new("input_10", 0x04),
+        runtime::Flag::new("input_11", 0x02),
+        runtime::Flag::new("input_12", 0x01),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for DigitalInputs9To12Logic {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for DigitalInputs9To12Logic {
+    fn default() -> Self {
+        Self::ALL_FALSE
     }
 }
 
@@ -2289,34 +2908,22 @@ impl From<DigitalInputs9To12Logic> for u8 {
 }
 
 /// Digital inputs 9 to 12 engine delay.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct DigitalInputs9To12EngineDelay(pub u8);
 
 impl DigitalInputs9To12EngineDelay {
+    /// The word in which nothing is true and every number is 0.
+    pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Input 9.
     pub const INPUT_9: u8 = 0x08;
-    /// Zero.
-    pub const INPUT_9_ZERO: u8 = 0;
-    /// One.
-    pub const INPUT_9_ONE: u8 = 1;
     /// The bit of: Input 10.
     pub const INPUT_10: u8 = 0x04;
-    /// Zero.
-    pub const INPUT_10_ZERO: u8 = 0;
-    /// One.
-    pub const INPUT_10_ONE: u8 = 1;
     /// The bit of: Input 11.
     pub const INPUT_11: u8 = 0x02;
-    /// Zero.
-    pub const INPUT_11_ZERO: u8 = 0;
-    /// One.
-    pub const INPUT_11_ONE: u8 = 1;
     /// The bit of: Input 12.
     pub const INPUT_12: u8 = 0x01;
-    /// Zero.
-    pub const INPUT_12_ZERO: u8 = 0;
-    /// One.
-    pub const INPUT_12_ONE: u8 = 1;
 
     /// Input 9.
     #[must_use]
@@ -2383,6 +2990,32 @@ impl DigitalInputs9To12EngineDelay {
     }
 }
 
+impl runtime::Flags for DigitalInputs9To12EngineDelay {
+    const NAME: &'static str = "DigitalInputs9To12EngineDelay";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("input_9", 0x08),
+        runtime::Flag::new("input_10", 0x04),
+        runtime::Flag::new("input_11", 0x02),
+        runtime::Flag::new("input_12", 0x01),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for DigitalInputs9To12EngineDelay {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for DigitalInputs9To12EngineDelay {
+    fn default() -> Self {
+        Self::ALL_FALSE
+    }
+}
+
 impl From<u8> for DigitalInputs9To12EngineDelay {
     #[inline]
     fn from(raw: u8) -> Self {
@@ -2398,28 +3031,20 @@ impl From<DigitalInputs9To12EngineDelay> for u8 {
 }
 
 /// Relay 1 logic 1.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Relay1Logic1(pub u8);
 
 impl Relay1Logic1 {
+    /// The word in which nothing is true and every number is 0.
+    pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Last.
     pub const LAST: u8 = 0x04;
-    /// Zero.
-    pub const LAST_ZERO: u8 = 0;
-    /// One.
-    pub const LAST_ONE: u8 = 1;
     /// The bit of: Inverted.
     pub const INVERTED: u8 = 0x02;
-    /// Zero.
-    pub const INVERTED_ZERO: u8 = 0;
-    /// One.
-    pub const INVERTED_ONE: u8 = 1;
     /// The bit of: And with next.
     pub const AND_WITH_NEXT: u8 = 0x01;
-    /// Zero.
-    pub const AND_WITH_NEXT_ZERO: u8 = 0;
-    /// One.
-    pub const AND_WITH_NEXT_ONE: u8 = 1;
 
     /// Last.
     #[must_use]
@@ -2467,6 +3092,31 @@ impl Relay1Logic1 {
         } else {
             Self(self.0 & !Self::AND_WITH_NEXT)
         }
+    }
+}
+
+impl runtime::Flags for Relay1Logic1 {
+    const NAME: &'static str = "Relay1Logic1";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("last", 0x04),
+        runtime::Flag::new("inverted", 0x02),
+        runtime::Flag::new("and_with_next", 0x01),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for Relay1Logic1 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for Relay1Logic1 {
+    fn default() -> Self {
+        Self::ALL_FALSE
     }
 }
 
@@ -2485,28 +3135,20 @@ impl From<Relay1Logic1> for u8 {
 }
 
 /// Relay 1 logic 2.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Relay1Logic2(pub u8);
 
 impl Relay1Logic2 {
+    /// The word in which nothing is true and every number is 0.
+    pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Last.
     pub const LAST: u8 = 0x04;
-    /// Zero.
-    pub const LAST_ZERO: u8 = 0;
-    /// One.
-    pub const LAST_ONE: u8 = 1;
     /// The bit of: Inverted.
     pub const INVERTED: u8 = 0x02;
-    /// Zero.
-    pub const INVERTED_ZERO: u8 = 0;
-    /// One.
-    pub const INVERTED_ONE: u8 = 1;
     /// The bit of: And with next.
     pub const AND_WITH_NEXT: u8 = 0x01;
-    /// Zero.
-    pub const AND_WITH_NEXT_ZERO: u8 = 0;
-    /// One.
-    pub const AND_WITH_NEXT_ONE: u8 = 1;
 
     /// Last.
     #[must_use]
@@ -2554,6 +3196,31 @@ impl Relay1Logic2 {
         } else {
             Self(self.0 & !Self::AND_WITH_NEXT)
         }
+    }
+}
+
+impl runtime::Flags for Relay1Logic2 {
+    const NAME: &'static str = "Relay1Logic2";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("last", 0x04),
+        runtime::Flag::new("inverted", 0x02),
+        runtime::Flag::new("and_with_next", 0x01),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for Relay1Logic2 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for Relay1Logic2 {
+    fn default() -> Self {
+        Self::ALL_FALSE
     }
 }
 
@@ -2572,28 +3239,20 @@ impl From<Relay1Logic2> for u8 {
 }
 
 /// Relay 1 logic 3.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Relay1Logic3(pub u8);
 
 impl Relay1Logic3 {
+    /// The word in which nothing is true and every number is 0.
+    pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Last.
     pub const LAST: u8 = 0x04;
-    /// Zero.
-    pub const LAST_ZERO: u8 = 0;
-    /// One.
-    pub const LAST_ONE: u8 = 1;
     /// The bit of: Inverted.
     pub const INVERTED: u8 = 0x02;
-    /// Zero.
-    pub const INVERTED_ZERO: u8 = 0;
-    /// One.
-    pub const INVERTED_ONE: u8 = 1;
     /// The bit of: And with next.
     pub const AND_WITH_NEXT: u8 = 0x01;
-    /// Zero.
-    pub const AND_WITH_NEXT_ZERO: u8 = 0;
-    /// One.
-    pub const AND_WITH_NEXT_ONE: u8 = 1;
 
     /// Last.
     #[must_use]
@@ -2641,6 +3300,31 @@ impl Relay1Logic3 {
         } else {
             Self(self.0 & !Self::AND_WITH_NEXT)
         }
+    }
+}
+
+impl runtime::Flags for Relay1Logic3 {
+    const NAME: &'static str = "Relay1Logic3";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("last", 0x04),
+        runtime::Flag::new("inverted", 0x02),
+        runtime::Flag::new("and_with_next", 0x01),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for Relay1Logic3 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for Relay1Logic3 {
+    fn default() -> Self {
+        Self::ALL_FALSE
     }
 }
 
@@ -2659,28 +3343,20 @@ impl From<Relay1Logic3> for u8 {
 }
 
 /// Relay 2 logic 1.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Relay2Logic1(pub u8);
 
 impl Relay2Logic1 {
+    /// The word in which nothing is true and every number is 0.
+    pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Last.
     pub const LAST: u8 = 0x04;
-    /// Zero.
-    pub const LAST_ZERO: u8 = 0;
-    /// One.
-    pub const LAST_ONE: u8 = 1;
     /// The bit of: Inverted.
     pub const INVERTED: u8 = 0x02;
-    /// Zero.
-    pub const INVERTED_ZERO: u8 = 0;
-    /// One.
-    pub const INVERTED_ONE: u8 = 1;
     /// The bit of: And with next.
     pub const AND_WITH_NEXT: u8 = 0x01;
-    /// Zero.
-    pub const AND_WITH_NEXT_ZERO: u8 = 0;
-    /// One.
-    pub const AND_WITH_NEXT_ONE: u8 = 1;
 
     /// Last.
     #[must_use]
@@ -2728,6 +3404,31 @@ impl Relay2Logic1 {
         } else {
             Self(self.0 & !Self::AND_WITH_NEXT)
         }
+    }
+}
+
+impl runtime::Flags for Relay2Logic1 {
+    const NAME: &'static str = "Relay2Logic1";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("last", 0x04),
+        runtime::Flag::new("inverted", 0x02),
+        runtime::Flag::new("and_with_next", 0x01),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for Relay2Logic1 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for Relay2Logic1 {
+    fn default() -> Self {
+        Self::ALL_FALSE
     }
 }
 
@@ -2746,28 +3447,20 @@ impl From<Relay2Logic1> for u8 {
 }
 
 /// Relay 2 logic 2.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Relay2Logic2(pub u8);
 
 impl Relay2Logic2 {
+    /// The word in which nothing is true and every number is 0.
+    pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Last.
     pub const LAST: u8 = 0x04;
-    /// Zero.
-    pub const LAST_ZERO: u8 = 0;
-    /// One.
-    pub const LAST_ONE: u8 = 1;
     /// The bit of: Inverted.
     pub const INVERTED: u8 = 0x02;
-    /// Zero.
-    pub const INVERTED_ZERO: u8 = 0;
-    /// One.
-    pub const INVERTED_ONE: u8 = 1;
     /// The bit of: And with next.
     pub const AND_WITH_NEXT: u8 = 0x01;
-    /// Zero.
-    pub const AND_WITH_NEXT_ZERO: u8 = 0;
-    /// One.
-    pub const AND_WITH_NEXT_ONE: u8 = 1;
 
     /// Last.
     #[must_use]
@@ -2815,6 +3508,31 @@ impl Relay2Logic2 {
         } else {
             Self(self.0 & !Self::AND_WITH_NEXT)
         }
+    }
+}
+
+impl runtime::Flags for Relay2Logic2 {
+    const NAME: &'static str = "Relay2Logic2";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("last", 0x04),
+        runtime::Flag::new("inverted", 0x02),
+        runtime::Flag::new("and_with_next", 0x01),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for Relay2Logic2 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for Relay2Logic2 {
+    fn default() -> Self {
+        Self::ALL_FALSE
     }
 }
 
@@ -2833,28 +3551,20 @@ impl From<Relay2Logic2> for u8 {
 }
 
 /// Relay 2 logic 3.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Relay2Logic3(pub u8);
 
 impl Relay2Logic3 {
+    /// The word in which nothing is true and every number is 0.
+    pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Last.
     pub const LAST: u8 = 0x04;
-    /// Zero.
-    pub const LAST_ZERO: u8 = 0;
-    /// One.
-    pub const LAST_ONE: u8 = 1;
     /// The bit of: Inverted.
     pub const INVERTED: u8 = 0x02;
-    /// Zero.
-    pub const INVERTED_ZERO: u8 = 0;
-    /// One.
-    pub const INVERTED_ONE: u8 = 1;
     /// The bit of: And with next.
     pub const AND_WITH_NEXT: u8 = 0x01;
-    /// Zero.
-    pub const AND_WITH_NEXT_ZERO: u8 = 0;
-    /// One.
-    pub const AND_WITH_NEXT_ONE: u8 = 1;
 
     /// Last.
     #[must_use]
@@ -2902,6 +3612,31 @@ impl Relay2Logic3 {
         } else {
             Self(self.0 & !Self::AND_WITH_NEXT)
         }
+    }
+}
+
+impl runtime::Flags for Relay2Logic3 {
+    const NAME: &'static str = "Relay2Logic3";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("last", 0x04),
+        runtime::Flag::new("inverted", 0x02),
+        runtime::Flag::new("and_with_next", 0x01),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for Relay2Logic3 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for Relay2Logic3 {
+    fn default() -> Self {
+        Self::ALL_FALSE
     }
 }
 
@@ -2920,28 +3655,20 @@ impl From<Relay2Logic3> for u8 {
 }
 
 /// Relay 3 logic 1.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Relay3Logic1(pub u8);
 
 impl Relay3Logic1 {
+    /// The word in which nothing is true and every number is 0.
+    pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Last.
     pub const LAST: u8 = 0x04;
-    /// Zero.
-    pub const LAST_ZERO: u8 = 0;
-    /// One.
-    pub const LAST_ONE: u8 = 1;
     /// The bit of: Inverted.
     pub const INVERTED: u8 = 0x02;
-    /// Zero.
-    pub const INVERTED_ZERO: u8 = 0;
-    /// One.
-    pub const INVERTED_ONE: u8 = 1;
     /// The bit of: And with next.
     pub const AND_WITH_NEXT: u8 = 0x01;
-    /// Zero.
-    pub const AND_WITH_NEXT_ZERO: u8 = 0;
-    /// One.
-    pub const AND_WITH_NEXT_ONE: u8 = 1;
 
     /// Last.
     #[must_use]
@@ -2989,6 +3716,31 @@ impl Relay3Logic1 {
         } else {
             Self(self.0 & !Self::AND_WITH_NEXT)
         }
+    }
+}
+
+impl runtime::Flags for Relay3Logic1 {
+    const NAME: &'static str = "Relay3Logic1";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("last", 0x04),
+        runtime::Flag::new("inverted", 0x02),
+        runtime::Flag::new("and_with_next", 0x01),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for Relay3Logic1 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for Relay3Logic1 {
+    fn default() -> Self {
+        Self::ALL_FALSE
     }
 }
 
@@ -3007,28 +3759,20 @@ impl From<Relay3Logic1> for u8 {
 }
 
 /// Relay 3 logic 2.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Relay3Logic2(pub u8);
 
 impl Relay3Logic2 {
+    /// The word in which nothing is true and every number is 0.
+    pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Last.
     pub const LAST: u8 = 0x04;
-    /// Zero.
-    pub const LAST_ZERO: u8 = 0;
-    /// One.
-    pub const LAST_ONE: u8 = 1;
     /// The bit of: Inverted.
     pub const INVERTED: u8 = 0x02;
-    /// Zero.
-    pub const INVERTED_ZERO: u8 = 0;
-    /// One.
-    pub const INVERTED_ONE: u8 = 1;
     /// The bit of: And with next.
     pub const AND_WITH_NEXT: u8 = 0x01;
-    /// Zero.
-    pub const AND_WITH_NEXT_ZERO: u8 = 0;
-    /// One.
-    pub const AND_WITH_NEXT_ONE: u8 = 1;
 
     /// Last.
     #[must_use]
@@ -3076,6 +3820,31 @@ impl Relay3Logic2 {
         } else {
             Self(self.0 & !Self::AND_WITH_NEXT)
         }
+    }
+}
+
+impl runtime::Flags for Relay3Logic2 {
+    const NAME: &'static str = "Relay3Logic2";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("last", 0x04),
+        runtime::Flag::new("inverted", 0x02),
+        runtime::Flag::new("and_with_next", 0x01),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for Relay3Logic2 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for Relay3Logic2 {
+    fn default() -> Self {
+        Self::ALL_FALSE
     }
 }
 
@@ -3094,28 +3863,20 @@ impl From<Relay3Logic2> for u8 {
 }
 
 /// Relay 3 logic 3.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Relay3Logic3(pub u8);
 
 impl Relay3Logic3 {
+    /// The word in which nothing is true and every number is 0.
+    pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Last.
     pub const LAST: u8 = 0x04;
-    /// Zero.
-    pub const LAST_ZERO: u8 = 0;
-    /// One.
-    pub const LAST_ONE: u8 = 1;
     /// The bit of: Inverted.
     pub const INVERTED: u8 = 0x02;
-    /// Zero.
-    pub const INVERTED_ZERO: u8 = 0;
-    /// One.
-    pub const INVERTED_ONE: u8 = 1;
     /// The bit of: And with next.
     pub const AND_WITH_NEXT: u8 = 0x01;
-    /// Zero.
-    pub const AND_WITH_NEXT_ZERO: u8 = 0;
-    /// One.
-    pub const AND_WITH_NEXT_ONE: u8 = 1;
 
     /// Last.
     #[must_use]
@@ -3163,6 +3924,31 @@ impl Relay3Logic3 {
         } else {
             Self(self.0 & !Self::AND_WITH_NEXT)
         }
+    }
+}
+
+impl runtime::Flags for Relay3Logic3 {
+    const NAME: &'static str = "Relay3Logic3";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("last", 0x04),
+        runtime::Flag::new("inverted", 0x02),
+        runtime::Flag::new("and_with_next", 0x01),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for Relay3Logic3 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for Relay3Logic3 {
+    fn default() -> Self {
+        Self::ALL_FALSE
     }
 }
 
@@ -3181,28 +3967,20 @@ impl From<Relay3Logic3> for u8 {
 }
 
 /// Relay 4 logic 1.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Relay4Logic1(pub u8);
 
 impl Relay4Logic1 {
+    /// The word in which nothing is true and every number is 0.
+    pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Last.
     pub const LAST: u8 = 0x04;
-    /// Zero.
-    pub const LAST_ZERO: u8 = 0;
-    /// One.
-    pub const LAST_ONE: u8 = 1;
     /// The bit of: Inverted.
     pub const INVERTED: u8 = 0x02;
-    /// Zero.
-    pub const INVERTED_ZERO: u8 = 0;
-    /// One.
-    pub const INVERTED_ONE: u8 = 1;
     /// The bit of: And with next.
     pub const AND_WITH_NEXT: u8 = 0x01;
-    /// Zero.
-    pub const AND_WITH_NEXT_ZERO: u8 = 0;
-    /// One.
-    pub const AND_WITH_NEXT_ONE: u8 = 1;
 
     /// Last.
     #[must_use]
@@ -3250,6 +4028,31 @@ impl Relay4Logic1 {
         } else {
             Self(self.0 & !Self::AND_WITH_NEXT)
         }
+    }
+}
+
+impl runtime::Flags for Relay4Logic1 {
+    const NAME: &'static str = "Relay4Logic1";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("last", 0x04),
+        runtime::Flag::new("inverted", 0x02),
+        runtime::Flag::new("and_with_next", 0x01),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for Relay4Logic1 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for Relay4Logic1 {
+    fn default() -> Self {
+        Self::ALL_FALSE
     }
 }
 
@@ -3268,28 +4071,20 @@ impl From<Relay4Logic1> for u8 {
 }
 
 /// Relay 4 logic 2.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Relay4Logic2(pub u8);
 
 impl Relay4Logic2 {
+    /// The word in which nothing is true and every number is 0.
+    pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Last.
     pub const LAST: u8 = 0x04;
-    /// Zero.
-    pub const LAST_ZERO: u8 = 0;
-    /// One.
-    pub const LAST_ONE: u8 = 1;
     /// The bit of: Inverted.
     pub const INVERTED: u8 = 0x02;
-    /// Zero.
-    pub const INVERTED_ZERO: u8 = 0;
-    /// One.
-    pub const INVERTED_ONE: u8 = 1;
     /// The bit of: And with next.
     pub const AND_WITH_NEXT: u8 = 0x01;
-    /// Zero.
-    pub const AND_WITH_NEXT_ZERO: u8 = 0;
-    /// One.
-    pub const AND_WITH_NEXT_ONE: u8 = 1;
 
     /// Last.
     #[must_use]
@@ -3337,6 +4132,31 @@ impl Relay4Logic2 {
         } else {
             Self(self.0 & !Self::AND_WITH_NEXT)
         }
+    }
+}
+
+impl runtime::Flags for Relay4Logic2 {
+    const NAME: &'static str = "Relay4Logic2";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("last", 0x04),
+        runtime::Flag::new("inverted", 0x02),
+        runtime::Flag::new("and_with_next", 0x01),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for Relay4Logic2 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for Relay4Logic2 {
+    fn default() -> Self {
+        Self::ALL_FALSE
     }
 }
 
@@ -3355,28 +4175,20 @@ impl From<Relay4Logic2> for u8 {
 }
 
 /// Relay 4 logic 3.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Relay4Logic3(pub u8);
 
 impl Relay4Logic3 {
+    /// The word in which nothing is true and every number is 0.
+    pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Last.
     pub const LAST: u8 = 0x04;
-    /// Zero.
-    pub const LAST_ZERO: u8 = 0;
-    /// One.
-    pub const LAST_ONE: u8 = 1;
     /// The bit of: Inverted.
     pub const INVERTED: u8 = 0x02;
-    /// Zero.
-    pub const INVERTED_ZERO: u8 = 0;
-    /// One.
-    pub const INVERTED_ONE: u8 = 1;
     /// The bit of: And with next.
     pub const AND_WITH_NEXT: u8 = 0x01;
-    /// Zero.
-    pub const AND_WITH_NEXT_ZERO: u8 = 0;
-    /// One.
-    pub const AND_WITH_NEXT_ONE: u8 = 1;
 
     /// Last.
     #[must_use]
@@ -3424,6 +4236,31 @@ impl Relay4Logic3 {
         } else {
             Self(self.0 & !Self::AND_WITH_NEXT)
         }
+    }
+}
+
+impl runtime::Flags for Relay4Logic3 {
+    const NAME: &'static str = "Relay4Logic3";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("last", 0x04),
+        runtime::Flag::new("inverted", 0x02),
+        runtime::Flag::new("and_with_next", 0x01),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for Relay4Logic3 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for Relay4Logic3 {
+    fn default() -> Self {
+        Self::ALL_FALSE
     }
 }
 
@@ -3442,28 +4279,20 @@ impl From<Relay4Logic3> for u8 {
 }
 
 /// Relay 5 logic 1.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Relay5Logic1(pub u8);
 
 impl Relay5Logic1 {
+    /// The word in which nothing is true and every number is 0.
+    pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Last.
     pub const LAST: u8 = 0x04;
-    /// Zero.
-    pub const LAST_ZERO: u8 = 0;
-    /// One.
-    pub const LAST_ONE: u8 = 1;
     /// The bit of: Inverted.
     pub const INVERTED: u8 = 0x02;
-    /// Zero.
-    pub const INVERTED_ZERO: u8 = 0;
-    /// One.
-    pub const INVERTED_ONE: u8 = 1;
     /// The bit of: And with next.
     pub const AND_WITH_NEXT: u8 = 0x01;
-    /// Zero.
-    pub const AND_WITH_NEXT_ZERO: u8 = 0;
-    /// One.
-    pub const AND_WITH_NEXT_ONE: u8 = 1;
 
     /// Last.
     #[must_use]
@@ -3511,6 +4340,31 @@ impl Relay5Logic1 {
         } else {
             Self(self.0 & !Self::AND_WITH_NEXT)
         }
+    }
+}
+
+impl runtime::Flags for Relay5Logic1 {
+    const NAME: &'static str = "Relay5Logic1";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("last", 0x04),
+        runtime::Flag::new("inverted", 0x02),
+        runtime::Flag::new("and_with_next", 0x01),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for Relay5Logic1 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for Relay5Logic1 {
+    fn default() -> Self {
+        Self::ALL_FALSE
     }
 }
 
@@ -3529,28 +4383,20 @@ impl From<Relay5Logic1> for u8 {
 }
 
 /// Relay 5 logic 2.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Relay5Logic2(pub u8);
 
 impl Relay5Logic2 {
+    /// The word in which nothing is true and every number is 0.
+    pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Last.
     pub const LAST: u8 = 0x04;
-    /// Zero.
-    pub const LAST_ZERO: u8 = 0;
-    /// One.
-    pub const LAST_ONE: u8 = 1;
     /// The bit of: Inverted.
     pub const INVERTED: u8 = 0x02;
-    /// Zero.
-    pub const INVERTED_ZERO: u8 = 0;
-    /// One.
-    pub const INVERTED_ONE: u8 = 1;
     /// The bit of: And with next.
     pub const AND_WITH_NEXT: u8 = 0x01;
-    /// Zero.
-    pub const AND_WITH_NEXT_ZERO: u8 = 0;
-    /// One.
-    pub const AND_WITH_NEXT_ONE: u8 = 1;
 
     /// Last.
     #[must_use]
@@ -3598,6 +4444,31 @@ impl Relay5Logic2 {
         } else {
             Self(self.0 & !Self::AND_WITH_NEXT)
         }
+    }
+}
+
+impl runtime::Flags for Relay5Logic2 {
+    const NAME: &'static str = "Relay5Logic2";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("last", 0x04),
+        runtime::Flag::new("inverted", 0x02),
+        runtime::Flag::new("and_with_next", 0x01),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for Relay5Logic2 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for Relay5Logic2 {
+    fn default() -> Self {
+        Self::ALL_FALSE
     }
 }
 
@@ -3616,28 +4487,20 @@ impl From<Relay5Logic2> for u8 {
 }
 
 /// Relay 5 logic 3.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Relay5Logic3(pub u8);
 
 impl Relay5Logic3 {
+    /// The word in which nothing is true and every number is 0.
+    pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Last.
     pub const LAST: u8 = 0x04;
-    /// Zero.
-    pub const LAST_ZERO: u8 = 0;
-    /// One.
-    pub const LAST_ONE: u8 = 1;
     /// The bit of: Inverted.
     pub const INVERTED: u8 = 0x02;
-    /// Zero.
-    pub const INVERTED_ZERO: u8 = 0;
-    /// One.
-    pub const INVERTED_ONE: u8 = 1;
     /// The bit of: And with next.
     pub const AND_WITH_NEXT: u8 = 0x01;
-    /// Zero.
-    pub const AND_WITH_NEXT_ZERO: u8 = 0;
-    /// One.
-    pub const AND_WITH_NEXT_ONE: u8 = 1;
 
     /// Last.
     #[must_use]
@@ -3685,6 +4548,31 @@ impl Relay5Logic3 {
         } else {
             Self(self.0 & !Self::AND_WITH_NEXT)
         }
+    }
+}
+
+impl runtime::Flags for Relay5Logic3 {
+    const NAME: &'static str = "Relay5Logic3";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("last", 0x04),
+        runtime::Flag::new("inverted", 0x02),
+        runtime::Flag::new("and_with_next", 0x01),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for Relay5Logic3 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for Relay5Logic3 {
+    fn default() -> Self {
+        Self::ALL_FALSE
     }
 }
 
@@ -3703,28 +4591,20 @@ impl From<Relay5Logic3> for u8 {
 }
 
 /// Relay 6 logic 1.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Relay6Logic1(pub u8);
 
 impl Relay6Logic1 {
+    /// The word in which nothing is true and every number is 0.
+    pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Last.
     pub const LAST: u8 = 0x04;
-    /// Zero.
-    pub const LAST_ZERO: u8 = 0;
-    /// One.
-    pub const LAST_ONE: u8 = 1;
     /// The bit of: Inverted.
     pub const INVERTED: u8 = 0x02;
-    /// Zero.
-    pub const INVERTED_ZERO: u8 = 0;
-    /// One.
-    pub const INVERTED_ONE: u8 = 1;
     /// The bit of: And with next.
     pub const AND_WITH_NEXT: u8 = 0x01;
-    /// Zero.
-    pub const AND_WITH_NEXT_ZERO: u8 = 0;
-    /// One.
-    pub const AND_WITH_NEXT_ONE: u8 = 1;
 
     /// Last.
     #[must_use]
@@ -3772,6 +4652,31 @@ impl Relay6Logic1 {
         } else {
             Self(self.0 & !Self::AND_WITH_NEXT)
         }
+    }
+}
+
+impl runtime::Flags for Relay6Logic1 {
+    const NAME: &'static str = "Relay6Logic1";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("last", 0x04),
+        runtime::Flag::new("inverted", 0x02),
+        runtime::Flag::new("and_with_next", 0x01),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for Relay6Logic1 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for Relay6Logic1 {
+    fn default() -> Self {
+        Self::ALL_FALSE
     }
 }
 
@@ -3790,28 +4695,20 @@ impl From<Relay6Logic1> for u8 {
 }
 
 /// Relay 6 logic 2.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Relay6Logic2(pub u8);
 
 impl Relay6Logic2 {
+    /// The word in which nothing is true and every number is 0.
+    pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Last.
     pub const LAST: u8 = 0x04;
-    /// Zero.
-    pub const LAST_ZERO: u8 = 0;
-    /// One.
-    pub const LAST_ONE: u8 = 1;
     /// The bit of: Inverted.
     pub const INVERTED: u8 = 0x02;
-    /// Zero.
-    pub const INVERTED_ZERO: u8 = 0;
-    /// One.
-    pub const INVERTED_ONE: u8 = 1;
     /// The bit of: And with next.
     pub const AND_WITH_NEXT: u8 = 0x01;
-    /// Zero.
-    pub const AND_WITH_NEXT_ZERO: u8 = 0;
-    /// One.
-    pub const AND_WITH_NEXT_ONE: u8 = 1;
 
     /// Last.
     #[must_use]
@@ -3859,6 +4756,31 @@ impl Relay6Logic2 {
         } else {
             Self(self.0 & !Self::AND_WITH_NEXT)
         }
+    }
+}
+
+impl runtime::Flags for Relay6Logic2 {
+    const NAME: &'static str = "Relay6Logic2";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("last", 0x04),
+        runtime::Flag::new("inverted", 0x02),
+        runtime::Flag::new("and_with_next", 0x01),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for Relay6Logic2 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for Relay6Logic2 {
+    fn default() -> Self {
+        Self::ALL_FALSE
     }
 }
 
@@ -3877,28 +4799,20 @@ impl From<Relay6Logic2> for u8 {
 }
 
 /// Relay 6 logic 3.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Relay6Logic3(pub u8);
 
 impl Relay6Logic3 {
+    /// The word in which nothing is true and every number is 0.
+    pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Last.
     pub const LAST: u8 = 0x04;
-    /// Zero.
-    pub const LAST_ZERO: u8 = 0;
-    /// One.
-    pub const LAST_ONE: u8 = 1;
     /// The bit of: Inverted.
     pub const INVERTED: u8 = 0x02;
-    /// Zero.
-    pub const INVERTED_ZERO: u8 = 0;
-    /// One.
-    pub const INVERTED_ONE: u8 = 1;
     /// The bit of: And with next.
     pub const AND_WITH_NEXT: u8 = 0x01;
-    /// Zero.
-    pub const AND_WITH_NEXT_ZERO: u8 = 0;
-    /// One.
-    pub const AND_WITH_NEXT_ONE: u8 = 1;
 
     /// Last.
     #[must_use]
@@ -3946,6 +4860,31 @@ impl Relay6Logic3 {
         } else {
             Self(self.0 & !Self::AND_WITH_NEXT)
         }
+    }
+}
+
+impl runtime::Flags for Relay6Logic3 {
+    const NAME: &'static str = "Relay6Logic3";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("last", 0x04),
+        runtime::Flag::new("inverted", 0x02),
+        runtime::Flag::new("and_with_next", 0x01),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for Relay6Logic3 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for Relay6Logic3 {
+    fn default() -> Self {
+        Self::ALL_FALSE
     }
 }
 
@@ -3964,28 +4903,20 @@ impl From<Relay6Logic3> for u8 {
 }
 
 /// Relay 7 logic 1.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Relay7Logic1(pub u8);
 
 impl Relay7Logic1 {
+    /// The word in which nothing is true and every number is 0.
+    pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Last.
     pub const LAST: u8 = 0x04;
-    /// Zero.
-    pub const LAST_ZERO: u8 = 0;
-    /// One.
-    pub const LAST_ONE: u8 = 1;
     /// The bit of: Inverted.
     pub const INVERTED: u8 = 0x02;
-    /// Zero.
-    pub const INVERTED_ZERO: u8 = 0;
-    /// One.
-    pub const INVERTED_ONE: u8 = 1;
     /// The bit of: And with next.
     pub const AND_WITH_NEXT: u8 = 0x01;
-    /// Zero.
-    pub const AND_WITH_NEXT_ZERO: u8 = 0;
-    /// One.
-    pub const AND_WITH_NEXT_ONE: u8 = 1;
 
     /// Last.
     #[must_use]
@@ -4033,6 +4964,31 @@ impl Relay7Logic1 {
         } else {
             Self(self.0 & !Self::AND_WITH_NEXT)
         }
+    }
+}
+
+impl runtime::Flags for Relay7Logic1 {
+    const NAME: &'static str = "Relay7Logic1";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("last", 0x04),
+        runtime::Flag::new("inverted", 0x02),
+        runtime::Flag::new("and_with_next", 0x01),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for Relay7Logic1 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for Relay7Logic1 {
+    fn default() -> Self {
+        Self::ALL_FALSE
     }
 }
 
@@ -4051,28 +5007,20 @@ impl From<Relay7Logic1> for u8 {
 }
 
 /// Relay 7 logic 2.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Relay7Logic2(pub u8);
 
 impl Relay7Logic2 {
+    /// The word in which nothing is true and every number is 0.
+    pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Last.
     pub const LAST: u8 = 0x04;
-    /// Zero.
-    pub const LAST_ZERO: u8 = 0;
-    /// One.
-    pub const LAST_ONE: u8 = 1;
     /// The bit of: Inverted.
     pub const INVERTED: u8 = 0x02;
-    /// Zero.
-    pub const INVERTED_ZERO: u8 = 0;
-    /// One.
-    pub const INVERTED_ONE: u8 = 1;
     /// The bit of: And with next.
     pub const AND_WITH_NEXT: u8 = 0x01;
-    /// Zero.
-    pub const AND_WITH_NEXT_ZERO: u8 = 0;
-    /// One.
-    pub const AND_WITH_NEXT_ONE: u8 = 1;
 
     /// Last.
     #[must_use]
@@ -4120,6 +5068,31 @@ impl Relay7Logic2 {
         } else {
             Self(self.0 & !Self::AND_WITH_NEXT)
         }
+    }
+}
+
+impl runtime::Flags for Relay7Logic2 {
+    const NAME: &'static str = "Relay7Logic2";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("last", 0x04),
+        runtime::Flag::new("inverted", 0x02),
+        runtime::Flag::new("and_with_next", 0x01),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for Relay7Logic2 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for Relay7Logic2 {
+    fn default() -> Self {
+        Self::ALL_FALSE
     }
 }
 
@@ -4138,28 +5111,20 @@ impl From<Relay7Logic2> for u8 {
 }
 
 /// Relay 7 logic 3.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+///
+/// Shown with the names of what is true; its default is [`Self::ALL_FALSE`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Relay7Logic3(pub u8);
 
 impl Relay7Logic3 {
+    /// The word in which nothing is true and every number is 0.
+    pub const ALL_FALSE: Self = Self(0);
     /// The bit of: Last.
     pub const LAST: u8 = 0x04;
-    /// Zero.
-    pub const LAST_ZERO: u8 = 0;
-    /// One.
-    pub const LAST_ONE: u8 = 1;
     /// The bit of: Inverted.
     pub const INVERTED: u8 = 0x02;
-    /// Zero.
-    pub const INVERTED_ZERO: u8 = 0;
-    /// One.
-    pub const INVERTED_ONE: u8 = 1;
     /// The bit of: And with next.
     pub const AND_WITH_NEXT: u8 = 0x01;
-    /// Zero.
-    pub const AND_WITH_NEXT_ZERO: u8 = 0;
-    /// One.
-    pub const AND_WITH_NEXT_ONE: u8 = 1;
 
     /// Last.
     #[must_use]
@@ -4207,6 +5172,31 @@ impl Relay7Logic3 {
         } else {
             Self(self.0 & !Self::AND_WITH_NEXT)
         }
+    }
+}
+
+impl runtime::Flags for Relay7Logic3 {
+    const NAME: &'static str = "Relay7Logic3";
+    const FLAGS: &'static [runtime::Flag] = &[
+        runtime::Flag::new("last", 0x04),
+        runtime::Flag::new("inverted", 0x02),
+        runtime::Flag::new("and_with_next", 0x01),
+    ];
+
+    fn bits(self) -> u64 {
+        u64::from(self.0)
+    }
+}
+
+impl fmt::Debug for Relay7Logic3 {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        runtime::show(*self, formatter)
+    }
+}
+
+impl Default for Relay7Logic3 {
+    fn default() -> Self {
+        Self::ALL_FALSE
     }
 }
 

@@ -5,6 +5,7 @@
 //! `Woodward MPU2-S`.
 //!
 //! Each point is a type of [`points`]; what may be done with it is a trait: [`Readable`], [`Writable`].
+//! [`Client`](runtime::can::Client) and [`AsyncClient`](runtime::can::AsyncClient) do it over a transport that you bring.
 //! No warranty, no affiliation with the maker; a write may move a machine.
 
 #![no_std]

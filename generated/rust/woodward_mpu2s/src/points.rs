@@ -4,30 +4,30 @@
 
 //! The points of the device.
 //!
-//! Documented only:
-//! - `reserved_word_11`
-//! - `reserved_word_21`
-//! - `generator_reactive_power`
-//! - `reserved_word_27`
-//! - `reserved_word_28`
-//! - `reserved_word_31_low`
-//! - `reserved_word_33_low`
-//! - `reserved_word_40`
-//! - `reserved_word_41`
-//! - `reserved_word_42`
-//! - `reserved_word_43_high`
-//! - `reserved_word_44_high`
-//! - `reserved_word_49`
-//! - `analog_input_1`
-//! - `analog_input_2`
-//! - `analog_input_3`
-//! - `analog_input_4`
-//! - `analog_input_5`
-//! - `analog_input_6`
-//! - `analog_input_7`
-//! - `analog_input_8`
-//! - `reserved_word_69`
-//! - `frequency_controller_ramp`
+//! Documented only, as the documentation explains; one with an address is reached by it, as raw words:
+//! - `reserved_word_11`, telegram `visualisation` word 000Ah (10)
+//! - `reserved_word_21`, telegram `visualisation` word 0014h (20)
+//! - `generator_reactive_power`, telegram `visualisation` word 0018h (24)
+//! - `reserved_word_27`, telegram `visualisation` word 001Ah (26)
+//! - `reserved_word_28`, telegram `visualisation` word 001Bh (27)
+//! - `reserved_word_31_low`, telegram `visualisation` word 001Eh (30) bits 7 to 0
+//! - `reserved_word_33_low`, telegram `visualisation` word 0020h (32) bits 7 to 0
+//! - `reserved_word_40`, telegram `visualisation` word 0027h (39)
+//! - `reserved_word_41`, telegram `visualisation` word 0028h (40)
+//! - `reserved_word_42`, telegram `visualisation` word 0029h (41)
+//! - `reserved_word_43_high`, telegram `visualisation` word 002Ah (42) bits 15 to 8
+//! - `reserved_word_44_high`, telegram `visualisation` word 002Bh (43) bits 15 to 8
+//! - `reserved_word_49`, telegram `visualisation` word 0030h (48)
+//! - `analog_input_1`, telegram `visualisation` word 003Ch (60)
+//! - `analog_input_2`, telegram `visualisation` word 003Dh (61)
+//! - `analog_input_3`, telegram `visualisation` word 003Eh (62)
+//! - `analog_input_4`, telegram `visualisation` word 003Fh (63)
+//! - `analog_input_5`, telegram `visualisation` word 0040h (64)
+//! - `analog_input_6`, telegram `visualisation` word 0041h (65)
+//! - `analog_input_7`, telegram `visualisation` word 0042h (66)
+//! - `analog_input_8`, telegram `visualisation` word 0043h (67)
+//! - `reserved_word_69`, telegram `visualisation` word 0044h (68)
+//! - `frequency_controller_ramp`, parameter 0044h (68)
 
 use fieldscribe_runtime as runtime;
 use fieldscribe_runtime::arithmetic;
@@ -142,7 +142,7 @@ impl GeneratorFrequency {
 
 /// Generator active power.
 ///
-/// At telegram `visualisation` word 0002h (2), `s16`, raw `-32768..32767`, read only.
+/// At telegram `visualisation` word 0002h (2), `s16`, raw `-32768..32767`, value `raw x 10^generator_power_exponent.raw W`, read only.
 ///
 /// Errata: `telegram_signed_power`, `telegram_power_exponent_use`.
 #[derive(Clone, Copy, Debug)]
@@ -336,7 +336,7 @@ impl GeneratorVoltageExponent {
 
 /// Present active power setpoint.
 ///
-/// At telegram `visualisation` word 0004h (4), `s16`, raw `-32768..32767`, read only.
+/// At telegram `visualisation` word 0004h (4), `s16`, raw `-32768..32767`, value `raw / 2800 x active_power_setpoint_factor.raw x 10^generator_power_exponent.raw W`, read only.
 ///
 /// Errata: `telegram_signed_power`.
 #[derive(Clone, Copy, Debug)]
@@ -459,7 +459,7 @@ impl ActivePowerSetpointFactor {
 
 /// Busbar voltage l1 l2.
 ///
-/// At telegram `visualisation` word 0006h (6), `u16`, raw `0..65535`, read only.
+/// At telegram `visualisation` word 0006h (6), `u16`, raw `0..65535`, value `raw x 10^busbar_voltage_exponent.raw V`, read only.
 ///
 /// Errata: `telegram_busbar_voltage_title`.
 #[derive(Clone, Copy, Debug)]
@@ -528,7 +528,7 @@ impl BusbarVoltageL1L2 {
 
 /// Mains voltage l1 l2.
 ///
-/// At telegram `visualisation` word 0007h (7), `u16`, raw `0..65535`, read only.
+/// At telegram `visualisation` word 0007h (7), `u16`, raw `0..65535`, value `raw x 10^mains_voltage_exponent.raw V`, read only.
 #[derive(Clone, Copy, Debug)]
 pub struct MainsVoltageL1L2;
 
@@ -850,7 +850,7 @@ impl InternalFaults6 {
 
 /// Generator voltage l2 l3.
 ///
-/// At telegram `visualisation` word 000Eh (14), `u16`, raw `0..65535`, read only.
+/// At telegram `visualisation` word 000Eh (14), `u16`, raw `0..65535`, value `raw x 10^generator_voltage_exponent.raw V`, read only.
 #[derive(Clone, Copy, Debug)]
 pub struct GeneratorVoltageL2L3;
 
@@ -917,7 +917,7 @@ impl GeneratorVoltageL2L3 {
 
 /// Generator voltage l3 l1.
 ///
-/// At telegram `visualisation` word 000Fh (15), `u16`, raw `0..65535`, read only.
+/// At telegram `visualisation` word 000Fh (15), `u16`, raw `0..65535`, value `raw x 10^generator_voltage_exponent.raw V`, read only.
 #[derive(Clone, Copy, Debug)]
 pub struct GeneratorVoltageL3L1;
 
@@ -984,7 +984,7 @@ impl GeneratorVoltageL3L1 {
 
 /// Generator voltage l1 n.
 ///
-/// At telegram `visualisation` word 0010h (16), `u16`, raw `0..65535`, read only.
+/// At telegram `visualisation` word 0010h (16), `u16`, raw `0..65535`, value `raw x 10^generator_voltage_exponent.raw V`, read only.
 #[derive(Clone, Copy, Debug)]
 pub struct GeneratorVoltageL1N;
 
@@ -1051,7 +1051,7 @@ impl GeneratorVoltageL1N {
 
 /// Generator voltage l2 n.
 ///
-/// At telegram `visualisation` word 0011h (17), `u16`, raw `0..65535`, read only.
+/// At telegram `visualisation` word 0011h (17), `u16`, raw `0..65535`, value `raw x 10^generator_voltage_exponent.raw V`, read only.
 #[derive(Clone, Copy, Debug)]
 pub struct GeneratorVoltageL2N;
 
@@ -1118,7 +1118,7 @@ impl GeneratorVoltageL2N {
 
 /// Generator voltage l3 n.
 ///
-/// At telegram `visualisation` word 0012h (18), `u16`, raw `0..65535`, read only.
+/// At telegram `visualisation` word 0012h (18), `u16`, raw `0..65535`, value `raw x 10^generator_voltage_exponent.raw V`, read only.
 #[derive(Clone, Copy, Debug)]
 pub struct GeneratorVoltageL3N;
 
@@ -1185,7 +1185,7 @@ impl GeneratorVoltageL3N {
 
 /// Generator voltage l1 l2.
 ///
-/// At telegram `visualisation` word 0013h (19), `u16`, raw `0..65535`, read only.
+/// At telegram `visualisation` word 0013h (19), `u16`, raw `0..65535`, value `raw x 10^generator_voltage_exponent.raw V`, read only.
 #[derive(Clone, Copy, Debug)]
 pub struct GeneratorVoltageL1L2;
 
@@ -1252,7 +1252,7 @@ impl GeneratorVoltageL1L2 {
 
 /// Generator current l1.
 ///
-/// At telegram `visualisation` word 0015h (21), `u16`, raw `0..65535`, read only.
+/// At telegram `visualisation` word 0015h (21), `u16`, raw `0..65535`, value `raw x 10^generator_current_exponent.raw A`, read only.
 #[derive(Clone, Copy, Debug)]
 pub struct GeneratorCurrentL1;
 
@@ -1319,7 +1319,7 @@ impl GeneratorCurrentL1 {
 
 /// Generator current l2.
 ///
-/// At telegram `visualisation` word 0016h (22), `u16`, raw `0..65535`, read only.
+/// At telegram `visualisation` word 0016h (22), `u16`, raw `0..65535`, value `raw x 10^generator_current_exponent.raw A`, read only.
 #[derive(Clone, Copy, Debug)]
 pub struct GeneratorCurrentL2;
 
@@ -1386,7 +1386,7 @@ impl GeneratorCurrentL2 {
 
 /// Generator current l3.
 ///
-/// At telegram `visualisation` word 0017h (23), `u16`, raw `0..65535`, read only.
+/// At telegram `visualisation` word 0017h (23), `u16`, raw `0..65535`, value `raw x 10^generator_current_exponent.raw A`, read only.
 #[derive(Clone, Copy, Debug)]
 pub struct GeneratorCurrentL3;
 
@@ -1845,7 +1845,7 @@ impl BusbarState {
 
 /// Mains voltage l2 l3.
 ///
-/// At telegram `visualisation` word 0021h (33), `u16`, raw `0..65535`, read only.
+/// At telegram `visualisation` word 0021h (33), `u16`, raw `0..65535`, value `raw x 10^mains_voltage_exponent.raw V`, read only.
 #[derive(Clone, Copy, Debug)]
 pub struct MainsVoltageL2L3;
 
@@ -1912,7 +1912,7 @@ impl MainsVoltageL2L3 {
 
 /// Mains voltage l3 l1.
 ///
-/// At telegram `visualisation` word 0022h (34), `u16`, raw `0..65535`, read only.
+/// At telegram `visualisation` word 0022h (34), `u16`, raw `0..65535`, value `raw x 10^mains_voltage_exponent.raw V`, read only.
 #[derive(Clone, Copy, Debug)]
 pub struct MainsVoltageL3L1;
 
@@ -1979,7 +1979,7 @@ impl MainsVoltageL3L1 {
 
 /// Mains voltage l1 n.
 ///
-/// At telegram `visualisation` word 0023h (35), `u16`, raw `0..65535`, read only.
+/// At telegram `visualisation` word 0023h (35), `u16`, raw `0..65535`, value `raw x 10^mains_voltage_exponent.raw V`, read only.
 #[derive(Clone, Copy, Debug)]
 pub struct MainsVoltageL1N;
 
@@ -2046,7 +2046,7 @@ impl MainsVoltageL1N {
 
 /// Mains voltage l2 n.
 ///
-/// At telegram `visualisation` word 0024h (36), `u16`, raw `0..65535`, read only.
+/// At telegram `visualisation` word 0024h (36), `u16`, raw `0..65535`, value `raw x 10^mains_voltage_exponent.raw V`, read only.
 #[derive(Clone, Copy, Debug)]
 pub struct MainsVoltageL2N;
 
@@ -2113,7 +2113,7 @@ impl MainsVoltageL2N {
 
 /// Mains voltage l3 n.
 ///
-/// At telegram `visualisation` word 0025h (37), `u16`, raw `0..65535`, read only.
+/// At telegram `visualisation` word 0025h (37), `u16`, raw `0..65535`, value `raw x 10^mains_voltage_exponent.raw V`, read only.
 #[derive(Clone, Copy, Debug)]
 pub struct MainsVoltageL3N;
 
@@ -3866,7 +3866,7 @@ impl runtime::CountReadable for GeneratorVoltageFactor {
 
 /// Generator voltage setpoint 100v.
 ///
-/// At parameter 000Ah (10), `u16`, raw `generator_voltage_factor.raw x 0.0625..min(20480, generator_voltage_factor.raw x 0.3125)`, read and write, for `voltage=100V`.
+/// At parameter 000Ah (10), `u16`, raw `generator_voltage_factor.raw x 0.0625..min(20480, generator_voltage_factor.raw x 0.3125)`, value `raw x 400 / generator_voltage_factor.raw V`, read and write, for `voltage=100V`.
 #[derive(Clone, Copy, Debug)]
 pub struct GeneratorVoltageSetpoint100v;
 
@@ -3960,7 +3960,7 @@ impl runtime::CountWritable for GeneratorVoltageSetpoint100v {
 
 /// Generator voltage setpoint 400v.
 ///
-/// At parameter 000Ah (10), `u16`, raw `generator_voltage_factor.raw x 0.125..generator_voltage_factor.raw x 1.2`, read and write, for `voltage=400V`.
+/// At parameter 000Ah (10), `u16`, raw `generator_voltage_factor.raw x 0.125..generator_voltage_factor.raw x 1.2`, value `raw x 400 / generator_voltage_factor.raw V`, read and write, for `voltage=400V`.
 #[derive(Clone, Copy, Debug)]
 pub struct GeneratorVoltageSetpoint400v;
 
@@ -4053,7 +4053,7 @@ impl runtime::CountWritable for GeneratorVoltageSetpoint400v {
 
 /// Generator rated voltage 100v.
 ///
-/// At parameter 0128h (296), `u16`, raw `generator_voltage_factor.raw x 0.0625..min(20480, generator_voltage_factor.raw x 0.3125)`, read and write, for `voltage=100V`.
+/// At parameter 0128h (296), `u16`, raw `generator_voltage_factor.raw x 0.0625..min(20480, generator_voltage_factor.raw x 0.3125)`, value `raw x 400 / generator_voltage_factor.raw V`, read and write, for `voltage=100V`.
 #[derive(Clone, Copy, Debug)]
 pub struct GeneratorRatedVoltage100v;
 
@@ -4147,7 +4147,7 @@ impl runtime::CountWritable for GeneratorRatedVoltage100v {
 
 /// Generator rated voltage 400v.
 ///
-/// At parameter 0128h (296), `u16`, raw `generator_voltage_factor.raw x 0.125..generator_voltage_factor.raw x 1.2`, read and write, for `voltage=400V`.
+/// At parameter 0128h (296), `u16`, raw `generator_voltage_factor.raw x 0.125..generator_voltage_factor.raw x 1.2`, value `raw x 400 / generator_voltage_factor.raw V`, read and write, for `voltage=400V`.
 #[derive(Clone, Copy, Debug)]
 pub struct GeneratorRatedVoltage400v;
 
@@ -9935,7 +9935,7 @@ impl runtime::CountWritable for GeneratorOvervoltageMonitoring {
 
 /// Generator overvoltage 1 threshold 100v.
 ///
-/// At parameter 006Ch (108), `u16`, raw `generator_voltage_factor.raw x 0.05..min(24576, generator_voltage_factor.raw x 0.375)`, read and write, for `voltage=100V`.
+/// At parameter 006Ch (108), `u16`, raw `generator_voltage_factor.raw x 0.05..min(24576, generator_voltage_factor.raw x 0.375)`, value `raw x 400 / generator_voltage_factor.raw V`, read and write, for `voltage=100V`.
 #[derive(Clone, Copy, Debug)]
 pub struct GeneratorOvervoltage1Threshold100v;
 
@@ -10029,7 +10029,7 @@ impl runtime::CountWritable for GeneratorOvervoltage1Threshold100v {
 
 /// Generator overvoltage 1 threshold 400v.
 ///
-/// At parameter 006Ch (108), `u16`, raw `generator_voltage_factor.raw x 0.05..generator_voltage_factor.raw x 1.3`, read and write, for `voltage=400V`.
+/// At parameter 006Ch (108), `u16`, raw `generator_voltage_factor.raw x 0.05..generator_voltage_factor.raw x 1.3`, value `raw x 400 / generator_voltage_factor.raw V`, read and write, for `voltage=400V`.
 #[derive(Clone, Copy, Debug)]
 pub struct GeneratorOvervoltage1Threshold400v;
 
@@ -10191,7 +10191,7 @@ impl runtime::CountWritable for GeneratorOvervoltage1Delay {
 
 /// Generator overvoltage 2 threshold 100v.
 ///
-/// At parameter 0124h (292), `u16`, raw `generator_voltage_factor.raw x 0.05..min(24576, generator_voltage_factor.raw x 0.375)`, read and write, for `voltage=100V`.
+/// At parameter 0124h (292), `u16`, raw `generator_voltage_factor.raw x 0.05..min(24576, generator_voltage_factor.raw x 0.375)`, value `raw x 400 / generator_voltage_factor.raw V`, read and write, for `voltage=100V`.
 #[derive(Clone, Copy, Debug)]
 pub struct GeneratorOvervoltage2Threshold100v;
 
@@ -10285,7 +10285,7 @@ impl runtime::CountWritable for GeneratorOvervoltage2Threshold100v {
 
 /// Generator overvoltage 2 threshold 400v.
 ///
-/// At parameter 0124h (292), `u16`, raw `generator_voltage_factor.raw x 0.05..generator_voltage_factor.raw x 1.3`, read and write, for `voltage=400V`.
+/// At parameter 0124h (292), `u16`, raw `generator_voltage_factor.raw x 0.05..generator_voltage_factor.raw x 1.3`, value `raw x 400 / generator_voltage_factor.raw V`, read and write, for `voltage=400V`.
 #[derive(Clone, Copy, Debug)]
 pub struct GeneratorOvervoltage2Threshold400v;
 
@@ -10521,7 +10521,7 @@ impl runtime::CountWritable for GeneratorUndervoltageMonitoring {
 
 /// Generator undervoltage 1 threshold 100v.
 ///
-/// At parameter 006Eh (110), `u16`, raw `generator_voltage_factor.raw x 0.05..min(24576, generator_voltage_factor.raw x 0.375)`, read and write, for `voltage=100V`.
+/// At parameter 006Eh (110), `u16`, raw `generator_voltage_factor.raw x 0.05..min(24576, generator_voltage_factor.raw x 0.375)`, value `raw x 400 / generator_voltage_factor.raw V`, read and write, for `voltage=100V`.
 #[derive(Clone, Copy, Debug)]
 pub struct GeneratorUndervoltage1Threshold100v;
 
@@ -10615,7 +10615,7 @@ impl runtime::CountWritable for GeneratorUndervoltage1Threshold100v {
 
 /// Generator undervoltage 1 threshold 400v.
 ///
-/// At parameter 006Eh (110), `u16`, raw `generator_voltage_factor.raw x 0.05..generator_voltage_factor.raw x 1.3`, read and write, for `voltage=400V`.
+/// At parameter 006Eh (110), `u16`, raw `generator_voltage_factor.raw x 0.05..generator_voltage_factor.raw x 1.3`, value `raw x 400 / generator_voltage_factor.raw V`, read and write, for `voltage=400V`.
 #[derive(Clone, Copy, Debug)]
 pub struct GeneratorUndervoltage1Threshold400v;
 
@@ -10777,7 +10777,7 @@ impl runtime::CountWritable for GeneratorUndervoltage1Delay {
 
 /// Generator undervoltage 2 threshold 100v.
 ///
-/// At parameter 0126h (294), `u16`, raw `generator_voltage_factor.raw x 0.05..min(24576, generator_voltage_factor.raw x 0.375)`, read and write, for `voltage=100V`.
+/// At parameter 0126h (294), `u16`, raw `generator_voltage_factor.raw x 0.05..min(24576, generator_voltage_factor.raw x 0.375)`, value `raw x 400 / generator_voltage_factor.raw V`, read and write, for `voltage=100V`.
 #[derive(Clone, Copy, Debug)]
 pub struct GeneratorUndervoltage2Threshold100v;
 
@@ -10871,7 +10871,7 @@ impl runtime::CountWritable for GeneratorUndervoltage2Threshold100v {
 
 /// Generator undervoltage 2 threshold 400v.
 ///
-/// At parameter 0126h (294), `u16`, raw `generator_voltage_factor.raw x 0.05..generator_voltage_factor.raw x 1.3`, read and write, for `voltage=400V`.
+/// At parameter 0126h (294), `u16`, raw `generator_voltage_factor.raw x 0.05..generator_voltage_factor.raw x 1.3`, value `raw x 400 / generator_voltage_factor.raw V`, read and write, for `voltage=400V`.
 #[derive(Clone, Copy, Debug)]
 pub struct GeneratorUndervoltage2Threshold400v;
 
@@ -11496,7 +11496,7 @@ impl runtime::CountReadable for MainsVoltageFactor {
 
 /// Mains overvoltage threshold 100v.
 ///
-/// At parameter 005Bh (91), `u16`, raw `mains_voltage_factor.raw x 0.05..min(24576, mains_voltage_factor.raw x 0.375)`, read and write, for `voltage=100V`.
+/// At parameter 005Bh (91), `u16`, raw `mains_voltage_factor.raw x 0.05..min(24576, mains_voltage_factor.raw x 0.375)`, value `raw x 400 / mains_voltage_factor.raw V`, read and write, for `voltage=100V`.
 #[derive(Clone, Copy, Debug)]
 pub struct MainsOvervoltageThreshold100v;
 
@@ -11590,7 +11590,7 @@ impl runtime::CountWritable for MainsOvervoltageThreshold100v {
 
 /// Mains overvoltage threshold 400v.
 ///
-/// At parameter 005Bh (91), `u16`, raw `mains_voltage_factor.raw x 0.05..mains_voltage_factor.raw x 1.3`, read and write, for `voltage=400V`.
+/// At parameter 005Bh (91), `u16`, raw `mains_voltage_factor.raw x 0.05..mains_voltage_factor.raw x 1.3`, value `raw x 400 / mains_voltage_factor.raw V`, read and write, for `voltage=400V`.
 #[derive(Clone, Copy, Debug)]
 pub struct MainsOvervoltageThreshold400v;
 
@@ -11752,7 +11752,7 @@ impl runtime::CountWritable for MainsOvervoltageDelay {
 
 /// Mains undervoltage threshold 100v.
 ///
-/// At parameter 005Dh (93), `u16`, raw `mains_voltage_factor.raw x 0.05..min(24576, mains_voltage_factor.raw x 0.375)`, read and write, for `voltage=100V`.
+/// At parameter 005Dh (93), `u16`, raw `mains_voltage_factor.raw x 0.05..min(24576, mains_voltage_factor.raw x 0.375)`, value `raw x 400 / mains_voltage_factor.raw V`, read and write, for `voltage=100V`.
 #[derive(Clone, Copy, Debug)]
 pub struct MainsUndervoltageThreshold100v;
 
@@ -11846,7 +11846,7 @@ impl runtime::CountWritable for MainsUndervoltageThreshold100v {
 
 /// Mains undervoltage threshold 400v.
 ///
-/// At parameter 005Dh (93), `u16`, raw `mains_voltage_factor.raw x 0.05..mains_voltage_factor.raw x 1.3`, read and write, for `voltage=400V`.
+/// At parameter 005Dh (93), `u16`, raw `mains_voltage_factor.raw x 0.05..mains_voltage_factor.raw x 1.3`, value `raw x 400 / mains_voltage_factor.raw V`, read and write, for `voltage=400V`.
 #[derive(Clone, Copy, Debug)]
 pub struct MainsUndervoltageThreshold400v;
 
@@ -14576,7 +14576,7 @@ impl runtime::CountWritable for AnalogOutput1CurrentRange {
 
 /// Analog output 1 value at 0 percent.
 ///
-/// At parameter 00C1h (193), `s16`, raw `-9999..9999`, read and write.
+/// At parameter 00C1h (193), `s16`, raw `-9999..9999`, value `raw when analog_output_1_source.raw is 1; raw x 0.01 when analog_output_1_source.raw is 2; raw x 0.01 when analog_output_1_source.raw is 3; raw when analog_output_1_source.raw is 4; raw when analog_output_1_source.raw is 5; raw when analog_output_1_source.raw is 6; raw when analog_output_1_source.raw is 7; raw when analog_output_1_source.raw is 8; raw when analog_output_1_source.raw is 9; raw when analog_output_1_source.raw is 10; raw when analog_output_1_source.raw is 19; raw when analog_output_1_source.raw is 20; raw x 0.01 when analog_output_1_source.raw is 21; raw when analog_output_1_source.raw is 22`, read and write.
 ///
 /// Errata: `parameter_sign`, `analog_output_values`.
 #[derive(Clone, Copy, Debug)]
@@ -14727,7 +14727,7 @@ impl runtime::CountWritable for AnalogOutput1ValueAt0Percent {
 
 /// Analog output 1 value at 100 percent.
 ///
-/// At parameter 00C2h (194), `s16`, raw `-9999..9999`, read and write.
+/// At parameter 00C2h (194), `s16`, raw `-9999..9999`, value `raw when analog_output_1_source.raw is 1; raw x 0.01 when analog_output_1_source.raw is 2; raw x 0.01 when analog_output_1_source.raw is 3; raw when analog_output_1_source.raw is 4; raw when analog_output_1_source.raw is 5; raw when analog_output_1_source.raw is 6; raw when analog_output_1_source.raw is 7; raw when analog_output_1_source.raw is 8; raw when analog_output_1_source.raw is 9; raw when analog_output_1_source.raw is 10; raw when analog_output_1_source.raw is 19; raw when analog_output_1_source.raw is 20; raw x 0.01 when analog_output_1_source.raw is 21; raw when analog_output_1_source.raw is 22`, read and write.
 ///
 /// Errata: `parameter_sign`, `analog_output_values`.
 #[derive(Clone, Copy, Debug)]
@@ -15016,7 +15016,7 @@ impl runtime::CountWritable for AnalogOutput2CurrentRange {
 
 /// Analog output 2 value at 0 percent.
 ///
-/// At parameter 00C4h (196), `s16`, raw `-9999..9999`, read and write.
+/// At parameter 00C4h (196), `s16`, raw `-9999..9999`, value `raw when analog_output_2_source.raw is 1; raw x 0.01 when analog_output_2_source.raw is 2; raw x 0.01 when analog_output_2_source.raw is 3; raw when analog_output_2_source.raw is 4; raw when analog_output_2_source.raw is 5; raw when analog_output_2_source.raw is 6; raw when analog_output_2_source.raw is 7; raw when analog_output_2_source.raw is 8; raw when analog_output_2_source.raw is 9; raw when analog_output_2_source.raw is 10; raw when analog_output_2_source.raw is 19; raw when analog_output_2_source.raw is 20; raw x 0.01 when analog_output_2_source.raw is 21; raw when analog_output_2_source.raw is 22`, read and write.
 ///
 /// Errata: `parameter_sign`, `analog_output_values`.
 #[derive(Clone, Copy, Debug)]
@@ -15167,7 +15167,7 @@ impl runtime::CountWritable for AnalogOutput2ValueAt0Percent {
 
 /// Analog output 2 value at 100 percent.
 ///
-/// At parameter 00C5h (197), `s16`, raw `-9999..9999`, read and write.
+/// At parameter 00C5h (197), `s16`, raw `-9999..9999`, value `raw when analog_output_2_source.raw is 1; raw x 0.01 when analog_output_2_source.raw is 2; raw x 0.01 when analog_output_2_source.raw is 3; raw when analog_output_2_source.raw is 4; raw when analog_output_2_source.raw is 5; raw when analog_output_2_source.raw is 6; raw when analog_output_2_source.raw is 7; raw when analog_output_2_source.raw is 8; raw when analog_output_2_source.raw is 9; raw when analog_output_2_source.raw is 10; raw when analog_output_2_source.raw is 19; raw when analog_output_2_source.raw is 20; raw x 0.01 when analog_output_2_source.raw is 21; raw when analog_output_2_source.raw is 22`, read and write.
 ///
 /// Errata: `parameter_sign`, `analog_output_values`.
 #[derive(Clone, Copy, Debug)]

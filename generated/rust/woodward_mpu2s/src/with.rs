@@ -7,267 +7,267 @@
 /// Raw numbers that `generator_active_power` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct GeneratorActivePower {
-    /// The raw number of `generator_power_exponent`.
+    /// The raw number of [`GeneratorPowerExponent`](crate::points::GeneratorPowerExponent).
     pub generator_power_exponent: i8,
 }
 
 /// Raw numbers that `present_active_power_setpoint` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct PresentActivePowerSetpoint {
-    /// The raw number of `active_power_setpoint_factor`.
+    /// The raw number of [`ActivePowerSetpointFactor`](crate::points::ActivePowerSetpointFactor).
     pub active_power_setpoint_factor: u16,
-    /// The raw number of `generator_power_exponent`.
+    /// The raw number of [`GeneratorPowerExponent`](crate::points::GeneratorPowerExponent).
     pub generator_power_exponent: i8,
 }
 
 /// Raw numbers that `busbar_voltage_l1_l2` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct BusbarVoltageL1L2 {
-    /// The raw number of `busbar_voltage_exponent`.
+    /// The raw number of [`BusbarVoltageExponent`](crate::points::BusbarVoltageExponent).
     pub busbar_voltage_exponent: i8,
 }
 
 /// Raw numbers that `mains_voltage_l1_l2` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct MainsVoltageL1L2 {
-    /// The raw number of `mains_voltage_exponent`.
+    /// The raw number of [`MainsVoltageExponent`](crate::points::MainsVoltageExponent).
     pub mains_voltage_exponent: i8,
 }
 
 /// Raw numbers that `generator_voltage_l2_l3` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct GeneratorVoltageL2L3 {
-    /// The raw number of `generator_voltage_exponent`.
+    /// The raw number of [`GeneratorVoltageExponent`](crate::points::GeneratorVoltageExponent).
     pub generator_voltage_exponent: i8,
 }
 
 /// Raw numbers that `generator_voltage_l3_l1` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct GeneratorVoltageL3L1 {
-    /// The raw number of `generator_voltage_exponent`.
+    /// The raw number of [`GeneratorVoltageExponent`](crate::points::GeneratorVoltageExponent).
     pub generator_voltage_exponent: i8,
 }
 
 /// Raw numbers that `generator_voltage_l1_n` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct GeneratorVoltageL1N {
-    /// The raw number of `generator_voltage_exponent`.
+    /// The raw number of [`GeneratorVoltageExponent`](crate::points::GeneratorVoltageExponent).
     pub generator_voltage_exponent: i8,
 }
 
 /// Raw numbers that `generator_voltage_l2_n` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct GeneratorVoltageL2N {
-    /// The raw number of `generator_voltage_exponent`.
+    /// The raw number of [`GeneratorVoltageExponent`](crate::points::GeneratorVoltageExponent).
     pub generator_voltage_exponent: i8,
 }
 
 /// Raw numbers that `generator_voltage_l3_n` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct GeneratorVoltageL3N {
-    /// The raw number of `generator_voltage_exponent`.
+    /// The raw number of [`GeneratorVoltageExponent`](crate::points::GeneratorVoltageExponent).
     pub generator_voltage_exponent: i8,
 }
 
 /// Raw numbers that `generator_voltage_l1_l2` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct GeneratorVoltageL1L2 {
-    /// The raw number of `generator_voltage_exponent`.
+    /// The raw number of [`GeneratorVoltageExponent`](crate::points::GeneratorVoltageExponent).
     pub generator_voltage_exponent: i8,
 }
 
 /// Raw numbers that `generator_current_l1` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct GeneratorCurrentL1 {
-    /// The raw number of `generator_current_exponent`.
+    /// The raw number of [`GeneratorCurrentExponent`](crate::points::GeneratorCurrentExponent).
     pub generator_current_exponent: i8,
 }
 
 /// Raw numbers that `generator_current_l2` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct GeneratorCurrentL2 {
-    /// The raw number of `generator_current_exponent`.
+    /// The raw number of [`GeneratorCurrentExponent`](crate::points::GeneratorCurrentExponent).
     pub generator_current_exponent: i8,
 }
 
 /// Raw numbers that `generator_current_l3` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct GeneratorCurrentL3 {
-    /// The raw number of `generator_current_exponent`.
+    /// The raw number of [`GeneratorCurrentExponent`](crate::points::GeneratorCurrentExponent).
     pub generator_current_exponent: i8,
 }
 
 /// Raw numbers that `mains_voltage_l2_l3` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct MainsVoltageL2L3 {
-    /// The raw number of `mains_voltage_exponent`.
+    /// The raw number of [`MainsVoltageExponent`](crate::points::MainsVoltageExponent).
     pub mains_voltage_exponent: i8,
 }
 
 /// Raw numbers that `mains_voltage_l3_l1` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct MainsVoltageL3L1 {
-    /// The raw number of `mains_voltage_exponent`.
+    /// The raw number of [`MainsVoltageExponent`](crate::points::MainsVoltageExponent).
     pub mains_voltage_exponent: i8,
 }
 
 /// Raw numbers that `mains_voltage_l1_n` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct MainsVoltageL1N {
-    /// The raw number of `mains_voltage_exponent`.
+    /// The raw number of [`MainsVoltageExponent`](crate::points::MainsVoltageExponent).
     pub mains_voltage_exponent: i8,
 }
 
 /// Raw numbers that `mains_voltage_l2_n` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct MainsVoltageL2N {
-    /// The raw number of `mains_voltage_exponent`.
+    /// The raw number of [`MainsVoltageExponent`](crate::points::MainsVoltageExponent).
     pub mains_voltage_exponent: i8,
 }
 
 /// Raw numbers that `mains_voltage_l3_n` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct MainsVoltageL3N {
-    /// The raw number of `mains_voltage_exponent`.
+    /// The raw number of [`MainsVoltageExponent`](crate::points::MainsVoltageExponent).
     pub mains_voltage_exponent: i8,
 }
 
 /// Raw numbers that `generator_voltage_setpoint_100v` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct GeneratorVoltageSetpoint100v {
-    /// The raw number of `generator_voltage_factor`.
+    /// The raw number of [`GeneratorVoltageFactor`](crate::points::GeneratorVoltageFactor).
     pub generator_voltage_factor: u16,
 }
 
 /// Raw numbers that `generator_voltage_setpoint_400v` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct GeneratorVoltageSetpoint400v {
-    /// The raw number of `generator_voltage_factor`.
+    /// The raw number of [`GeneratorVoltageFactor`](crate::points::GeneratorVoltageFactor).
     pub generator_voltage_factor: u16,
 }
 
 /// Raw numbers that `generator_rated_voltage_100v` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct GeneratorRatedVoltage100v {
-    /// The raw number of `generator_voltage_factor`.
+    /// The raw number of [`GeneratorVoltageFactor`](crate::points::GeneratorVoltageFactor).
     pub generator_voltage_factor: u16,
 }
 
 /// Raw numbers that `generator_rated_voltage_400v` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct GeneratorRatedVoltage400v {
-    /// The raw number of `generator_voltage_factor`.
+    /// The raw number of [`GeneratorVoltageFactor`](crate::points::GeneratorVoltageFactor).
     pub generator_voltage_factor: u16,
 }
 
 /// Raw numbers that `generator_overvoltage_1_threshold_100v` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct GeneratorOvervoltage1Threshold100v {
-    /// The raw number of `generator_voltage_factor`.
+    /// The raw number of [`GeneratorVoltageFactor`](crate::points::GeneratorVoltageFactor).
     pub generator_voltage_factor: u16,
 }
 
 /// Raw numbers that `generator_overvoltage_1_threshold_400v` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct GeneratorOvervoltage1Threshold400v {
-    /// The raw number of `generator_voltage_factor`.
+    /// The raw number of [`GeneratorVoltageFactor`](crate::points::GeneratorVoltageFactor).
     pub generator_voltage_factor: u16,
 }
 
 /// Raw numbers that `generator_overvoltage_2_threshold_100v` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct GeneratorOvervoltage2Threshold100v {
-    /// The raw number of `generator_voltage_factor`.
+    /// The raw number of [`GeneratorVoltageFactor`](crate::points::GeneratorVoltageFactor).
     pub generator_voltage_factor: u16,
 }
 
 /// Raw numbers that `generator_overvoltage_2_threshold_400v` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct GeneratorOvervoltage2Threshold400v {
-    /// The raw number of `generator_voltage_factor`.
+    /// The raw number of [`GeneratorVoltageFactor`](crate::points::GeneratorVoltageFactor).
     pub generator_voltage_factor: u16,
 }
 
 /// Raw numbers that `generator_undervoltage_1_threshold_100v` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct GeneratorUndervoltage1Threshold100v {
-    /// The raw number of `generator_voltage_factor`.
+    /// The raw number of [`GeneratorVoltageFactor`](crate::points::GeneratorVoltageFactor).
     pub generator_voltage_factor: u16,
 }
 
 /// Raw numbers that `generator_undervoltage_1_threshold_400v` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct GeneratorUndervoltage1Threshold400v {
-    /// The raw number of `generator_voltage_factor`.
+    /// The raw number of [`GeneratorVoltageFactor`](crate::points::GeneratorVoltageFactor).
     pub generator_voltage_factor: u16,
 }
 
 /// Raw numbers that `generator_undervoltage_2_threshold_100v` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct GeneratorUndervoltage2Threshold100v {
-    /// The raw number of `generator_voltage_factor`.
+    /// The raw number of [`GeneratorVoltageFactor`](crate::points::GeneratorVoltageFactor).
     pub generator_voltage_factor: u16,
 }
 
 /// Raw numbers that `generator_undervoltage_2_threshold_400v` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct GeneratorUndervoltage2Threshold400v {
-    /// The raw number of `generator_voltage_factor`.
+    /// The raw number of [`GeneratorVoltageFactor`](crate::points::GeneratorVoltageFactor).
     pub generator_voltage_factor: u16,
 }
 
 /// Raw numbers that `mains_overvoltage_threshold_100v` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct MainsOvervoltageThreshold100v {
-    /// The raw number of `mains_voltage_factor`.
+    /// The raw number of [`MainsVoltageFactor`](crate::points::MainsVoltageFactor).
     pub mains_voltage_factor: u16,
 }
 
 /// Raw numbers that `mains_overvoltage_threshold_400v` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct MainsOvervoltageThreshold400v {
-    /// The raw number of `mains_voltage_factor`.
+    /// The raw number of [`MainsVoltageFactor`](crate::points::MainsVoltageFactor).
     pub mains_voltage_factor: u16,
 }
 
 /// Raw numbers that `mains_undervoltage_threshold_100v` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct MainsUndervoltageThreshold100v {
-    /// The raw number of `mains_voltage_factor`.
+    /// The raw number of [`MainsVoltageFactor`](crate::points::MainsVoltageFactor).
     pub mains_voltage_factor: u16,
 }
 
 /// Raw numbers that `mains_undervoltage_threshold_400v` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct MainsUndervoltageThreshold400v {
-    /// The raw number of `mains_voltage_factor`.
+    /// The raw number of [`MainsVoltageFactor`](crate::points::MainsVoltageFactor).
     pub mains_voltage_factor: u16,
 }
 
 /// Raw numbers that `analog_output_1_value_at_0_percent` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct AnalogOutput1ValueAt0Percent {
-    /// The raw number of `analog_output_1_source`.
+    /// The raw number of [`AnalogOutput1Source`](crate::points::AnalogOutput1Source).
     pub analog_output_1_source: u16,
 }
 
 /// Raw numbers that `analog_output_1_value_at_100_percent` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct AnalogOutput1ValueAt100Percent {
-    /// The raw number of `analog_output_1_source`.
+    /// The raw number of [`AnalogOutput1Source`](crate::points::AnalogOutput1Source).
     pub analog_output_1_source: u16,
 }
 
 /// Raw numbers that `analog_output_2_value_at_0_percent` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct AnalogOutput2ValueAt0Percent {
-    /// The raw number of `analog_output_2_source`.
+    /// The raw number of [`AnalogOutput2Source`](crate::points::AnalogOutput2Source).
     pub analog_output_2_source: u16,
 }
 
 /// Raw numbers that `analog_output_2_value_at_100_percent` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct AnalogOutput2ValueAt100Percent {
-    /// The raw number of `analog_output_2_source`.
+    /// The raw number of [`AnalogOutput2Source`](crate::points::AnalogOutput2Source).
     pub analog_output_2_source: u16,
 }

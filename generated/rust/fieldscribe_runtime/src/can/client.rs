@@ -27,6 +27,15 @@ pub trait Transport {
     /// # Errors
     /// Whatever went wrong on the bus, also that nothing came in time.
     fn receive(&mut self) -> Result<Frame, Self::Error>;
+
+    /// A frame that has come already; none, without waiting, if there is none.
+    ///
+    /// A client empties the bus with this before it asks: the late answer to an earlier request, which was given up,
+    /// is not to be taken for the answer to this one. A transport that cannot tell gives none, and takes that risk.
+    ///
+    /// # Errors
+    /// Whatever went wrong on the bus.
+    fn pending(&mut self) -> Result<Option<Frame>, Self::Error>;
 }
 
 /// Sends frames and waits for frames without blocking.
@@ -38,7 +47,12 @@ pub trait AsyncTransport {
     fn send(&mut self, frame: &Frame) -> impl Future<Output = Result<(), Self::Error>>;
 
     /// As [`Transport::receive`].
+    ///
+    /// A future that is dropped is to lose no frame.
     fn receive(&mut self) -> impl Future<Output = Result<Frame, Self::Error>>;
+
+    /// As [`Transport::pending`].
+    fn pending(&mut self) -> impl Future<Output = Result<Option<Frame>, Self::Error>>;
 }
 
 /// Several clients share one bus: each borrows it for as long as it lives.
@@ -52,6 +66,10 @@ impl<T: Transport + ?Sized> Transport for &mut T {
     fn receive(&mut self) -> Result<Frame, Self::Error> {
         (**self).receive()
     }
+
+    fn pending(&mut self) -> Result<Option<Frame>, Self::Error> {
+        (**self).pending()
+    }
 }
 
 /// As for [`Transport`].
@@ -64,6 +82,10 @@ impl<T: AsyncTransport + ?Sized> AsyncTransport for &mut T {
 
     fn receive(&mut self) -> impl Future<Output = Result<Frame, Self::Error>> {
         (**self).receive()
+    }
+
+    fn pending(&mut self) -> impl Future<Output = Result<Option<Frame>, Self::Error>> {
+        (**self).pending()
     }
 }
 
@@ -231,6 +253,11 @@ macro_rules! client {
                 &self.listener
             }
 
+            /// The transport, as for its settings.
+            pub fn transport(&mut self) -> &mut T {
+                &mut self.transport
+            }
+
             /// The transport back.
             pub fn into_transport(self) -> T {
                 self.transport
@@ -246,6 +273,7 @@ macro_rules! client {
                 raw: u16,
             ) -> Result<u16, ClientError<T::Error>> {
                 let (dialogue, asked) = self.unit.ask(dialogue, address, raw)?;
+                self.drain()$($wait)*?;
                 self.transport.send(&asked)$($wait)*.map_err(ClientError::Transport)?;
                 let Some(answer) = dialogue.answer else {
                     return Ok(raw);
@@ -258,6 +286,18 @@ macro_rules! client {
                     self.listener.hear(&frame);
                 }
                 Err(ClientError::NoAnswer)
+            }
+
+            /// Gives the frames that have come already to the listener: they answer nothing that is asked from now on.
+            $($async)? fn drain(&mut self) -> Result<(), ClientError<T::Error>> {
+                for _ in 0..self.unit.patience {
+                    let frame = self.transport.pending()$($wait)*.map_err(ClientError::Transport)?;
+                    let Some(frame) = frame else {
+                        break;
+                    };
+                    self.listener.hear(&frame);
+                }
+                Ok(())
             }
 
             /// The word at an address.

@@ -3,6 +3,8 @@
 
 use core::fmt;
 
+use crate::Error;
+
 /// Why a message cannot be built.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
@@ -87,6 +89,8 @@ pub enum ReceiveError {
     Missing,
     /// The words are of two frames, and the high one may have changed between them.
     Torn,
+    /// The words came and have no value.
+    Point(Error),
 }
 
 impl ReceiveError {
@@ -96,16 +100,18 @@ impl ReceiveError {
         match self {
             Self::Missing => "missing",
             Self::Torn => "torn",
+            Self::Point(error) => error.name(),
         }
     }
 }
 
 impl fmt::Display for ReceiveError {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str(match self {
-            Self::Missing => "the frame with the word never came",
-            Self::Torn => "the words may belong to different moments",
-        })
+        match self {
+            Self::Missing => formatter.write_str("the frame with the word never came"),
+            Self::Torn => formatter.write_str("the words may belong to different moments"),
+            Self::Point(error) => error.fmt(formatter),
+        }
     }
 }
 

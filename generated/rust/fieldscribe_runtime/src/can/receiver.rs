@@ -5,7 +5,7 @@ use core::fmt;
 
 use super::{Frame, Message, ReceiveError, LENGTH};
 use crate::point::joined;
-use crate::{Raw, Readable};
+use crate::{Decoded, Raw, Readable};
 
 /// A cyclic layout of words that the frames of a message carry.
 pub trait Telegram {
@@ -137,6 +137,29 @@ impl<T: Telegram> Receiver<T> {
             }
         }
         Ok(joined::<P>(words))
+    }
+
+    /// A point's value.
+    ///
+    /// # Errors
+    /// As for `raw`; [`ReceiveError::Point`] if the raw number has no value.
+    pub fn value<P>(&self) -> Result<P::Value, ReceiveError>
+    where
+        P: Received<Telegram = T, Factors = ()>,
+    {
+        self.value_with::<P>(())
+    }
+
+    /// A point's value, by the raw numbers that its scale needs.
+    ///
+    /// # Errors
+    /// The same.
+    pub fn value_with<P: Received<Telegram = T>>(
+        &self,
+        with: P::Factors,
+    ) -> Result<P::Value, ReceiveError> {
+        let value = P::decode_with(self.raw::<P>()?, with).into_result();
+        value.map_err(ReceiveError::Point)
     }
 
     /// Two words that belong together.

@@ -130,6 +130,11 @@ macro_rules! client {
                 Self { transport, unit: Unit::new(profile, framing, unit) }
             }
 
+            /// The transport, as for its settings.
+            pub fn transport(&mut self) -> &mut T {
+                &mut self.transport
+            }
+
             /// The transport back.
             pub fn into_transport(self) -> T {
                 self.transport

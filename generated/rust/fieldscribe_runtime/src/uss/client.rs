@@ -5,7 +5,7 @@ use core::fmt;
 
 use super::{
     broadcast, BuildError, Link, Parameter, ParseError, Profile, Received, Reply, Request, Sent,
-    LONGEST,
+    Value, LONGEST,
 };
 use crate::client::{AsyncTransport, Transport};
 use crate::point::joined;
@@ -18,6 +18,7 @@ const SENT: usize = 4 + 2 * (4 + WORDS);
 
 /// Why a point could not be read or written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum ClientError<E> {
     /// The number could not be encoded or decoded, or is not in the telegram.
     Point(Error),
@@ -25,6 +26,8 @@ pub enum ClientError<E> {
     Build(BuildError),
     /// The answer was none, or the drive refused.
     Reply(ParseError),
+    /// The drive answered a write with this other value.
+    EchoMismatch(Value),
     /// The transport failed.
     Transport(E),
 }
@@ -53,6 +56,7 @@ impl<E: fmt::Display> fmt::Display for ClientError<E> {
             Self::Point(error) => error.fmt(formatter),
             Self::Build(error) => error.fmt(formatter),
             Self::Reply(error) => error.fmt(formatter),
+            Self::EchoMismatch(value) => write!(formatter, "the drive answered {value} to a write"),
             Self::Transport(error) => error.fmt(formatter),
         }
     }
@@ -64,16 +68,25 @@ impl<E: core::error::Error + 'static> core::error::Error for ClientError<E> {
             Self::Point(error) => Some(error),
             Self::Build(error) => Some(error),
             Self::Reply(error) => Some(error),
+            Self::EchoMismatch(_) => None,
             Self::Transport(error) => Some(error),
         }
     }
 }
 
-/// The words that are sent again and again: all 0 until one of them was set.
+/// The words that are sent again and again, and whether the drive may not have them yet.
 #[derive(Clone, Copy, Debug)]
 struct Process {
     words: [u16; WORDS],
-    is_set: bool,
+    is_changed: bool,
+}
+
+impl Process {
+    /// Words that command nothing.
+    const NOTHING: Self = Self {
+        words: [0; WORDS],
+        is_changed: false,
+    };
 }
 
 /// One drive of a bus: keeps the words that it is sent again and again, and those that it answered with.
@@ -95,10 +108,7 @@ impl Drive {
             profile,
             link,
             unit,
-            process: Process {
-                words: [0; WORDS],
-                is_set: false,
-            },
+            process: Process::NOTHING,
             heard: [0; WORDS],
             count: 0,
             sent: [0; SENT],
@@ -107,15 +117,25 @@ impl Drive {
     }
 
     /// The telegram to send and the space for its answer.
+    ///
+    /// From here on until the answer nobody knows which of two sets of words the drive has, so neither may be repeated:
+    /// the old words could start again what the new ones stopped. That also holds if nobody waits for the answer.
     fn telegrams(
         &mut self,
         request: &Request,
         process: &Process,
     ) -> Result<(&[u8], &mut [u8]), BuildError> {
+        if request.unit != self.unit {
+            return Err(BuildError::BadUnit);
+        }
         let words = process.words.get(..usize::from(self.link.pzd));
         let words = words.ok_or(BuildError::BadLink)?;
         let length = request.build(self.profile, self.link, words, &mut self.sent)?;
         let sent = self.sent.get(..length).ok_or(BuildError::BufferTooSmall)?;
+        self.count = 0;
+        if process.is_changed {
+            self.process = Process::NOTHING;
+        }
         Ok((sent, &mut self.received))
     }
 
@@ -123,6 +143,12 @@ impl Drive {
     fn for_all(&mut self, masks: [u16; 4]) -> Result<&[u8], BuildError> {
         let words = self.process.words.get(..usize::from(self.link.pzd));
         let words = words.ok_or(BuildError::BadLink)?;
+        let [places, meant, ..] = masks;
+        let needed = self.profile.valid_bits();
+        let sent = words.first().copied().unwrap_or_default() & meant;
+        if places >> 1 & 1 == 1 && sent & needed != needed {
+            return Err(BuildError::BadMask);
+        }
         let length = broadcast(self.profile, self.link, masks, words, &mut self.sent)?;
         self.sent.get(..length).ok_or(BuildError::BufferTooSmall)
     }
@@ -136,23 +162,42 @@ impl Drive {
     ) -> Result<Reply<'_>, ParseError> {
         let received = self.received.get(..length);
         let received = received.ok_or(ParseError::WrongLength)?;
-        let reply = request.parse(self.profile, self.link, received)?;
-        self.process = *process;
-        self.count = 0;
-        for (place, word) in self.heard.iter_mut().zip(reply.words()) {
-            *place = word;
-            self.count = self.count.saturating_add(1);
+        let reply = request.parse(self.profile, self.link, received);
+        // A drive that does not do the task has taken the process data of the telegram all the same.
+        let is_about_this = matches!(
+            reply,
+            Ok(_) | Err(ParseError::Refused(_) | ParseError::NoRights | ParseError::NoAnswer)
+        );
+        if is_about_this {
+            self.process = Process {
+                is_changed: false,
+                ..*process
+            };
+            let words = request.process_words(self.link, received)?;
+            for (place, word) in self.heard.iter_mut().zip(words) {
+                *place = word;
+                self.count = self.count.saturating_add(1);
+            }
         }
-        Ok(reply)
+        reply
     }
 
-    /// The process data with other words of a point; the first time the words not set get their fixed bits.
+    /// The process data with other words of a point.
     fn with_words<P: Sent>(&self, words: &[u16]) -> Result<Process, Error> {
         self.changed(|all| {
             for (position, word) in P::ADDRESSES.iter().zip(words) {
                 *all.get_mut(usize::from(*position))
                     .ok_or(Error::WrongLength)? = *word;
             }
+            Ok(())
+        })
+    }
+
+    /// The process data with another word.
+    fn with_word(&self, position: u16, word: u16) -> Result<Process, Error> {
+        self.changed(|all| {
+            let place = all.get_mut(usize::from(position));
+            *place.ok_or(Error::WrongLength)? = word;
             Ok(())
         })
     }
@@ -172,30 +217,30 @@ impl Drive {
         change: impl FnOnce(&mut [u16]) -> Result<(), Error>,
     ) -> Result<Process, Error> {
         let mut words = self.process.words;
-        if !self.process.is_set {
-            for fixed in self.profile.fixed {
-                if let Some(word) = words.get_mut(usize::from(fixed.position)) {
-                    *word |= fixed.bits;
-                }
-            }
-        }
         let linked = words.get_mut(..usize::from(self.link.pzd));
         change(linked.ok_or(Error::WrongLength)?)?;
         Ok(Process {
             words,
-            is_set: true,
+            is_changed: self.process.is_changed || words != self.process.words,
         })
     }
 
     /// The raw number of a point in the last answer.
     fn heard<P: Received>(&self) -> Result<P::Raw, Error> {
-        let heard = self.heard.get(..self.count).unwrap_or_default();
         let mut words = P::Raw::MIN.into_words();
         for (place, position) in words.as_mut().iter_mut().zip(P::ADDRESSES) {
-            let word = heard.get(usize::from(*position));
-            *place = word.copied().ok_or(Error::WrongLength)?;
+            *place = self.heard_word(*position)?;
         }
         Ok(joined::<P>(words))
+    }
+
+    fn heard_word(&self, position: u16) -> Result<u16, Error> {
+        let heard = self.heard.get(..self.count).unwrap_or_default();
+        if heard.is_empty() {
+            return Err(Error::NotHeard);
+        }
+        let word = heard.get(usize::from(position));
+        word.copied().ok_or(Error::WrongLength)
     }
 }
 
@@ -204,8 +249,13 @@ macro_rules! client {
     ($client:ident, $transport:ident, $about:literal, [$($async:ident)?], [$($wait:tt)*]) => {
         #[doc = $about]
         ///
-        /// Every telegram carries the words of process data as they were set last. They are all 0 until one is set; then
-        /// those that are not carry their fixed bits.
+        /// Every telegram carries the words of process data as they were set last, and 0 for words that were never set:
+        /// the constant bits of a word, as the one that makes a control word valid, come with the first point of that
+        /// word. A drive without a valid control word goes on as before.
+        ///
+        /// When words are new and their telegram fails (no answer, a wrong one, or nobody waited for it), nobody knows
+        /// which words the drive has. So neither the old nor the new ones are repeated: all words are 0 from then on,
+        /// until they are set again, each of them. A drive that refuses a task has taken the words all the same.
         #[derive(Debug)]
         pub struct $client<T> {
             transport: T,
@@ -216,6 +266,11 @@ macro_rules! client {
             /// The drive of that unit behind a transport; the profile is the device's own.
             pub const fn new(transport: T, profile: &'static Profile, link: Link, unit: u8) -> Self {
                 Self { transport, drive: Drive::new(profile, link, unit) }
+            }
+
+            /// The transport, as for its settings.
+            pub fn transport(&mut self) -> &mut T {
+                &mut self.transport
             }
 
             /// The transport back.
@@ -259,10 +314,35 @@ macro_rules! client {
                 Ok(())
             }
 
-            /// A point of the process data as the last answer had it.
+            /// Sets a word of the process data by its position from 0 on, for what has no point; all its bits are the
+            /// caller's.
             ///
             /// # Errors
-            /// What decoding says; [`Error::WrongLength`] if no answer had so many words.
+            /// [`Error::WrongLength`] if the link has not so many words.
+            pub fn set_word(&mut self, position: u16, word: u16) -> Result<(), Error> {
+                self.drive.process = self.drive.with_word(position, word)?;
+                Ok(())
+            }
+
+            /// The words of process data that the next telegram carries; all 0 after a failure.
+            pub fn words(&self) -> &[u16] {
+                let words = &self.drive.process.words;
+                words.get(..usize::from(self.drive.link.pzd)).unwrap_or(words)
+            }
+
+            /// A word of the process data of the last answer by its position from 0 on.
+            ///
+            /// # Errors
+            /// As for `heard`.
+            pub fn heard_word(&self, position: u16) -> Result<u16, Error> {
+                self.drive.heard_word(position)
+            }
+
+            /// A point of the process data of the last answer, also of one that refused a task.
+            ///
+            /// # Errors
+            /// What decoding says; [`Error::NotHeard`] if the last telegram was not answered; [`Error::WrongLength`] if
+            /// the link has not so many words.
             pub fn heard<P>(&self) -> Result<P::Value, Error>
             where
                 P: Readable<Factors = ()> + Received,
@@ -286,7 +366,8 @@ macro_rules! client {
             /// The answer to a request; the telegram carries the process data too.
             ///
             /// # Errors
-            /// Whatever [`ClientError`] tells.
+            /// Whatever [`ClientError`] tells; [`BuildError::BadUnit`] for a request to another unit, which is not to
+            /// take this one's process data.
             pub $($async)? fn exchange(
                 &mut self,
                 request: Request,
@@ -294,8 +375,7 @@ macro_rules! client {
                 self.exchange_with(request, self.drive.process)$($wait)*
             }
 
-            /// The answer to a request that carries these process data, which stay in force if it succeeds: after a
-            /// failure no later telegram may start what seemed to have failed.
+            /// The answer to a request that carries these process data, which stay in force if the drive answers.
             $($async)? fn exchange_with(
                 &mut self,
                 request: Request,
@@ -317,10 +397,16 @@ macro_rules! client {
                 Ok(())
             }
 
-            /// Sends the process data to all units: of each word the bits of its mask are meant. None answers.
+            /// Sends this client's process data to all units, of which none answers: nobody knows who heard it.
+            ///
+            /// The first mask says which words are meant: bit 1 the first word, bit 2 the second. The second mask says
+            /// which bits of the first word are meant, the others which of a further control word: `[6, 0xFFFF, 0, 0]`
+            /// is a whole control word and its setpoint. Other clients on the bus do not know of it and repeat their own
+            /// words with their next telegram: set those too, or a stop for all lasts until then.
             ///
             /// # Errors
-            /// Whatever [`ClientError`] tells.
+            /// Whatever [`ClientError`] tells; [`BuildError::BadMask`] if the first word is meant without the bits that
+            /// make it valid, which are in the word as soon as one of its points was set.
             pub $($async)? fn broadcast(
                 &mut self,
                 masks: [u16; 4],
@@ -464,9 +550,7 @@ macro_rules! client {
                 P: Writable + Whole + Parameter,
             {
                 let raw = P::encode_with(value, with)?;
-                let request = Request::write::<P>(self.drive.unit, raw);
-                self.exchange(request)$($wait)*?;
-                Ok(())
+                self.change::<P>(Request::write::<P>(self.drive.unit, raw))$($wait)*
             }
 
             /// Changes a parameter in the EEPROM too, which stands a limited number of writes.
@@ -493,9 +577,7 @@ macro_rules! client {
                 P: Writable + Whole + Parameter,
             {
                 let raw = P::encode_with(value, with)?;
-                let request = Request::store::<P>(self.drive.unit, raw);
-                self.exchange(request)$($wait)*?;
-                Ok(())
+                self.change::<P>(Request::store::<P>(self.drive.unit, raw))$($wait)*
             }
 
             /// Changes a group of bits until the power is off: reads the word, replaces the bits, writes the word back.
@@ -508,9 +590,7 @@ macro_rules! client {
             {
                 let raw = P::encode(value)?;
                 let word = self.parameter_word::<P>()$($wait)*?;
-                let request = Request::update::<P>(self.drive.unit, word, raw);
-                self.exchange(request)$($wait)*?;
-                Ok(())
+                self.change::<P>(Request::update::<P>(self.drive.unit, word, raw))$($wait)*
             }
 
             /// As `update`, in the EEPROM too.
@@ -526,9 +606,20 @@ macro_rules! client {
             {
                 let raw = P::encode(value)?;
                 let word = self.parameter_word::<P>()$($wait)*?;
-                let request = Request::store_update::<P>(self.drive.unit, word, raw);
-                self.exchange(request)$($wait)*?;
-                Ok(())
+                self.change::<P>(Request::store_update::<P>(self.drive.unit, word, raw))$($wait)*
+            }
+
+            /// Writes a parameter and holds the answer against what was written.
+            $($async)? fn change<P: Parameter>(
+                &mut self,
+                request: Request,
+            ) -> Result<(), ClientError<T::Error>> {
+                let reply = self.exchange(request)$($wait)*?;
+                if request.is_confirmed::<P>(&reply) {
+                    Ok(())
+                } else {
+                    Err(ClientError::EchoMismatch(reply.value()))
+                }
             }
 
             /// The whole word that a group of bits is in.

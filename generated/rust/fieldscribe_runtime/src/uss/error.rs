@@ -19,6 +19,8 @@ pub enum BuildError {
     BadIndex,
     /// The parameter part has no room for a double word.
     BadValue,
+    /// All units are sent the first word without the bits that make it valid.
+    BadMask,
     /// The caller's buffer is too small.
     BufferTooSmall,
 }
@@ -34,6 +36,7 @@ impl BuildError {
             Self::BadParameter => "bad_parameter",
             Self::BadIndex => "bad_index",
             Self::BadValue => "bad_value",
+            Self::BadMask => "bad_mask",
             Self::BufferTooSmall => "buffer_too_small",
         }
     }
@@ -48,6 +51,7 @@ impl fmt::Display for BuildError {
             Self::BadParameter => "the parameter number is above 31999",
             Self::BadIndex => "the index is above 255",
             Self::BadValue => "the parameter part has no room for a double word",
+            Self::BadMask => "the first word is meant without the bits that make it valid",
             Self::BufferTooSmall => "the buffer is too small",
         })
     }
@@ -69,7 +73,7 @@ pub enum ParseError {
     WrongUnit,
     /// The answer is about another parameter or index.
     WrongParameter,
-    /// The drive did not answer the task.
+    /// The drive did not answer the task, or not yet: the same request may be sent again.
     NoAnswer,
     /// The drive refused, with this error value.
     Refused(u16),

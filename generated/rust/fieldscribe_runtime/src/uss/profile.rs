@@ -73,8 +73,8 @@ impl Task {
 /// The bits of a word of process data that are always sent as a constant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FixedBits {
-    pub(super) position: u16,
-    pub(super) bits: u16,
+    position: u16,
+    bits: u16,
 }
 
 impl FixedBits {
@@ -97,7 +97,7 @@ pub struct Profile {
     pkw: &'static [u8],
     pzd: (u8, u8),
     pub(super) broadcast: Option<u8>,
-    pub(super) fixed: &'static [FixedBits],
+    fixed: &'static [FixedBits],
 }
 
 impl Profile {
@@ -129,6 +129,12 @@ impl Profile {
     pub(super) fn answers(&self, task: u8, response: u8) -> bool {
         let fits = |one: &Task| one.number == task && one.answers.contains(&response);
         self.tasks.iter().any(fits)
+    }
+
+    /// The bits of the first word of process data that are always 1: without them a drive does not take the word.
+    pub(super) fn valid_bits(&self) -> u16 {
+        let first = self.fixed.iter().filter(|one| one.position == 0);
+        first.fold(0, |bits, one| bits | one.bits)
     }
 
     pub(super) fn takes_pkw(&self, link: Link) -> bool {

@@ -108,6 +108,19 @@ impl Request {
         Ok(reply)
     }
 
+    /// The words of process data in an answer, which are there too when the drive refuses the task.
+    ///
+    /// # Errors
+    /// Why the bytes are no answer of the unit over this link.
+    pub fn process_words<'b>(
+        &self,
+        link: Link,
+        bytes: &'b [u8],
+    ) -> Result<impl Iterator<Item = u16> + 'b, ParseError> {
+        let (_, process) = self.unwrap(link, bytes)?;
+        Ok(words(process))
+    }
+
     /// The parameter part and the process data of a telegram that fits the link.
     fn unwrap<'b>(&self, link: Link, bytes: &'b [u8]) -> Result<(&'b [u8], &'b [u8]), ParseError> {
         if bytes.first() != Some(&START) {

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: 0BSD
 //! Requests and their telegrams.
 
-use super::{check_byte, element, BuildError, Link, Parameter, Profile, LAST_PARAMETER, START};
+use core::fmt;
+
+use super::{
+    check_byte, element, BuildError, Link, Parameter, Profile, Reply, LAST_PARAMETER, START,
+};
 use crate::{BitGroup, Point, Raw, Readable, Whole, Writable};
 
 /// What a parameter part carries as a value.
@@ -13,6 +17,16 @@ pub enum Value {
     Word(u16),
     /// Two words.
     Double(u32),
+}
+
+impl fmt::Display for Value {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Nothing => formatter.write_str("nothing"),
+            Self::Word(word) => word.fmt(formatter),
+            Self::Double(value) => value.fmt(formatter),
+        }
+    }
 }
 
 impl Value {
@@ -114,6 +128,19 @@ impl Request {
         Self::new(unit, task, P::ADDRESS, index::<P>()).with(value)
     }
 
+    /// Whether an answer holds the value that the request writes to a parameter.
+    ///
+    /// A drive may round a binary32 number: of one the nearest thousandth is enough.
+    #[must_use]
+    pub fn is_confirmed<P: Parameter>(&self, reply: &Reply<'_>) -> bool {
+        match (self.value, reply.value()) {
+            (Value::Double(written), Value::Double(answered)) if P::FLOATING => {
+                is_near(f32::from_bits(written), f32::from_bits(answered))
+            }
+            (written, answered) => written == answered,
+        }
+    }
+
     /// Writes the telegram with these words of process data into `buffer` and gives its length in bytes.
     ///
     /// # Errors
@@ -179,6 +206,13 @@ pub fn broadcast(
         return Err(BuildError::BadLink);
     }
     telegram(address, &masks, words, buffer)
+}
+
+/// Whether a number is another to the nearest thousandth; nothing is near to what is no number.
+fn is_near(number: f32, other: f32) -> bool {
+    let (number, other) = (f64::from(number), f64::from(other));
+    let size = if number < 0.0 { -number } else { number };
+    (-size..=size).contains(&((number - other) * 1024.0))
 }
 
 fn index<P: Point>() -> u16 {

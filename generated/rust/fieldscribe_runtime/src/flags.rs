@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: 0BSD
+//! Words whose bits have names, as they are shown to people.
+
+use core::fmt;
+
+/// A bit of a word that has a name, or several.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Flag {
+    name: &'static str,
+    mask: u64,
+    is_active_low: bool,
+}
+
+impl Flag {
+    /// A bit that is true while it is 1, or bits that are a number.
+    #[must_use]
+    pub const fn new(name: &'static str, mask: u64) -> Self {
+        Self {
+            name,
+            mask,
+            is_active_low: false,
+        }
+    }
+
+    /// A bit that is true while it is 0.
+    #[must_use]
+    pub const fn active_low(name: &'static str, mask: u64) -> Self {
+        Self {
+            name,
+            mask,
+            is_active_low: true,
+        }
+    }
+
+    /// The name in the description.
+    #[must_use]
+    pub const fn name(&self) -> &'static str {
+        self.name
+    }
+
+    /// The bits of the word.
+    #[must_use]
+    pub const fn mask(&self) -> u64 {
+        self.mask
+    }
+
+    /// Whether it is true while its bit is 0.
+    #[must_use]
+    pub const fn is_active_low(&self) -> bool {
+        self.is_active_low
+    }
+
+    /// The number of the flag in a word: of a single bit 1 if it is true, whatever the bit is then.
+    #[must_use]
+    pub const fn number(&self, word: u64) -> u64 {
+        if self.is_active_low {
+            return (word & self.mask == 0) as u64;
+        }
+        let number = (word & self.mask).checked_shr(self.mask.trailing_zeros());
+        match number {
+            Some(number) => number,
+            None => 0,
+        }
+    }
+}
+
+/// A word whose bits have names.
+pub trait Flags: Copy {
+    /// The name of the type.
+    const NAME: &'static str;
+    /// What has a name, in the order of the description.
+    const FLAGS: &'static [Flag];
+
+    /// The word.
+    fn bits(self) -> u64;
+}
+
+/// Shows a word as its number, and behind it what is true and the numbers of several bits:
+/// `StatusWord(0x2031: ready, state=3)`.
+///
+/// # Errors
+/// What the formatter says.
+pub fn show<F: Flags>(word: F, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+    let bits = word.bits();
+    write!(formatter, "{}({bits:#06X}", F::NAME)?;
+    let mut sign = ": ";
+    for flag in F::FLAGS {
+        let is_single = flag.mask.is_power_of_two();
+        match flag.number(bits) {
+            0 if is_single => continue,
+            _ if is_single => write!(formatter, "{sign}{}", flag.name)?,
+            number => write!(formatter, "{sign}{}={number}", flag.name)?,
+        }
+        sign = ", ";
+    }
+    formatter.write_str(")")
+}
