@@ -120,6 +120,75 @@ def test_an_added_row_moves_what_follows_and_is_uncited(tmp_path: Path, capsys: 
     )
 
 
+LONG_MANUAL = """## Coils
+
+| Modicon | Wire | Title |
+|---------|------|-------|
+""" + "".join(f"| {number + 1:04X}h | {number:04X}h | Coil {number + 1} |\n" for number in range(20)) + """
+## Example
+
+The request 05 06 10 28 01 F4 0C 91 is printed with the checksum 0C 92.
+
+## Parameters
+
+| P 601 | Factor | 0-9 |
+| P 602 | Delay | 1028h | 5-250, 0,1 s |
+"""  # fmt: skip
+
+LONG_DEVICE = (
+    DEVICE[: DEVICE.index("groups:")].replace("functions: {", "functions: {1: read_coils, 5: write_coil, ")
+    + """frames:
+- {name: write_base_frequency, line: 28, direction: request, bytes: 05 06 10 28 01 F4 0C 92}
+errata:
+- id: checksum
+  frame: write_base_frequency
+  line: 28
+  printed: {crc: 0C 92}
+  taken: {crc: 0C 91}
+  why: So the bytes say.
+  certainty: certain
+groups:
+- group: coils
+  space: coil
+  source: {document: manual, section: Coils}
+  numbering: {modicon: wire + 1}
+  points:
+"""
+    + "".join(
+        f"  - {{name: coil_{number}, at: {number}, line: {number + 5}, printed: {{modicon: {number + 1:04X}h}}}}\n"
+        for number in range(20)
+    )
+    + """- group: parameters
+  space: holding
+  source: {document: manual, section: Parameters}
+  points:
+  - {code: P601, name: factor, at: ~, range: 0..9, line: 32}
+  - {code: P602, name: delay, at: 1028h, range: 5..250, scale: value = raw * 0.1, unit: s, line: 33}
+"""
+)
+
+
+@pytest.mark.parametrize("line", [1, 4, 8, 15, 23, 25, 26, 30])
+def test_inserted_text_moves_facts_and_errata_and_nothing_else(
+    line: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Small numbers that stand in many rows, frames and errata follow what is printed around them."""
+    lines = LONG_MANUAL.splitlines()
+    text = "\n".join([*lines[:line], *["A sentence without numbers."] * 3, *lines[line:]]) + "\n"
+    _, found = audit(tmp_path, capsys, text, LONG_DEVICE)
+    assert (found["missing"], found["errata_not_printed"], found["uncited"]) == ([], [], [])
+    assert {one["now"] - one["line"] for one in found["moved"]} == {3}
+    assert {one["line"] for one in found["moved"]} == {one for one in (*range(5, 25), 28, 32, 33) if one > line}
+
+
+def test_a_changed_address_does_not_move_its_row(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Its number stands elsewhere too, but a row alone does not jump there and what follows back."""
+    text = LONG_MANUAL.replace("| 0003h | 0002h | Coil 3 |", "| 0703h | 0702h | Coil X |")
+    assert text != LONG_MANUAL
+    code, found = audit(tmp_path, capsys, text, LONG_DEVICE)
+    assert (code, found["moved"], {one["subject"] for one in found["missing"]}) == (1, [], {"coil_2"})
+
+
 def test_a_moved_section_is_found_where_it_stands_now(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     start, end = MANUAL.index("4.1 Speed"), MANUAL.index("4.2 Reset")
     moved = MANUAL[:start] + MANUAL[end:] + "\n" + MANUAL[start:end]

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 from devices_by_family import at, can_frame, coded, shipped
+from fieldscribe.diagnostics import Report
 from fieldscribe.dialogue.encoding import encode_point
 from fieldscribe.dialogue.options import Options, refuse_foreign
 from fieldscribe.dialogue.refusals import RefusedError
@@ -21,11 +22,14 @@ from fieldscribe.families.can.listener import CanListener
 from fieldscribe.families.can.notation import Pasted, read_frames
 from fieldscribe.families.can.recognition import recognise
 from fieldscribe.model import Role
+from fieldscribe.pipeline import load_device
 from hypothesis import given
 from hypothesis import strategies as st
 from models import kitchen_sink, named
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from fieldscribe.dialogue import Heard
 
 DEVICE = shipped("woodward_mpu2s")
@@ -447,3 +451,48 @@ def test_every_point_comes_back_from_its_frames() -> None:
         assert all("breaks" not in item.text for item in items)
         seen += 1
     assert seen > 190
+
+
+CELLS = """fieldscribe: 1
+device: battery
+version: 1.0.0
+vendor: Nobody
+model: Battery
+title: A battery
+family: can
+documents: {manual: {title: Manual, language: en}}
+bus: {units: 1..9}
+messages:
+- {name: ask, direction: request, can_id: 100h + unit, layout: {0: 1, 1..2: address, 3..7: 0}}
+- {name: got, direction: response, answers: ask, can_id: 200h + unit, layout: {0: 2, 1..2: address, 3..4: raw, 5..7: 0}}
+- {name: cells, direction: cyclic, can_id: 300h + unit, layout: {0: multiplexer, 1: A5h, 2..7: words}}
+telegrams: [{name: cells, direction: cyclic, words: 6, message: cells}]
+groups:
+- group: cells
+  space: telegram
+  telegram: cells
+  source: {document: manual, section: "1"}
+  addressing: number + index - 1
+  points: [{name: cell, at: {number: 0, indices: 6}}]
+- group: limits
+  space: parameter
+  access: r
+  source: {document: manual, section: "2"}
+  addressing: 100h * number + index
+  points: [{name: limit, at: {number: 1, indices: 2}}]
+"""
+
+
+def test_elements_of_an_array_are_found_by_address_where_no_index_travels(tmp_path: Path) -> None:
+    """The index beside the address is of uss alone: by a rule it is in the address."""
+    file = tmp_path / "device.yaml"
+    file.write_text(CELLS, encoding="utf-8")
+    device = load_device(file, Report())
+    assert device is not None
+    first, second, told = decode(
+        device, {}, ["301#00A5000100020003", "301#01A5000400050006", "201#0201020007000000"], Options()
+    )
+    assert [item.point for item in (*first.items, *second.items)] == [f"cell_index_{number}" for number in range(1, 7)]
+    assert [item.point for item in told.items] == ["limit_index_2"]
+    rows = dict(explain_point(device, named(device, "limit_index_2")).rows)
+    assert (rows["Wire address"], rows["Index"]) == ("0102h (258), space parameter", "2")

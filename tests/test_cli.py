@@ -241,6 +241,7 @@ def test_decode(run: Callable[..., Result], small: Path) -> None:
         (("P4", "run"), 1, "read only"),
         (("P1", "50", "--frame", "--unit", "300"), 1, "unit number"),
         (("P1", "50", "--variant", "size"), 2, "axis=value"),
+        (("P1", "50", "--variant", "size=small", "--variant", "size=large"), 2, "choose one value of each axis"),
     ],
 )
 def test_encode(run: Callable[..., Result], small: Path, words: tuple[str, ...], code: int, said: str) -> None:
@@ -416,3 +417,11 @@ def test_a_reader_that_goes_away() -> None:
     environment = {**os.environ, "PYTHONPATH": str(PACKAGES)}
     told = subprocess.run(command, shell=True, capture_output=True, text=True, env=environment, timeout=60, check=False)
     assert (told.stdout, told.stderr) == ("{", "")
+
+
+def test_a_closed_stdout_is_no_bug() -> None:
+    """A caller may close it: there is nothing to write to, and the exit code still tells."""
+    command = f"{sys.executable} -m fieldscribe decode {L200} '05 06 10 28 01 F4 0C 91' >&-"
+    environment = {**os.environ, "PYTHONPATH": str(PACKAGES)}
+    done = subprocess.run(command, shell=True, capture_output=True, text=True, env=environment, timeout=60, check=False)
+    assert (done.returncode, done.stderr) == (0, "")

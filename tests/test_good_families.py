@@ -230,7 +230,7 @@ def test_messages() -> None:
     telegram = kitchen("kitchen_can").telegrams[0]
     assert (telegram.name, telegram.words, telegram.message, telegram.direction) == (
         "measurements",
-        14,
+        16,
         "measurements",
         "cyclic",
     )

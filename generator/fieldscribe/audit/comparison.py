@@ -55,7 +55,7 @@ class _Comparison:
         cited = sorted({first for claim in claims for first, _ in claim.cited})
         self.now = {line: line for line in cited} if found.same_text else self._moved(cited)
         self.cited = sorted(self.now)
-        self.starts = sorted(set(self.now.values()))
+        self.starts = sorted({self.now[line] for line in cited})
         self.empty = {self._now(line) for line in looked_through}
         self._extents: dict[tuple[int, int], Extent] = {}
 
@@ -242,10 +242,15 @@ class _Comparison:
         """Where each cited line stands in a manual that changed; what moved is noted."""
         anchors: dict[int, list[Claim]] = {}
         for claim in self.claims:
-            if claim.anchor:
+            if not claim.optional:
                 for first, _ in claim.cited:
                     anchors.setdefault(first, []).append(claim)
-        now = placement(self.manual, cited, anchors)
+        numbers: dict[int, list[Fraction]] = {}
+        for erratum in self.errata:
+            if not erratum.told:
+                for first, _ in erratum.cited:
+                    numbers.setdefault(first, []).extend(erratum.numbers)
+        now = placement(self.manual, cited, anchors, numbers)
         for line in [line for line in cited if now[line] != line]:
             for name in dict.fromkeys(claim.subject for claim in anchors.get(line, [])):
                 self.found.moved.append(Moved(name, line, now[line]))

@@ -31,6 +31,7 @@ _CHAPTER = re.compile(r"([0-9]{1,2})\.?[ \t]+([^\W\d].*?)[.\s|]*([0-9]*)\s*")
 """A chapter has one number, as many other lines have: only what the table of contents lists, with a page, is one."""
 _ONE_OVER = "\\frac{"
 _CONTENTS = re.compile(r"\.{4,}[\s|]*[0-9]+[\s|]*$|\t[0-9]+\s*$")
+_NO_DIGIT = re.compile(r"[^0-9A-Fa-f]+")
 _WORD = re.compile(r"[^\W_]+")
 _LONG_ROW = 40
 """A row or paragraph that is not a section is not looked for beyond so many lines."""
@@ -128,6 +129,15 @@ class Manual:
         first = "".join(char if char.isalnum() else " " for char in word).split()
         lines = self.words.get(first[0].lower(), []) if first else []
         return [line for line in lines if has_word(self.line(line), word)]
+
+    @cached_property
+    def _digits(self) -> list[str]:
+        """The hexadecimal digits of each line."""
+        return [_NO_DIGIT.sub("", text).upper() for text in self.lines]
+
+    def lines_with_bytes(self, digits: str) -> list[int]:
+        """The lines that have these bytes in one piece."""
+        return [number for number, text in enumerate(self._digits, 1) if digits in text]
 
     def end_of_section(self, number: str) -> int:
         """The last line of a numbered section, with the sections below it."""

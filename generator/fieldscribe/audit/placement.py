@@ -7,24 +7,34 @@ with as few changes of the shift as possible.
 
 from __future__ import annotations
 
-from bisect import bisect_left
+from bisect import bisect_left, bisect_right
 from collections import Counter
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Iterable, Mapping, Sequence
+    from fractions import Fraction
 
     from fieldscribe.audit.claims import Claim
     from fieldscribe.audit.manual import Manual
 
-_LOST, _NOT_FIRST, _BELOW, _CHANGE = 10.0, 1.0, 0.5, 3.0
-"""What it costs: no anchor stands in the place; none opens it; its section's heading does not; the shift changes."""
+_LOST, _NOT_FIRST, _BELOW, _CHANGE = 10.0, 1.0, 0.5, 6.0
+"""What it costs: no anchor stands in the place; none opens it; its section's heading does not; the shift changes.
+
+A line with one anchor does not move by itself, to and back: a number that was changed is likelier.
+"""
+_MOST = 2
+"""A line with more codes, sections and addresses than one costs at most so many times as much."""
+_STRONG, _WEAK = 3, 2
+"""What a code, a section or an address weighs, and what all other facts of a line do together."""
+_BYTES = 8
+"""So many digits of a frame tell where it stands."""
 _LONGEST = 40
 """A place without a cited line below it is not longer."""
 _MERGED = 10
 """A cell that is merged with those below it stands at most so many rows above."""
-_HOPELESS = 60.0
+_HOPELESS = 120.0
 """A sequence that costs so much more than the best is given up."""
 _COMMON, _NEAREST = 12, 3
 """How many shifts are tried for all lines, and how many places of an anchor for its own line."""
@@ -32,38 +42,66 @@ _COMMON, _NEAREST = 12, 3
 
 @dataclass(frozen=True, slots=True)
 class _Anchor:
-    """The lines that have an anchor, and the spans in which what it belongs to may begin."""
+    """The lines that have a fact, the spans in which what it belongs to may begin, and how much it tells."""
 
     places: list[int]
     spans: tuple[tuple[int, int], ...] = ()
+    weight: int = 1
+    length: int | None = None
+    """How many lines it has, where that is said."""
 
 
-def placement(manual: Manual, cited: Sequence[int], claims: Mapping[int, list[Claim]]) -> dict[int, int]:
-    """The line where each cited line stands now."""
-    anchors = [[found for claim in claims.get(line, ()) if (found := _anchor(manual, claim))] for line in cited]
-    own = [_candidates(line, one) for line, one in zip(cited, anchors, strict=True)]
+def placement(
+    manual: Manual,
+    cited: Sequence[int],
+    claims: Mapping[int, list[Claim]],
+    numbers: Mapping[int, Iterable[Fraction]],
+) -> dict[int, int]:
+    """Where each cited line stands now, and each that an erratum is about, with the `numbers` printed there."""
+    lines = sorted({*cited, *numbers})
+    anchors = [_anchors(manual, line, claims.get(line, ()), numbers.get(line, ())) for line in lines]
+    own = [_candidates(line, one) for line, one in zip(lines, anchors, strict=True)]
     common = [shift for shift, _ in Counter(shift for one in own for shift in one).most_common(_COMMON)]
     states = [dict.fromkeys((0, *common, *one)) for one in own]
-    shifts = _Search(manual, cited, anchors).cheapest(states)
-    return {line: line + shift for line, shift in zip(cited, shifts, strict=True)}
+    shifts = _Search(manual, lines, _lengths(lines, cited), anchors).cheapest(states)
+    return {line: line + shift for line, shift in zip(lines, shifts, strict=True)}
 
 
-def _anchor(manual: Manual, claim: Claim) -> _Anchor | None:
-    """Where an anchor stands; None for one that tells no place (a section without a number, a fact that is nowhere)."""
+def _lengths(lines: Sequence[int], cited: Sequence[int]) -> list[int]:
+    """How long what begins at each line is: to the next line that a claim cites."""
+    ends = [*cited, lines[-1] + _LONGEST if lines else 0]
+    return [min(_LONGEST, max(1, ends[min(bisect_right(cited, line), len(cited))] - line)) for line in lines]
+
+
+def _anchors(manual: Manual, line: int, claims: Iterable[Claim], numbers: Iterable[Fraction]) -> list[_Anchor]:
+    found = [_anchor(manual, claim, line) for claim in claims]
+    found += [_Anchor(manual.lines_of.get(abs(number), [])) for number in numbers]
+    return [one for one in found if one is not None and one.places]
+
+
+def _anchor(manual: Manual, claim: Claim, line: int) -> _Anchor | None:
+    """Where a fact stands; None for one that tells no place (a section without a number, a fact that is nowhere)."""
     if claim.fact == "section":
         heading = manual.numbered.get(claim.words[0])
-        return None if heading is None else _Anchor([heading], ((heading, manual.end_of_section(claim.words[0])),))
-    if claim.words:
-        places = manual.lines_with(claim.words[0])
-    else:
+        if heading is None:
+            return None
+        return _Anchor([heading], ((heading, manual.end_of_section(claim.words[0])),), _STRONG)
+    if claim.numbers:
         places = sorted({place for number in claim.numbers for place in manual.lines_of.get(number, ())})
-    return _Anchor(places) if places else None
+    elif claim.fact == "bytes":
+        places = manual.lines_with_bytes(claim.shown[:_BYTES])
+    else:
+        places = sorted({place for word in claim.words for place in manual.lines_with(word)})
+    last = next((last - first for first, last in claim.cited if first == line and last), None)
+    return _Anchor(places, (), _STRONG if claim.anchor else 1, None if last is None else last + 1)
 
 
 def _candidates(line: int, anchors: list[_Anchor]) -> dict[int, None]:
     """Shifts that lead from a line to places of its anchors, the nearest of each."""
     shifts: dict[int, None] = {}
     for anchor in anchors:
+        if anchor.weight < _STRONG:
+            continue
         at = bisect_left(anchor.places, line)
         around = anchor.places[max(0, at - _NEAREST) : at + _NEAREST]  # they are in order
         nearest = sorted(around, key=lambda place: (abs(place - line), place))[:_NEAREST]
@@ -74,8 +112,8 @@ def _candidates(line: int, anchors: list[_Anchor]) -> dict[int, None]:
 class _Search:
     """Finds the cheapest sequence of shifts, line by line, keeping the best way to each shift."""
 
-    def __init__(self, manual: Manual, cited: Sequence[int], anchors: list[list[_Anchor]]) -> None:
-        self.manual, self.cited, self.anchors = manual, cited, anchors
+    def __init__(self, manual: Manual, cited: Sequence[int], lengths: list[int], anchors: list[list[_Anchor]]) -> None:
+        self.manual, self.cited, self.lengths, self.anchors = manual, cited, lengths, anchors
         self.headings = frozenset(manual.headings)
 
     def cheapest(self, states: list[dict[int, None]]) -> list[int]:
@@ -106,17 +144,23 @@ class _Search:
         anchors, line = self.anchors[index], self.cited[index]
         if not anchors:
             return 0.0
-        length = self.cited[index + 1] - line if index + 1 < len(self.cited) else _LONGEST
-        start, end = line + shift, line + shift + min(length, _LONGEST)
+        start, end = line + shift, line + shift + self.lengths[index]
         if start in self.headings:
             end = max(end, self.manual.section_of(start).last + 1)
         start_of_cells = start - _MERGED if self.manual.is_merged(start) else start
-        lost, opens = 0, False
+        strong, weak = [0, 0], [0, 0]  # lost, of so many
+        opens = False
         for anchor in anchors:
+            stop = end if anchor.length is None else start + anchor.length
             at = bisect_left(anchor.places, start_of_cells)
-            there = at < len(anchor.places) and anchor.places[at] < end
-            if not there and not any(low <= start <= high for low, high in anchor.spans):
-                lost += 1
-            opens = opens or start in anchor.places
+            there = at < len(anchor.places) and anchor.places[at] < stop
+            lost = not there and not any(low <= start <= high for low, high in anchor.spans)
+            count = strong if anchor.weight == _STRONG else weak
+            count[0] += lost
+            count[1] += 1
+            opens = opens or (anchor.weight == _STRONG and start in anchor.places)
         below = any(anchor.spans and start not in anchor.places for anchor in anchors)
-        return _LOST * lost / len(anchors) + (0.0 if opens else _NOT_FIRST) + (_BELOW if below else 0.0)
+        whole = _STRONG * strong[1] + (_WEAK if weak[1] else 0)
+        share = (_STRONG * strong[0] + _WEAK * weak[0] / max(1, weak[1])) / max(whole, _STRONG)
+        cost = _LOST * share * min(_MOST, max(1, strong[1]))
+        return cost + (0.0 if opens or not strong[1] else _NOT_FIRST) + (_BELOW if below else 0.0)

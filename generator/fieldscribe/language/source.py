@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass, field
+from functools import cache
 from pathlib import Path
 
 from fieldscribe.diagnostics import Report, Span
@@ -11,7 +12,11 @@ from fieldscribe.diagnostics import Report, Span
 MOST_BYTES = 16 * 1024 * 1024
 """The largest description file that is read: about 100,000 points."""
 
-_NO_YAML = re.compile("[^\\t\\n\\r -~\\x85\\xa0-\\ud7ff\\ue000-\\ufefe\\uff00-\\ufffd\\U00010000-\\U0010ffff]")
+
+@cache
+def _no_yaml() -> re.Pattern[str]:
+    """What YAML does not allow. Compiled when a file is read: the large set takes as long as all other imports."""
+    return re.compile("[^\\t\\n\\r -~\\x85\\xa0-\\ud7ff\\ue000-\\ufefe\\uff00-\\ufffd\\U00010000-\\U0010ffff]")
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,7 +76,7 @@ def _decoded(name: str, data: bytes, report: Report) -> SourceFile | None:
         report.error("file-empty", "the file is empty", Span(name, 1, 1), hint)
         return None
     source = SourceFile(name, text)
-    strange = _NO_YAML.search(text)
+    strange = _no_yaml().search(text)
     if strange is None:
         return source
     start = strange.start()

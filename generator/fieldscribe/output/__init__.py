@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import json
 import os
-import tempfile
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -120,6 +119,8 @@ def _holds(place: Path, data: bytes) -> bool:
 
 
 def _replace(place: Path, data: bytes) -> None:
+    import tempfile
+
     place.parent.mkdir(parents=True, exist_ok=True)
     handle, temporary = tempfile.mkstemp(prefix=".fieldscribe-", dir=place.parent)
     try:

@@ -80,9 +80,9 @@ def parameter(*addresses: int, function: int | None = None, index: int | None = 
     return Place("parameter", addresses, function, index)
 
 
-def telegram(name: str, *addresses: int) -> Place:
-    """Words of a telegram, counted from 0."""
-    return Place("telegram", addresses, telegram=name)
+def telegram(name: str, *addresses: int, index: int | None = None) -> Place:
+    """Words of a telegram, counted from 0; an element of an array has its index."""
+    return Place("telegram", addresses, None, index, name)
 
 
 class FactArguments(TypedDict):
