@@ -235,6 +235,7 @@ def test_a_wrong_vector_is_noticed(workspace: Path, tmp_path: Path, monkeypatch:
     assert re.search(r"^address \d+ passed, 1 failed$", done.stdout, re.MULTILINE)
 
 
+@pytest.mark.full
 def test_clippy_has_nothing_to_say(workspace: Path) -> None:
     flags = ("--", "-Dwarnings", "-Wclippy::pedantic", "-Wclippy::incompatible_msrv")
     done = cargo(workspace, "clippy", "--quiet", "--workspace", "--all-targets", *flags)
@@ -251,6 +252,7 @@ def test_rustfmt_changes_nothing(workspace: Path) -> None:
     assert not succeed([tool("cargo"), "fmt", "--all", "--check"], cwd=workspace)
 
 
+@pytest.mark.full
 def test_documentation_builds_without_a_warning(workspace: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("RUSTDOCFLAGS", "-Dwarnings")
     done = cargo(workspace, "doc", "--quiet", "--workspace", "--no-deps")

@@ -132,9 +132,10 @@ def test_descriptions_are_valid() -> None:
             assert agree(root, kind_of(root)), file
 
 
-def test_both_readings_agree_on_mutations() -> None:
+@pytest.mark.parametrize("seed", [1, *(pytest.param(seed, marks=pytest.mark.full) for seed in (2, 3, 4))])
+def test_both_readings_agree_on_mutations(seed: int) -> None:
     """Wrong values at random places of the devices that use everything."""
-    dice = random.Random(1)
+    dice = random.Random(seed)
     places = [(device, path) for device in WHOLES for path in sorted(nodes(device), key=str)]
     wrongs = [
         None,
@@ -155,13 +156,13 @@ def test_both_readings_agree_on_mutations() -> None:
         ...,
     ]
     valid = 0
-    for _ in range(1200):
+    for _ in range(300):
         start, path = dice.choice(places)
         device = changed(start, path, dice.choice(wrongs))
         root = load(SourceFile("mutated.yaml", as_yaml(device)), Report())
         assert root is not None
         valid += agree(root, kind_of(root))
-    assert 20 < valid < 1000
+    assert 5 < valid < 250
 
 
 def test_keys_page_is_current() -> None:
