@@ -91,7 +91,8 @@ def encoded_value(rng: random.Random, ratio: Ratio, raw: int) -> Iterator[tuple[
         yield "encode", "float", hex64(value), ratio.raw_of_float(value)
 
 
-@pytest.mark.parametrize("compiler", ["gcc", pytest.param("clang", marks=pytest.mark.full)])
+@pytest.mark.full
+@pytest.mark.parametrize("compiler", ["gcc", "clang"])
 def test_factors_are_exact(compiler: str, tmp_path: Path) -> None:
     write_c(DEVICE, tmp_path)
     vectors = list(islice(draws(random.Random(compiler)), COUNT))

@@ -271,6 +271,7 @@ def test_hostile_texts_compile(tmp_path: Path, text: str, start: dict[str, Any])
         assert "\u202e" not in made
 
 
+@pytest.mark.full
 def test_rows_cannot_explode(tmp_path: Path) -> None:
     """A thousand rows of four thousand points each end in a finding."""
     rows = ",\n".join(f"{{name: a{row}, at: {{number: 1, sets: 64, indices: 64}}}}" for row in range(1000))
