@@ -56,7 +56,7 @@ def loaded(text: str) -> Database:
 def decoded(frame: CanFrame, unit: int = UNIT, *, scaling: bool = False) -> dict[str, Any]:
     """What cantools says of a frame."""
     message = database(unit).get_message_by_frame_id(frame.id)
-    return dict(message.decode(frame.data, decode_choices=False, scaling=scaling))  # type: ignore[arg-type]
+    return dict(message.decode(frame.data, decode_choices=False, scaling=scaling))  # type: ignore[arg-type]  # it takes bytes
 
 
 def slot_frame(slot: int, words: list[int]) -> CanFrame:

@@ -310,7 +310,7 @@ def test_broadcast(drive: Any, package: Any, uss: Any, line: UssDrive) -> None:
             raise TimeoutError
         return b""
 
-    line.exchange = exchange  # type: ignore[method-assign]
+    line.exchange = exchange  # type: ignore[method-assign]  # a line that dies
     word = package.ControlWord
     drive.broadcast((6, 0xFFFF, 0, 0), (word.of(start=True), 0x3333))
     assert calls[-1].hex()[6:-2] == "0006ffff" + "00000000" + "04013333"
