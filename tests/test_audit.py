@@ -200,6 +200,15 @@ def test_a_moved_section_is_found_where_it_stands_now(tmp_path: Path, capsys: py
     assert lines[int(str(places["reset_word"])) - 1].startswith("4.2")
 
 
+def test_one_fact_in_two_notations_is_reported_once(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    device = DEVICE.replace("unit: Hz, line: 7}", "unit: Hz, line: 7, printed: {wire: [1001h, 4097]}}")
+    assert device != DEVICE
+    code, found = audit(tmp_path, capsys, MANUAL.replace("1001h (4097)", "1005h (4101)"), device)
+    assert code == 1
+    facts = [one["fact"] for one in found["missing"] if one["subject"] == "base_frequency"]
+    assert facts.count("printed wire") == 1
+
+
 def test_numbers_that_no_fact_uses_and_sections_that_none_cites(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

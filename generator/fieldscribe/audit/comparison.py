@@ -28,7 +28,8 @@ _FAR = 400
 def audit(subject: Subject, device: str, manual_name: str, text: str, *, same_text: bool | None) -> Audit:
     """Everything that does not agree. `same_text`: whether it is the text that was transcribed, None if unknown."""
     manual = Manual(text)
-    claims, errata = list(claims_of(subject)), list(errata_of(subject))
+    claims = list(dict.fromkeys(claims_of(subject)))  # an address printed in three notations is one fact
+    errata = list(errata_of(subject))
     found = Audit(device, manual_name, same_text, len(manual))
     return _Comparison(manual, claims, errata, looked_through_of(subject), found).run()
 
