@@ -72,9 +72,9 @@ def python_doc(text: str) -> str:
 
 
 @lru_cache(maxsize=65536)
-def rust_doc(text: str) -> str:
-    """Text for a Rust `///` or `//` line: Markdown characters that rustdoc would read are escaped."""
-    return re.sub(r"([\\`*_\[\]<>#|])", r"\\\1", line(text))
+def rust_code(text: str) -> str:
+    """Text as code in a Rust `///` or `//` line, so that neither rustdoc nor clippy reads anything into it."""
+    return f"`{line(text).replace('`', chr(39))}`"
 
 
 @lru_cache(maxsize=65536)

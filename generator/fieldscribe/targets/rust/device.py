@@ -6,11 +6,11 @@ import re
 from typing import TYPE_CHECKING
 
 from fieldscribe import __version__
-from fieldscribe.targets.rust.documentation import left_out, quoted
+from fieldscribe.targets.rust.documentation import left_out
 from fieldscribe.targets.rust.families import family_context
 from fieldscribe.targets.rust.points import point_view
 from fieldscribe.targets.rust.words import arguments_views, enum_views, flags_views, is_long
-from fieldscribe.text import line, rust_string
+from fieldscribe.text import line, rust_code, rust_string
 
 if TYPE_CHECKING:
     from fieldscribe.model import Device
@@ -49,7 +49,7 @@ def device_context(device: Device, scope: Scope) -> dict[str, object]:
         "uses_enums": any("enums::" in point.value for point in points),
         "uses_flags": bool(words),
         "uses_with": bool(structs),
-        "title": quoted(f"{device.vendor} {device.model}"),
+        "title": rust_code(f"{device.vendor} {device.model}"),
         "id": device.id,
         "id_literal": rust_string(device.id),
         "version_literal": rust_string(device.version),

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.text import line
+from fieldscribe.text import rust_code
 from fieldscribe.wording import access_text, address_text, raw_range_text, resolution_text, scale_text
 
 if TYPE_CHECKING:
@@ -19,11 +19,6 @@ if TYPE_CHECKING:
 def sentence(name: str) -> str:
     """A name as the first sentence of a doc comment: `base_frequency` as `Base frequency.`."""
     return f"{name.replace('_', ' ').capitalize()}."
-
-
-def quoted(text: str) -> str:
-    """Text as code in a doc comment, so that neither rustdoc nor clippy reads anything into it."""
-    return f"`{line(text).replace('`', chr(39))}`"
 
 
 def point_doc(point: Point) -> tuple[str, ...]:
@@ -46,13 +41,13 @@ def left_out(device: Device) -> tuple[str, ...]:
 def _whereabouts(point: Point) -> Iterator[str]:
     addresses = point.places[0].addresses if point.places else ()
     if point.code:
-        yield quoted(point.code)
+        yield rust_code(point.code)
     if addresses:
         yield _place(point)
 
 
 def _place(point: Point) -> str:
-    space = point.space if point.telegram is None else f"telegram {quoted(point.telegram)} word"
+    space = point.space if point.telegram is None else f"telegram {rust_code(point.telegram)} word"
     where = f"{space} {address_text(min(point.places[0].addresses))}"
     where += "" if point.index is None else f" index {point.index}"
     return where + (f" bits {point.bits[0]} to {point.bits[1]}" if point.bits else "")
@@ -60,25 +55,25 @@ def _place(point: Point) -> str:
 
 def _facts(point: Point) -> Iterator[str]:
     where = _place(point)
-    yield f"{quoted(point.code)} at {where}" if point.code else f"At {where}"
+    yield f"{rust_code(point.code)} at {where}" if point.code else f"At {where}"
     yield f"`{point.type}`"
     if point.form == "text" and point.text is not None:
-        yield f"{point.text.characters} characters of {quoted(point.text.encoding)}"
+        yield f"{point.text.characters} characters of {rust_code(point.text.encoding)}"
     elif point.form == "digits" and point.digits is not None:
         yield f"{point.digits.count} decimal digits"
     elif point.form != "float":
         span = raw_range_text(point)
         if span:
-            yield f"raw {quoted(span)}"
+            yield f"raw {rust_code(span)}"
     if point.form in ("scaled", "float"):
         resolution = resolution_text(point)
         scale = scale_text(point)
         if resolution:
-            yield f"steps of {quoted(resolution)}"
+            yield f"steps of {rust_code(resolution)}"
         elif scale:
-            yield f"value {quoted(scale)}"
+            yield f"value {rust_code(scale)}"
     yield access_text(point.access)
     if point.variant:
-        yield f"for {quoted(point.variant)}"
+        yield f"for {rust_code(point.variant)}"
     if point.when:
-        yield f"only when {quoted(point.when)}"
+        yield f"only when {rust_code(point.when)}"
