@@ -21,6 +21,7 @@ if [ "$purpose" = tests ]; then
     need arm-none-eabi-gcc gcc-arm-none-eabi
     [ -e /usr/lib/arm-none-eabi/include/stdint.h ] || [ -e /usr/include/newlib/stdint.h ] || missing_packages="$missing_packages libnewlib-arm-none-eabi"
     need cargo "cargo-web rustc-web"
+    need frama-c frama-c-base
     need rustfmt rustfmt-web
     need cargo-clippy rust-web-clippy
 fi

@@ -15,7 +15,9 @@ _WORDS = (0, 1, 2, 3, 7, 8, 9, 16, 0x7F, 0xFF, 0x100, 0x7FFF, 0x8000, 0x8001, 0x
 
 
 def _crc_table() -> tuple[int, ...]:
-    return tuple(reduce(lambda value, _: value >> 1 ^ (0xA001 if value & 1 else 0), range(8), byte) for byte in range(256))
+    return tuple(
+        reduce(lambda value, _: value >> 1 ^ (0xA001 if value & 1 else 0), range(8), byte) for byte in range(256)
+    )
 
 
 _CRC = _crc_table()

@@ -1,4 +1,4 @@
-"""The parsers of each language over the same cases, in programs of their own, built with everything that watches them."""
+"""The parsers of each language over the same cases, in programs of their own that are built to be watched."""
 
 from __future__ import annotations
 
@@ -77,19 +77,23 @@ def generate(work: Path) -> None:
     (work / "fuzz" / "Cargo.toml").write_text(_MANIFEST, "utf-8")
 
 
-def build(family: str, work: Path) -> dict[str, list[str]]:
-    """The command of each language that reads cases and prints lines."""
+def build_c(family: str, work: Path) -> dict[str, list[str]]:
+    """The commands in C that read cases and print lines, each watched by the sanitizers of its compiler."""
     commands = {}
     for language, (compiler, *options) in C.items():
         program = work / f"{family}-{compiler}"
         includes = (f"-I{work / 'c'}", f"-I{HERE}")
         _run([compiler, "-std=c99", "-g", "-O1", *options, *includes, "-o", str(program), str(HERE / f"{family}.c")])
         commands[language] = [str(program)]
+    return commands
+
+
+def build(family: str, work: Path) -> dict[str, list[str]]:
+    """The command of each language that reads cases and prints lines."""
     cargo = ["cargo", "build", "--quiet", "--release", "--offline", "--jobs", "1", "--bin", family]
     _run([*cargo, "--target-dir", str(work / "target")], cwd=work / "fuzz")
-    commands["Rust"] = [str(work / "target" / "release" / family)]
-    commands["Python"] = [sys.executable, str(HERE / "parsers.py"), family]
-    return commands
+    rust = [str(work / "target" / "release" / family)]
+    return {**build_c(family, work), "Rust": rust, "Python": [sys.executable, str(HERE / "parsers.py"), family]}
 
 
 def _run(command: list[str], cwd: Path | None = None) -> None:
@@ -98,19 +102,25 @@ def _run(command: list[str], cwd: Path | None = None) -> None:
 
 def fuzz_family(family: str, count: int, seed: int, work: Path) -> Iterator[Result]:
     """The same cases through all languages, and what they say of them side by side."""
+    commands = build(family, work)
+    yield from fuzz_programs(commands, family, count, seed, work)
+    started = time.perf_counter()
+    found = tuple(differences({name: work / f"{family}-{name}.lines" for name in commands}, family, seed, count))
+    yield Result(f"{family} frames, all alike", count, found, time.perf_counter() - started)
+
+
+def fuzz_programs(
+    commands: Mapping[str, list[str]], family: str, count: int, seed: int, work: Path
+) -> Iterator[Result]:
+    """The cases through each program, whose lines are kept."""
     cases = work / f"{family}.cases"
     with cases.open("wb") as file:
         file.writelines(CASES[family](Random(seed), count))
     environment = {**os.environ, "PYTHONPATH": str(work / "python")}
-    for language, command in build(family, work).items():
+    for language, command in commands.items():
         started = time.perf_counter()
-        out = work / f"{family}-{language}.lines"
-        failure = _failure(command, cases, out, environment)
+        failure = _failure(command, cases, work / f"{family}-{language}.lines", environment)
         yield Result(f"{family} frames, {language}", count, failure, time.perf_counter() - started)
-    started = time.perf_counter()
-    names = [*C, "Rust", "Python"]
-    found = tuple(differences({name: work / f"{family}-{name}.lines" for name in names}, family, seed, count))
-    yield Result(f"{family} frames, all alike", count, found, time.perf_counter() - started)
 
 
 def _failure(command: list[str], cases: Path, out: Path, environment: Mapping[str, str]) -> tuple[str, ...]:
@@ -133,4 +143,6 @@ def differences(lines: Mapping[str, Path], family: str, seed: int, count: int) -
             if told == 1:
                 made = list(CASES[family](Random(seed), count))
             case = made[place].hex() if place < len(made) else "(none)"
-            yield f"case {place} ({case}): " + "; ".join(f"{name}: {line}" for name, line in zip(texts, said, strict=True))
+            yield f"case {place} ({case}): " + "; ".join(
+                f"{name}: {line}" for name, line in zip(texts, said, strict=True)
+            )

@@ -58,7 +58,9 @@ class Proof:
 def functions(header: Path) -> list[str]:
     """The functions of a header without their prefix, in its order."""
     family = header.stem.removeprefix("fieldscribe_")
-    found = re.findall(rf"^static inline [^;{{]*?\bfieldscribe_{family}_(\w+)\(", header.read_text("utf-8"), re.MULTILINE)
+    found = re.findall(
+        rf"^static inline [^;{{]*?\bfieldscribe_{family}_(\w+)\(", header.read_text("utf-8"), re.MULTILINE
+    )
     return list(dict.fromkeys(found))
 
 
@@ -114,7 +116,9 @@ def alarm_lines(said: str) -> list[str]:
     """What Frama-C warned of, or its last words."""
     lines = said.splitlines()
     marked = [at for at, line in enumerate(lines) if "[eva:alarm]" in line or "user error" in line]
-    return [f"    {line.strip()}" for at in marked for line in lines[at : at + 3]] or [f"    {lines[-1]}" if lines else ""]
+    return [f"    {line.strip()}" for at in marked for line in lines[at : at + 3]] or [
+        f"    {lines[-1]}" if lines else ""
+    ]
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -129,7 +133,9 @@ def main(argv: Sequence[str] | None = None) -> int:
     missing = {family: unproven(family) for family in chosen.family}
     for family, names in missing.items():
         if names:
-            print(f"fieldscribe_{family}.h and {family}.c: function without a harness, or the reverse: {', '.join(names)}")
+            print(
+                f"fieldscribe_{family}.h and {family}.c: function without a harness, or the reverse: {', '.join(names)}"
+            )
     pairs = [(family, name) for family in chosen.family for name in harnesses(HERE / f"{family}.c")]
     proofs = prove_all((*pair, machine) for machine in chosen.machine for pair in pairs)
     bad = [proof for proof in proofs if not proof.holds]
