@@ -31,7 +31,7 @@ prove:              ## prove that no input makes the frame parsers and builders 
 
 fuzz:               ## throw mutated descriptions, frames and words at everything that reads them (SEED=1)
 	@sh generator/setup.sh tests
-	$(PYTHON) tests/fuzz/fuzz.py --seed $(or $(SEED),1)
+	$(PYTHON) tests/fuzz/run.py --seed $(or $(SEED),1)
 
 clean:              ## remove the virtual environment and caches
 	rm -rf .venv .cache .mypy_cache .pytest_cache .ruff_cache .hypothesis

@@ -6,13 +6,10 @@ from random import Random
 from typing import TYPE_CHECKING
 
 import pytest
-from fuzz import fuzz
+from fuzz import languages, run
+from fuzz.descriptions import mutant
+from fuzz.frames import CASES
 from toolchains import tool
-
-# fuzz puts its own folder on the path, so that it runs as a program too
-import languages  # isort: skip
-from descriptions import mutant  # isort: skip
-from frames import CASES  # isort: skip
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -30,7 +27,7 @@ def test_the_same_seed_makes_the_same_cases() -> None:
 @pytest.mark.full
 def test_descriptions_and_words(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """Mutated descriptions and random words end in findings, never in a traceback."""
-    found = fuzz.table(fuzz.everything(SEED, 400, 0, 100, tmp_path), SEED)
+    found = run.table(run.everything(SEED, 400, 0, 100, tmp_path), SEED)
     assert found == 0, capsys.readouterr().out
 
 

@@ -1,4 +1,4 @@
-"""Cases for the parsers: requests with answers that are right, a little wrong, or noise. Written from the protocols alone."""
+"""Cases for the parsers, written from the protocols alone: requests with answers that are right, wrong, or noise."""
 
 from __future__ import annotations
 

@@ -14,7 +14,8 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.diagnostics import Report
 from fieldscribe.pipeline import load_device, outputs
-from frames import CASES
+
+from fuzz.frames import CASES
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping

@@ -19,7 +19,8 @@ from random import Random
 from typing import Any
 
 from fieldscribe.cli import COMMANDS, main
-from languages import Result
+
+from fuzz.languages import Result
 
 MADE = Path(__file__).resolve().parents[1] / "devices"
 FREE = (

@@ -1,10 +1,10 @@
 """Throws mutated descriptions, frames and words at everything that reads them, and prints what came of it.
 
-    .venv/bin/python tests/fuzz/fuzz.py [--seed 1] [--mutants 20000] [--frames 1000000] [--lines 3000] [--keep DIR]
+    .venv/bin/python tests/fuzz/run.py [--seed 1] [--mutants 20000] [--frames 1000000] [--lines 3000] [--keep DIR]
 
-The same seed makes the same cases. Frames go through the parsers in C (with the sanitizers of gcc and clang), Rust (with
-overflow checks and debug assertions) and Python, which must all say the same. Cases that went wrong are kept in DIR;
-ends with 1 if there are any.
+The same seed makes the same cases. Frames go through the parsers in C (with the sanitizers of gcc and clang), Rust
+(with overflow checks and debug assertions) and Python, which must all say the same. Cases that went wrong are kept in
+DIR; ends with 1 if there are any.
 """
 
 from __future__ import annotations
@@ -15,11 +15,10 @@ import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-HERE = Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE), str(HERE.parent)]  # the mutations are those of the tests
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # as a program
 
-from frames import CASES  # noqa: E402  # the path is set above
-from languages import Result, fuzz_family, generate  # noqa: E402  # likewise
+from fuzz.frames import CASES
+from fuzz.languages import Result, fuzz_family, generate
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -27,9 +26,8 @@ if TYPE_CHECKING:
 
 def everything(seed: int, mutants: int, frames: int, lines: int, keep: Path) -> Iterator[Result]:
     """All kinds, as many cases of each as is said; 0 leaves a kind out."""
-    from words import fuzz_words
-
-    from descriptions import fuzz_descriptions
+    from fuzz.descriptions import fuzz_descriptions
+    from fuzz.words import fuzz_words
 
     keep.mkdir(parents=True, exist_ok=True)
     if mutants:
