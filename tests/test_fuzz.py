@@ -53,14 +53,14 @@ def test_a_difference_is_told(tmp_path: Path) -> None:
 
 
 @pytest.mark.full
-def test_a_parser_that_reads_too_far_is_found(tmp_path: Path) -> None:
-    """The sanitizers of C see one byte beyond a frame."""
+def test_a_parser_that_writes_too_far_is_found(tmp_path: Path) -> None:
+    """The sanitizers of C see one value beyond those that were asked for."""
     for name in ("gcc", "clang"):
         tool(name)
     languages.generate(tmp_path)
     header = tmp_path / "c" / "fieldscribe_modbus.h"
     text = header.read_text("utf-8")
-    header.write_text(text.replace("for (at = 0U; at < length; ++at)", "for (at = 0U; at <= length; ++at)"), "utf-8")
+    header.write_text(text.replace("at < count; ++at", "at <= count; ++at"), "utf-8")
     commands = languages.build_c("modbus", tmp_path)
     for result in languages.fuzz_programs(commands, "modbus", 200, SEED, tmp_path):
         assert "heap-buffer-overflow" in result.findings[0]
