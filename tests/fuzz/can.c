@@ -7,9 +7,9 @@
 static const char *const names[] = {"ok", "bad_unit", "bad_address", "bad_value", "wrong_id", "wrong_length",
     "wrong_constant", "wrong_unit", "wrong_check", "wrong_address", "echo_mismatch", "missing", "torn"};
 
-static const fieldscribe_can_message *const messages[] = {&kitchen_can_message_read_request,
-    &kitchen_can_message_write_request, &kitchen_can_message_read_answer, &kitchen_can_message_write_answer,
-    &kitchen_can_message_measurements, &kitchen_can_message_heartbeat};
+static const fieldscribe_can_message *const messages[] = {
+#include "messages.inc"
+};
 
 /* Offers a frame to a receiver, and prints whether it was taken and what one word is now. */
 static void hear(fieldscribe_can_receiver *receiver, const fieldscribe_can_frame *frame, uint16_t position)

@@ -3,12 +3,18 @@
 from __future__ import annotations
 
 import struct
-from functools import reduce
+from functools import cache, reduce
+from pathlib import Path
 from typing import TYPE_CHECKING
+
+from fieldscribe.diagnostics import Report
+from fieldscribe.pipeline import load_device
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
     from random import Random
+
+    from fieldscribe.model import Message
 
 _SIZES = (0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 16, 255, 256, 260, 300)
 _WORDS = (0, 1, 2, 3, 7, 8, 9, 16, 0x7F, 0xFF, 0x100, 0x7FFF, 0x8000, 0x8001, 0xFFFF)
@@ -81,34 +87,39 @@ def _modbus_pdu(random: Random, function: int, address: int, items: int, number:
     return struct.pack(">BHH", function, address, sent)
 
 
-_CAN = (
-    (0x33F, 0, "CUAACCXX", 0xFF),
-    (0x33F, 0, "CUAARRXX", 0xEE),
-    (0x320, 1, "CUAARRXX", 0xFF),
-    (0x320, 1, "CUAARRXX", 0xEE),
-    (0x320, 1, "CMWWWWWW", 0xDD),
-    (0x700, 1, "CUWWCCCC", 0x05),
-)
-"""The messages of kitchen_can: identifier, whether the unit is added to it, what its bytes are, the first constant."""
+@cache
+def _messages() -> tuple[Message, ...]:
+    """The layouts of the made device, as the model has them: built here without any target's code."""
+    report = Report()
+    device = load_device(Path(__file__).parents[1] / "devices" / "kitchen_can" / "device.yaml", report)
+    assert device is not None, report.findings
+    return device.messages
+
+
+def _laid_out(random: Random, message: Message, unit: int) -> bytes:
+    """The bytes of a message with anything in it."""
+    data = bytearray()
+    for role in message.roles:
+        known = {"constant": role.number, "unit": unit >> role.number, "multiplexer": random.randrange(8)}
+        data.append(known.get(role.kind, random.getrandbits(8)) & 0xFF)
+    for place, role in enumerate(message.roles):
+        if role.kind == "xor":
+            parts = [byte for at, byte in enumerate(data) if role.number >> at & 1]
+            data[place] = reduce(lambda check, byte: check ^ byte, parts, 0)
+    return bytes(data)
 
 
 def can(random: Random, count: int) -> Iterator[bytes]:
     """The message, the unit, a position of the telegram; identifier and data."""
+    messages = _messages()
     for _ in range(count):
-        message = random.randrange(len(_CAN))
-        identifier, adds, layout, first = _CAN[message]
+        place = random.randrange(len(messages))
+        message = messages[place]
         unit = 5 if random.random() < 0.8 else random.getrandbits(8)
-        parts = {"C": 0, "U": unit}
-        data = bytearray(parts.get(kind, random.getrandbits(8)) for kind in layout)
-        data[0] = first
-        if layout[1] == "M":
-            data[1] = random.randrange(8)
-        if layout.endswith("XX"):
-            data[6], data[7] = data[0] ^ data[2] ^ data[4], data[1] ^ data[3] ^ data[5]
-        frame = _mutated(random, bytes(data)) if random.random() < 0.4 else bytes(data)
-        identifier = identifier + adds * unit if random.random() < 0.95 else random.getrandbits(29)
-        fields = (message, unit, random.randrange(16), identifier, len(frame) % 256)
-        yield struct.pack("<BBHIH", *fields) + frame[: len(frame) % 256]
+        data = _laid_out(random, message, unit)
+        frame = (_mutated(random, data) if random.random() < 0.4 else data)[:255]
+        identifier = message.can_id + unit * message.adds_unit if random.random() < 0.95 else random.getrandbits(29)
+        yield struct.pack("<BBHIH", place, unit, random.randrange(16), identifier, len(frame)) + frame
 
 
 def uss(random: Random, count: int) -> Iterator[bytes]:

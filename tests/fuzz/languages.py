@@ -68,6 +68,9 @@ def generate(work: Path) -> None:
         for _, path, text in outputs(device, ("c", "python", "rust")):
             (work / path).parent.mkdir(parents=True, exist_ok=True)
             (work / path).write_text(text, "utf-8")
+        if device.messages:
+            listed = "".join(f"    &{name}_message_{message.name},\n" for message in device.messages)
+            (work / "c" / "messages.inc").write_text(listed, "utf-8")
     programs = work / "fuzz" / "src" / "bin"
     programs.mkdir(parents=True, exist_ok=True)
     for source in (HERE / "rust").glob("*.rs"):
