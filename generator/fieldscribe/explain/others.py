@@ -8,6 +8,7 @@ from fieldscribe import wording
 from fieldscribe.explain import Explanation
 from fieldscribe.explain.exchanges import find_exchanges
 from fieldscribe.explain.lookup import number_of
+from fieldscribe.explain.units import find_units
 from fieldscribe.text import line
 from fieldscribe.wording.exact import hex_text
 
@@ -39,6 +40,8 @@ def _others(device: Device, what: str) -> Iterator[Told]:
         if forced in ("", "name") and asked.lower() == erratum.id:
             yield [f"erratum {erratum.id}"], _erratum(erratum)
     for reading, heading, rows in find_exchanges(device, what):
+        yield [reading], _clean(heading, rows)
+    for reading, heading, rows in find_units(device, asked) if forced == "unit" else ():
         yield [reading], _clean(heading, rows)
     for space, gaps in device.bus.gaps.items():
         for low, high in gaps:

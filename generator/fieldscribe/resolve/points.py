@@ -7,6 +7,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from fieldscribe.language.formula import FormulaError, condition_comparisons, parse_condition
+from fieldscribe.language.units import unit_hint
 from fieldscribe.model import TYPES, UNSETTLED_TYPE, Allowed, Enum, Place, Point, ScaleCase, Special, Unit
 from fieldscribe.resolve.addresses import Places
 from fieldscribe.resolve.allowed import Ranges
@@ -167,13 +168,9 @@ def _reason(draft: Draft, has_place: bool, access: str) -> str | None:
 
 def _unit(scope: Scope, draft: Draft) -> Unit:
     symbol = draft.get("unit")
-    found = PLAIN if symbol is None else scope.units.get(symbol)
+    found = PLAIN if symbol is None else scope.unit(symbol)
     if found is None:
-        word = str(symbol).lower()
-        names = ((one, (one.lower(), unit.name, f"{unit.name}s")) for one, unit in scope.units.items())
-        meant = next((one for one, said in names if word in said), None)
-        hint = f"units go by their symbol: write `{meant}`" if meant else None
-        scope.unknown("unit", str(symbol), draft.span("unit"), scope.units, hint)
+        scope.unknown("unit", str(symbol), draft.span("unit"), scope.units, unit_hint(str(symbol), scope.units))
         draft.failed.add("unit")
     return found or PLAIN
 
