@@ -16,7 +16,11 @@ def check(subject: Subject) -> None:
     known = ("no", "yes", *choice, *sorted(declared))
     for resolved in subject.resolved:
         keeps = resolved.point.keeps
-        if keeps is not None and keeps not in known:
+        if keeps == "choice" and keeps not in known:
+            message = f"a {scope.header['family']} request cannot choose where the device keeps the value"
+            hint = "write `keeps: yes`, `keeps: no`, or the command that stores; `choice` is for the tasks of uss"
+            scope.report.error("wrong-choice", message, resolved.draft.span("keeps"), hint)
+        elif keeps is not None and keeps not in known:
             span = resolved.draft.span("keeps")
             scope.unknown("command", keeps, span, known)
     for raw in scope.listed("commands"):

@@ -15,20 +15,21 @@ if TYPE_CHECKING:
 KEYS_PAGE = "see the key in descriptions/KEYS.md"
 _MOST_COMPARED = 500
 _LONGEST_COMPARED = 80
-_NAME = "^[a-z][a-z0-9]*(_[a-z0-9]+)*$"
+_WHOLE = "(0x[0-9A-Fa-f]{1,16}|[0-9A-Fa-f]{1,16}[hH]|[Hh]'[0-9A-Fa-f]{1,16}|0b[01]{1,64}|[0-9]{1,5})"
+
+NAME = "^[a-z][a-z0-9]*(_[a-z0-9]+)*$"
+NUMBER_KEY = "^([-+0-9]|[A-Fa-f][0-9A-Fa-f]*[hH](\\.\\.|$)|[Hh]').*$"
+BITS_KEY = f"^{_WHOLE}(\\.\\.{_WHOLE})?$"
+ONE_KEY = f"^{_WHOLE}$"
+ELEMENT_KEY = f"^{_WHOLE}(/{_WHOLE})?$"
 
 _FORMS = {
-    _NAME: ("a name in snake_case", "names are English words such as `base_frequency`: a to z, digits, single _"),
-    "^[-+0-9H].*$": ("a number", "keys here are numbers such as 3, -1, 1Fh or 0FFh (with a digit first)"),
-    "^([2-9]|[1-9][0-9]{1,2})$": ("the number of a set", "keys here are the numbers of the further sets, from 2 on"),
-    "^[0-9]{1,2}(\\.\\.[0-9]{1,2})?$": ("a bit or bits", "bits are written 3, several bits 5..4"),
-    "^[0-9]{1,5}(/[0-9]{1,5})?$": (
-        "an element",
-        "keys here are indices (sets where there are none), or set/index: 0, 3, 2/1",
-    ),
-    "^[0-7](\\.\\.[0-7])?$": ("a byte or bytes", "the bytes of a message are written 0, several bytes 2..3, up to 7"),
+    NAME: ("a name in snake_case", "names are English words such as `base_frequency`: a to z, digits, single _"),
+    NUMBER_KEY: ("a number", "keys here are numbers such as 3, -1, 1Fh or 0x1F"),
+    BITS_KEY: ("a number, or two", "bits and bytes are numbers: 3; several bits have the high one first: 5..4"),
+    ONE_KEY: ("the number of a set", "keys here are the numbers of the further sets, from 2 on"),
+    ELEMENT_KEY: ("an element", "keys here are indices (sets where there are none), or set/index: 0, 3, 2/1"),
     "^[0-9]{1,9}(\\.\\.[0-9]{1,9})?$": ("a line or lines", "lines are written 780, several lines 780..790"),
-    "^[-+0-9A-Fa-fH].*$": ("a number", "keys here are raw numbers such as 100, -1 or FF9Eh"),
     "^[a-z]{2}$": ("a language", "languages have two letters: en, de, fr"),
     "^x-": ("a private key", "keys of your own start with x-"),
     "^[0-9]+\\.[0-9]+\\.[0-9]+$": ("a version", "write three numbers: 1.0.0"),
@@ -134,13 +135,13 @@ def form(pattern: str) -> str:
 def form_hint(value: str, pattern: str) -> str:
     """How a text of this pattern is written."""
     hint = _FORMS[pattern][1] if pattern in _FORMS else KEYS_PAGE
-    if pattern != _NAME:
+    if pattern != NAME:
         return hint
     import unicodedata
 
     plain = unicodedata.normalize("NFKD", value[:60]).encode("ascii", "ignore").decode()
     suggestion = re.sub(r"[^a-z0-9]+", "_", re.sub(r"([a-z0-9])([A-Z])", r"\1_\2", plain).lower()).strip("_")
-    return f"write `{suggestion}`" if re.fullmatch(_NAME, suggestion) else hint
+    return f"write `{suggestion}`" if re.fullmatch(NAME, suggestion) else hint
 
 
 def key_hint(key: str, known: Collection[str], patterns: Iterable[str]) -> str:

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from decimal import Decimal
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from fieldscribe.language.formula import Expression, FormulaError, parse_range
+from fieldscribe.language.meant import interval_meant
+from fieldscribe.language.nodes import Seq
 from fieldscribe.model import Allowed, Bound, Enum, Interval, Limit, Linear
 from fieldscribe.resolve.bounds import Bounds, as_text, constant_range, round_half_away
 from fieldscribe.resolve.rules import UnknownError
@@ -53,6 +56,8 @@ class Ranges:
         What is only `printed` may leave the type and run downwards: misprints do.
         """
         text = as_text(raw)
+        if isinstance(raw, Seq) and not printed and self._two_meanings(raw, span):
+            return None
         try:
             pairs = self._constant(draft, text, span, in_units)
             if pairs is None:
@@ -65,6 +70,9 @@ class Ranges:
                     pairs = [(high, low) for low, high in pairs]
             listed = parse_range(text).listed
         except FormulaError as error:
+            meant = interval_meant(text)
+            if meant is not None:
+                error.hint = f"write `{meant}`" if printed else f"write `{'range_in_units' if in_units else 'range'}: {meant}`"
             formula_finding(error, span, self.report)
             return None
         except UnknownError:
@@ -75,6 +83,16 @@ class Ranges:
         fixed = [(low, high) for low, high in pairs if isinstance(low, int) and isinstance(high, int)]
         moving = [Interval(low, high) for low, high in pairs if not (isinstance(low, int) and isinstance(high, int))]
         return Allowed((*_merged(fixed), *moving), listed, ())
+
+    def _two_meanings(self, raw: Seq, span: Span) -> bool:
+        """A finding for `[0, 100]`: here a list of two numbers, in other tools the ends of an interval."""
+        first, last = (raw[0], raw[1]) if len(raw) == 2 else (0, 0)
+        if not all(isinstance(one, int | Decimal) for one in (first, last)) or last - first <= 1:
+            return False
+        message = f"[{first}, {last}] could be an interval or two single numbers"
+        hint = f"write `{first}..{last}` for all between them, `{first} | {last}` for these two alone"
+        self.report.error("two-meanings", message, span, hint)
+        return True
 
     def _constant(self, draft: Draft, text: str, span: Span, in_units: bool) -> list[tuple[Bound, Bound]] | None:
         """The ends of a range that names no point and needs none for its scale; None if it does."""

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from fieldscribe.model import Entry, Enum, Flag, Special
 from fieldscribe.resolve.drafts import Draft, humanised
 from fieldscribe.resolve.scope import Scope, titles
-from fieldscribe.resolve.values import integer, interval
+from fieldscribe.resolve.values import bits_named, integer, interval
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -136,8 +136,7 @@ def flags_of(scope: Scope, draft: Draft, bits: tuple[int, int] | None, width: in
     result = []
     last, first = bits or (width - 1, 0)
     for key, value in raw.items():
-        high_text, dots, low_text = key.partition("..")
-        high, low = int(high_text), int(low_text) if dots else int(high_text)
+        high, low = bits_named(key)
         span, name = raw.key_span(key), _name(value)
         if high < low:
             hint = f"the higher bit stands first: {low}..{high}"

@@ -64,6 +64,12 @@ def interval(text: str, span: Span, report: Report) -> tuple[int, int] | None:
     return low, high
 
 
+def bits_named(key: str) -> tuple[int, int]:
+    """The two ends that a key of that form (`5..4`, `0Fh`) names, as written; one number is both."""
+    first, dots, last = key.partition("..")
+    return parse_integer(first), parse_integer(last if dots else first)
+
+
 def formula_value(
     text: str, names: Mapping[str, Fraction], span: Span, report: Report, unknown: str = ""
 ) -> Fraction | None:

@@ -1,0 +1,236 @@
+"""What people write from other tools and languages, and what that is here: for the hints of findings."""
+
+from __future__ import annotations
+
+import re
+from decimal import Decimal
+from typing import TYPE_CHECKING, Any
+
+from fieldscribe.language.nodes import Map, Seq
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+_TYPE_WORDS = {
+    "bit": "bool boolean coil flag discrete bit1",
+    "u8": "uint8 byte usint uchar unsigned8",
+    "s8": "int8 i8 sint char signed8",
+    "u16": "uint16 word uint ushort unsigned unsigned16 uint16_t w register",
+    "s16": "int16 i16 short signed signed16 int16_t sint16",
+    "u32": "uint32 dword udint ulong unsigned32 uint32_t",
+    "s32": "int32 i32 dint long signed32 int32_t sint32",
+    "u64": "uint64 qword lword ulint unsigned64 uint64_t",
+    "s64": "int64 i64 lint signed64 int64_t sint64",
+    "f32": "float real float32 single ieee754",
+    "f64": "double lreal float64",
+    "text": "string str ascii char[] visible_string",
+}
+_ENDIAN = re.compile(r"[-_ ]?(be|le|abcd|cdab|badc|dcba|swap(ped)?|big|little)$")
+_WORDS: Mapping[str, Mapping[str, str]] = {
+    "type": {"int": "s16` or `type: s32", "integer": "s16` or `type: s32", "ieee": "f32", "enum": "u16", "bitfield": "u16"}
+    | {word: ours for ours, words in _TYPE_WORDS.items() for word in words.split()},
+    "access": dict.fromkeys(("ro", "read", "readonly", "read-only", "read_only", "r/o", "true"), "r")
+    | dict.fromkeys(("r/w", "readwrite", "read-write", "read_write", "read/write", "wr", "w/r"), "rw")
+    | dict.fromkeys(("wo", "write", "writeonly", "write-only", "write_only", "w/o"), "w")
+    | dict.fromkeys(("-", "no", "n/a", "false", "reserved"), "none"),
+    "words": dict.fromkeys(("big", "be", "big endian", "abcd", "high", "msw first", "hi lo", "normal"), "high first")
+    | dict.fromkeys(("little", "le", "little endian", "cdab", "low", "lsw first", "lo hi", "swap", "swapped"), "low first"),
+    "keeps": dict.fromkeys(("true", "eeprom", "flash", "nvram", "permanent"), "yes")
+    | dict.fromkeys(("false", "ram", "volatile"), "no"),
+    "changes": dict.fromkeys(("constant", "const", "static", "once", "no", "false"), "never")
+    | dict.fromkeys(("slow", "sometimes", "seldom", "settings"), "rarely")
+    | dict.fromkeys(("fast", "often", "cyclic", "live", "yes", "true"), "always"),
+    "direction": dict.fromkeys(("read", "write", "tx", "task", "query", "command", "master"), "request")
+    | dict.fromkeys(("reply", "answer", "rx", "slave"), "response")
+    | dict.fromkeys(("broadcast", "periodic", "event"), "cyclic"),
+    "certainty": dict.fromkeys(("sure", "high", "yes", "true", "100%"), "certain")
+    | dict.fromkeys(("probable", "probably", "medium", "guess"), "likely")
+    | dict.fromkeys(("low", "unsure", "no", "false", "open"), "unknown"),
+    "language": {"german": "de", "deutsch": "de", "english": "en", "french": "fr", "italian": "it", "spanish": "es"},
+    "active": dict.fromkeys(("low", "false", "inverted", "0"), "0") | dict.fromkeys(("high", "true", "1"), "1"),
+    "open": {"yes": "true", "no": "false", "1": "true", "0": "false"},
+    "reserved": {"yes": "true", "no": "false", "1": "true", "0": "false"},
+    "family": {"can_bus": "can", "j1939": "can", "canopen": "can"},
+    "encoding": {"utf-8": "ascii` or `encoding: latin-1", "utf8": "ascii` or `encoding: latin-1"},
+}
+"""By key: other people's word, small, and ours."""
+
+_LONGEST = 60
+_NUMBER = r"[-+]?[0-9][0-9A-Fa-fxX]*(?:\.[0-9]+)?[hH]?"
+_BETWEEN = r"(?:-|\u2013|\u2014|~|:|;|\.\.\.|\u2026|\u00f7|to|bis|through)"
+_INTERVAL = re.compile(rf"[\[(]?\s*({_NUMBER})\s*{_BETWEEN}\s*({_NUMBER})\s*[\])]?\s*[^\s\d]{{0,4}}")
+_PAIRS = re.compile(r"([-+]?[0-9]+)\s*[=:]\s*([A-Za-z][A-Za-z0-9_ ]*)")
+
+
+def value_hint(key: Any, value: Any) -> str | None:
+    """What to write under that key instead of the value, as a whole line; None if nothing is known."""
+    if not isinstance(key, str):
+        return None
+    making = _MAKERS.get(key)
+    made = None if making is None else making(key, value)
+    return made or _word_hint(key, value)
+
+
+def reversed_hint(key: str, value: Any) -> str | None:
+    """What to write for `off: 0` where numbers have names; None if the value is no number."""
+    if isinstance(value, int) and not isinstance(value, bool) and len(key) <= _LONGEST:
+        return f"the number stands first: `{value}: {key.lower().replace(' ', '_')}`"
+    return None
+
+
+def _word_hint(key: str, value: Any) -> str | None:
+    known = _WORDS.get(key)
+    if known is None or not isinstance(value, str | int | Decimal):
+        return None
+    word = str(value).strip().lower()[:_LONGEST]
+    found = known.get(word) or (known.get(_ENDIAN.sub("", word)) if key == "type" else None)
+    if found is None:
+        return None
+    order = "" if key != "type" or word in known else "; the order of words goes under `words`"
+    return f"write `{key}: {found}`{order}"
+
+
+def _type(_: str, value: Any) -> str | None:
+    """A type that differs in case or form alone, or one of a width that no type has."""
+    if not isinstance(value, str):
+        return None
+    word = value.strip().lower()
+    if word in _TYPE_WORDS:
+        return f"write `type: {word}`"
+    if re.fullmatch(r"[usi]?(int)?(24|40|48|56|128)(_t)?", word) or "bcd" in word:
+        return "no type here is like this: `type: ~` documents the point and makes no code for it"
+    return None
+
+
+def interval_meant(text: str) -> str | None:
+    """`0-100`, `0 to 100`, `[0:100]` as it is written here; None if it is nothing like that."""
+    found = _INTERVAL.fullmatch(text.strip()) if len(text) <= _LONGEST else None
+    return None if found is None else f"{found[1]}..{found[2]}"
+
+
+def _interval(key: str, value: Any) -> str | None:
+    """Intervals of raw numbers, of units or of words."""
+    if isinstance(value, Map):
+        low, high = (next((value[one] for one in names if one in value), None) for names in _ENDS)
+        whole = isinstance(low, int | Decimal | str) and isinstance(high, int | Decimal | str)
+        return f"write `{key}: {low}..{high}`" if whole else "an interval is written low..high: `0..100`"
+    if isinstance(value, Seq) and len(value) == 2 and not any(isinstance(one, Map | Seq) for one in value):
+        return f"write `{key}: {value[0]}..{value[1]}`"
+    meant = interval_meant(value) if isinstance(value, str) else None
+    return None if meant is None else f"write `{key}: {meant}`"
+
+
+_ENDS = (("min", "low", "from", "minimum"), ("max", "high", "to", "maximum"))
+
+
+def _bits(key: str, value: Any) -> str | None:
+    """Bits as pairs, with the low one first, or with a word in front."""
+    if isinstance(value, Seq) and len(value) == 2 and all(isinstance(one, int) for one in value):
+        return f"write `{key}: {max(value)}..{min(value)}`"
+    found = re.fullmatch(r"\D{0,5}([0-9]{1,2})(?:\D{1,4}([0-9]{1,2}))?\D?", value) if isinstance(value, str) else None
+    if found is None:
+        return None
+    ends = sorted((int(one) for one in found.groups() if one), reverse=True)
+    return f"write `{key}: {'..'.join(map(str, ends))}`"
+
+
+def _scale(_: str, value: Any) -> str | None:
+    """A bare factor, or an offset and a factor."""
+    if isinstance(value, bool) or not isinstance(value, int | Decimal | Map):
+        return None
+    if isinstance(value, Map):
+        factor = next((value[one] for one in ("factor", "gain", "slope", "multiplier") if one in value), None)
+        return "a scale is one formula, as in `scale: value = raw * 0.1 - 40`" if factor is None else _scale(_, factor)
+    return factor_hint(value)
+
+
+def factor_hint(number: int | Decimal) -> str:
+    """The line that a bare factor stands for: both, where it may multiply or divide."""
+    from fieldscribe.language.formula.lint import exact_scale
+
+    if number == 0:
+        return "a factor of zero makes every value 0: write the rule, as in `scale: value = raw * 0.1`"
+    if number == 1:
+        return "the raw number is the value: leave `scale` out"
+    plain = f"{number:f}" if isinstance(number, Decimal) else str(number)
+    line = exact_scale(f"value = raw * {plain}")
+    if abs(number) < 1 or number != int(number):
+        return f"write the rule: `scale: {line}`"
+    return f"write the rule: `scale: {line}`, or `scale: value = raw / {plain}` if the raw number is the larger one"
+
+
+def _names(key: str, value: Any) -> str | None:
+    """Names for numbers as a list, or as one text."""
+    if isinstance(value, Seq) and 0 < len(value) <= 8 and all(isinstance(one, str) for one in value):
+        return f"write `{key}: {{{', '.join(f'{place}: {_snake(one)}' for place, one in enumerate(value))}}}`"
+    pairs = _PAIRS.findall(value) if isinstance(value, str) and len(value) < 200 else []
+    if pairs:
+        return f"write `{key}: {{{', '.join(f'{number}: {_snake(name)}' for number, name in pairs)}}}`"
+    return None
+
+
+def _snake(text: str) -> str:
+    return re.sub(r"[^a-z0-9]+", "_", text.strip().lower()).strip("_") or "name"
+
+
+def _steps(_: str, value: Any) -> str | None:
+    return f"write `steps: {{0: {value}}}`: from raw 0 on" if isinstance(value, int | Decimal) else None
+
+
+def _decimals(_: str, value: Any) -> str | None:
+    """A resolution where a count of digits belongs."""
+    if not isinstance(value, Decimal):
+        return None
+    digits = max(0, -int(value.normalize().as_tuple().exponent))
+    return f"it counts the digits behind the point: write `decimals: {digits}`"
+
+
+def _source(_: str, value: Any) -> str | None:
+    if isinstance(value, str | int | Decimal) and len(str(value)) <= _LONGEST:
+        return f'write `source: {{document: …, section: "{value}"}}`'
+    return None
+
+
+def _at(_: str, value: Any) -> str | None:
+    if isinstance(value, Seq) and value:
+        return f"a point of several words stands once, at its first: write `at: {value[0]}`"
+    return None
+
+
+def _functions(key: str, value: Any) -> str | None:
+    """Numbers without names."""
+    if isinstance(value, Seq) and 0 < len(value) <= 16 and all(isinstance(one, int | str) for one in value):
+        return f"each number has a name: write `{key}: {{{', '.join(f'{one}: name_of_it' for one in value)}}}`"
+    return None
+
+
+def _family(_: str, value: Any) -> str | None:
+    if isinstance(value, str) and value.lower().startswith(("modbus", "uss")):
+        name = value.lower()[: 6 if value.lower().startswith("modbus") else 3]
+        more = "; rtu and tcp are `framings` under `bus`" if name == "modbus" and len(value) > len(name) else ""
+        return f"write `family: {name}`{more}"
+    return None
+
+
+def _values(_: str, value: Any) -> str | None:
+    """The values of a variant as a list."""
+    if isinstance(value, Seq) and 0 < len(value) <= 8 and all(isinstance(one, str | int) for one in value):
+        return f"write `values: {{{', '.join(f'{one}: {{}}' for one in value)}}}`"
+    return _names("values", value)
+
+
+_MAKERS: Mapping[str, Callable[[str, Any], str | None]] = {
+    "type": _type,
+    **dict.fromkeys(("range", "range_in_units", "units", "pzd"), _interval),
+    "bits": _bits,
+    "scale": _scale,
+    **dict.fromkeys(("enum", "flags", "special"), _names),
+    "values": _values,
+    "steps": _steps,
+    "decimals": _decimals,
+    "source": _source,
+    "at": _at,
+    **dict.fromkeys(("functions", "exceptions", "responses"), _functions),
+    "family": _family,
+}
+"""What makes the hint, by key; words alone stand in the table above."""
