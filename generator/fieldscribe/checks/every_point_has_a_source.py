@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from fieldscribe.checks.subject import Subject
     from fieldscribe.resolve.drafts import Draft
 
+
 @dataclass(frozen=True, slots=True)
 class _Lacks:
     """A point that cites no section, or no line of that file."""
@@ -53,7 +54,10 @@ def _broken(draft: Draft) -> tuple[str, ...]:
 
 def _tell_of_each(subject: Subject, found: list[_Lacks]) -> None:
     for one in found:
-        message, hint = f"`{one.draft.name}` cites no line of the manual's text", f"add `line: …`, its line in {one.file}"
+        message, hint = (
+            f"`{one.draft.name}` cites no line of the manual's text",
+            f"add `line: …`, its line in {one.file}",
+        )
         if one.file is None:
             message = f"`{one.draft.name}` cites no section and no page"
             hint = "give `source: {document: …, section: …}` for the group, or `section` for the point"

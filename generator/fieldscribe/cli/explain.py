@@ -19,7 +19,9 @@ EXAMPLE = """examples:
   fieldscribe explain woodward_mpu2s can:321
   fieldscribe explain siemens_mm4 "P2010[1]"
   fieldscribe explain siemens_mm4 error:17
-  fieldscribe explain hitachi_l200 unit:Hz"""
+  fieldscribe explain hitachi_l200 unit:Hz
+
+ends with 2 when nothing has that code, name or address"""
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -31,7 +33,8 @@ def add_arguments(parser: ArgumentParser) -> None:
         "what",
         metavar="WHAT",
         help="a code, a name, or an address (4136, 0x1028, 1028h), [1] behind it for one element of an array; "
-        "wire:, modicon:, code: or name: force one reading; can:, task:, response:, error:, function: ask for frames, unit: for a unit",
+        "wire:, modicon:, code: or name: force one reading; can:, task:, response:, error:, function: ask for frames, "
+        "unit: for a unit",
     )
     parser.add_argument(
         "--as-documented", action="store_true", help="show what the manual alone would say, without errata"

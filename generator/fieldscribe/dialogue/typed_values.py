@@ -18,6 +18,7 @@ from fieldscribe.language.units import factor_between
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+
     from fieldscribe.model import Device, Flag, Point
 
 _MEASURE = re.compile(r"([+-]?[0-9.,]+(?:[eE][+-]?[0-9]+)?)\s*([^\s0-9.,].{0,30})")

@@ -23,6 +23,9 @@ Told = tuple[list[str], Explanation]
 
 def explain_others(device: Device, what: str) -> list[Told]:
     """Everything but points that a name or a wire address means."""
+    prefix, colon, rest = what.strip().partition(":")
+    if colon and prefix.strip().lower() == "unit":
+        return [([reading], _clean(heading, rows)) for reading, heading, rows in find_units(device, rest.strip())]
     return list(_others(device, what.strip()))
 
 
@@ -40,8 +43,6 @@ def _others(device: Device, what: str) -> Iterator[Told]:
         if forced in ("", "name") and asked.lower() == erratum.id:
             yield [f"erratum {erratum.id}"], _erratum(erratum)
     for reading, heading, rows in find_exchanges(device, what):
-        yield [reading], _clean(heading, rows)
-    for reading, heading, rows in find_units(device, asked) if forced == "unit" else ():
         yield [reading], _clean(heading, rows)
     for space, gaps in device.bus.gaps.items():
         for low, high in gaps:

@@ -219,9 +219,10 @@ class _Builder:
 
 def _is_alone(key: Any, value: Any) -> bool:
     """Whether a key in braces has neither a colon nor a value: `{when: a in (0, 1)}` holds the key `1)`."""
-    if type(value) is not yaml.ScalarEvent or value.value or value.style or type(key) is not yaml.ScalarEvent:
+    if not (type(value) is type(key) is yaml.ScalarEvent) or value.value or value.style or value.tag or value.anchor:
         return False
-    return bool(value.start_mark.index == key.end_mark.index) and not (value.tag or value.anchor)
+    start, end = value.start_mark, key.end_mark
+    return start is not None and end is not None and bool(start.index == end.index)
 
 
 def _place(event: Any) -> tuple[int, int]:

@@ -27,14 +27,22 @@ _TYPE_WORDS = {
 }
 _ENDIAN = re.compile(r"[-_ ]?(be|le|abcd|cdab|badc|dcba|swap(ped)?|big|little)$")
 _WORDS: Mapping[str, Mapping[str, str]] = {
-    "type": {"int": "s16` or `type: s32", "integer": "s16` or `type: s32", "ieee": "f32", "enum": "u16", "bitfield": "u16"}
+    "type": {
+        "int": "s16` or `type: s32",
+        "integer": "s16` or `type: s32",
+        "ieee": "f32",
+        "enum": "u16",
+        "bitfield": "u16",
+    }
     | {word: ours for ours, words in _TYPE_WORDS.items() for word in words.split()},
     "access": dict.fromkeys(("ro", "read", "readonly", "read-only", "read_only", "r/o", "true"), "r")
     | dict.fromkeys(("r/w", "readwrite", "read-write", "read_write", "read/write", "wr", "w/r"), "rw")
     | dict.fromkeys(("wo", "write", "writeonly", "write-only", "write_only", "w/o"), "w")
     | dict.fromkeys(("-", "no", "n/a", "false", "reserved"), "none"),
     "words": dict.fromkeys(("big", "be", "big endian", "abcd", "high", "msw first", "hi lo", "normal"), "high first")
-    | dict.fromkeys(("little", "le", "little endian", "cdab", "low", "lsw first", "lo hi", "swap", "swapped"), "low first"),
+    | dict.fromkeys(
+        ("little", "le", "little endian", "cdab", "low", "lsw first", "lo hi", "swap", "swapped"), "low first"
+    ),
     "keeps": dict.fromkeys(("true", "eeprom", "flash", "nvram", "permanent"), "yes")
     | dict.fromkeys(("false", "ram", "volatile"), "no"),
     "changes": dict.fromkeys(("constant", "const", "static", "once", "no", "false"), "never")
@@ -126,7 +134,8 @@ _ENDS = (("min", "low", "from", "minimum"), ("max", "high", "to", "maximum"))
 def _bits(key: str, value: Any) -> str | None:
     """Bits as pairs, with the low one first, or with a word in front."""
     if isinstance(value, Seq) and len(value) == 2 and all(isinstance(one, int) for one in value):
-        return f"write `{key}: {max(value)}..{min(value)}`"
+        low, high = sorted(value)
+        return f"write `{key}: {high}..{low}`"
     found = re.fullmatch(r"\D{0,5}([0-9]{1,2})(?:\D{1,4}([0-9]{1,2}))?\D?", value) if isinstance(value, str) else None
     if found is None:
         return None
@@ -154,7 +163,7 @@ def factor_hint(number: int | Decimal) -> str:
         return "the raw number is the value: leave `scale` out"
     plain = f"{number:f}" if isinstance(number, Decimal) else str(number)
     line = exact_scale(f"value = raw * {plain}")
-    if abs(number) < 1 or number != int(number):
+    if number < 1 or number % 1:
         return f"write the rule: `scale: {line}`"
     return f"write the rule: `scale: {line}`, or `scale: value = raw / {plain}` if the raw number is the larger one"
 

@@ -72,7 +72,9 @@ class Ranges:
         except FormulaError as error:
             meant = interval_meant(text)
             if meant is not None:
-                error.hint = f"write `{meant}`" if printed else f"write `{'range_in_units' if in_units else 'range'}: {meant}`"
+                error.hint = (
+                    f"write `{meant}`" if printed else f"write `{'range_in_units' if in_units else 'range'}: {meant}`"
+                )
             formula_finding(error, span, self.report)
             return None
         except UnknownError:

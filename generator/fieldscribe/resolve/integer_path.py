@@ -55,9 +55,7 @@ def decimals_of(draft: Draft, cases: tuple[ScaleCase, ...] | None, bounds: Bound
     return chosen
 
 
-def _faults(
-    draft: Draft, cases: tuple[ScaleCase, ...], decimals: int, bounds: Bounds
-) -> list[tuple[str, str]]:
+def _faults(draft: Draft, cases: tuple[ScaleCase, ...], decimals: int, bounds: Bounds) -> list[tuple[str, str]]:
     """Rule and message of each case of the scale that one of the paths is too narrow for."""
     raw = max(map(abs, bounds.holds[draft]))  # every raw number survives where the type is not too wide for that
     if raw >= _WIDE:

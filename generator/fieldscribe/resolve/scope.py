@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from fieldscribe.diagnostics import Report, Span
 from fieldscribe.families import FAMILIES, Family
 from fieldscribe.language.hints import nearest, quoted
 from fieldscribe.language.nodes import Map
@@ -15,6 +14,7 @@ from fieldscribe.model import Document, Enum, Source, Titles, Unit
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator, Mapping
 
+    from fieldscribe.diagnostics import Report, Span
     from fieldscribe.language.files import Files
 
 PLAIN = Unit("", "number", "number")

@@ -23,7 +23,7 @@ _REWRITTEN = (
     (rf"/\s*({_NUMBER})", r"value = raw / \1"),
     (rf"1\s*[:/]\s*({_NUMBER})", r"value = raw / \1"),
     (rf"({_NUMBER})\s*[:/]\s*({_NUMBER})", r"value = raw * \1 / \2"),
-    (rf"10\s*(?:\*\*|\^)\s*([-+]?[0-9]+)", r"value = raw * 10 ** \1"),
+    (r"10\s*(?:\*\*|\^)\s*([-+]?[0-9]+)", r"value = raw * 10 ** \1"),
     (rf"({_NUMBER})\s*[^\W\d_]{{1,4}}(?:/bit|/digit|/lsb|/count)?", r"value = raw * \1"),
     (r"([^=]*\braw\b[^=]*)", r"value = \1"),
     (r"([^=]*\bvalue\b[^=]*)", r"raw = \1"),
