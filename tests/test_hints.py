@@ -23,7 +23,10 @@ model: M1
 title: Test device
 family: modbus
 documents: {manual: {title: Manual, language: en}}
-bus: {framings: [rtu], units: 1..247, functions: {01h: read_coils, 03h: read, 05h: write_coil, 06h: write, 10h: write_many}}
+bus:
+  framings: [rtu]
+  units: 1..247
+  functions: {01h: read_coils, 03h: read, 05h: write_coil, 06h: write, 10h: write_many}
 groups:
 - group: main
   space: holding
@@ -174,7 +177,9 @@ def test_a_cut_decimal_is_a_warning_that_can_be_followed(tmp_path: Path, facts: 
         ("unit: furlong", "unknown-unit", "`fieldscribe units` lists what is known"),
         ("keeps: choice", "wrong-choice", "write `keeps: yes`, `keeps: no`, or the command that stores"),
         ("type", "yaml-comma", "give it a value: `type: …`"),
-        ("source: Chapter 5", "wrong-type", 'write `source: {document: …, section: "Chapter 5"}`'),
+        ("type: BYTE", "wrong-choice", "write `type: u8` with the `bits: 7..0`"),
+        ("type: string", "wrong-choice", "write `type: text` with `characters: …`"),
+        ("type: bool", "wrong-choice", "one bit of a word is `bits: 0`"),
     ],
 )
 def test_hints_name_what_is_meant(tmp_path: Path, facts: str, rule: str, hint: str) -> None:

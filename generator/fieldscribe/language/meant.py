@@ -63,6 +63,13 @@ _WORDS: Mapping[str, Mapping[str, str]] = {
 }
 """By key: other people's word, small, and ours."""
 
+_ALSO = {
+    "bit": " in the space `coil` or `discrete`; one bit of a word is `bits: 0`, without a type",
+    "u8": " with the `bits: 7..0` that it takes of its word, or `type: u16`",
+    "s8": " with the `bits: 7..0` that it takes of its word, or `type: s16`",
+    "text": " with `characters: …`",
+}
+"""What else a type needs."""
 _LONGEST = 60
 _NUMBER = r"[-+]?[0-9][0-9A-Fa-fxX]*(?:\.[0-9]+)?[hH]?"
 _BETWEEN = r"(?:-|\u2013|\u2014|~|:|;|\.\.\.|\u2026|\u00f7|to|bis|through)"
@@ -95,7 +102,7 @@ def _word_hint(key: str, value: Any) -> str | None:
     if found is None:
         return None
     order = "" if key != "type" or word in known else "; the order of words goes under `words`"
-    return f"write `{key}: {found}`{order}"
+    return f"write `{key}: {found}`{order}{_ALSO.get(found, '') if key == 'type' else ''}"
 
 
 def _type(_: str, value: Any) -> str | None:
@@ -136,11 +143,16 @@ def _bits(key: str, value: Any) -> str | None:
     if isinstance(value, Seq) and len(value) == 2 and all(isinstance(one, int) for one in value):
         low, high = sorted(value)
         return f"write `{key}: {high}..{low}`"
-    found = re.fullmatch(r"\D{0,5}([0-9]{1,2})(?:\D{1,4}([0-9]{1,2}))?\D?", value) if isinstance(value, str) else None
-    if found is None:
+    return None
+
+
+def bits_meant(text: str) -> str | None:
+    """`15:8`, `b3`, `bit 3` as they are written here; None if it is nothing like that, or already so."""
+    found = re.fullmatch(r"[^\W\d]{0,5}[ .]?([0-9]{1,2})(?:(?:-|:|,|/| to )([0-9]{1,2}))?", text.strip())
+    if found is None or text.strip().isdecimal():
         return None
     ends = sorted((int(one) for one in found.groups() if one), reverse=True)
-    return f"write `{key}: {'..'.join(map(str, ends))}`"
+    return "..".join(map(str, ends))
 
 
 def _scale(_: str, value: Any) -> str | None:

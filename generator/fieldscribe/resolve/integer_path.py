@@ -28,7 +28,7 @@ def decimals_of(draft: Draft, cases: tuple[ScaleCase, ...] | None, bounds: Bound
     said: int | None = draft.get("decimals")
     report = bounds.scales.scope.report
     if cases is None:
-        if said and "scale" not in draft.failed and draft.get("scale") is None and not draft.floating:
+        if said and "scale" not in draft.failed and draft.layer("scale") is None and not draft.floating:
             message = "`decimals` belongs to a scale, and the raw number is the value here"
             report.error("integer-path", message, draft.span("decimals"), "leave it out, or give the `scale`")
         return 0
@@ -40,7 +40,7 @@ def decimals_of(draft: Draft, cases: tuple[ScaleCase, ...] | None, bounds: Bound
     needed = max(_needed(case.rule, bounds) for case in cases)
     if needed > MOST_DECIMALS:
         message = f"one raw step can be finer than 10^-{MOST_DECIMALS} units"
-        report.error("integer-path", message, span, "give the points in the scale a narrower `range`")
+        report.error("integer-path", message, draft.span("scale"), _way_out(draft, cases, needed, 0, bounds))
         return MOST_DECIMALS
     if said is not None and said < needed:
         message = f"with {said} decimals two raw numbers would have one count"
@@ -76,7 +76,7 @@ def _way_out(draft: Draft, cases: tuple[ScaleCase, ...], needed: int, chosen: in
     used = {bounds.scales.index.by_item(factor.point).name for case in cases for factor in case.rule.factors}
     if used:
         return f"give {' and '.join(f'`{name}`' for name in sorted(used))} a narrower `range`"
-    if max(map(abs, bounds.holds[draft])) >= _WIDE:
+    if needed <= MOST_DECIMALS and max(map(abs, bounds.holds[draft])) >= _WIDE:
         return "give the point a narrower `range`"
     return "write a scale of fewer digits, or `scale: ~`: the point is then documented only"
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from fieldscribe.language.hints import quoted
+from fieldscribe.language.meant import bits_meant
 from fieldscribe.model import TYPES, TypeInfo
 from fieldscribe.resolve.values import integer
 
@@ -105,7 +107,16 @@ def bits_of(scope: Scope, draft: Draft, space: str) -> tuple[int, int] | None:
             "bit-outside-word", f"the space `{space}` holds single bits, not words", span, "leave `bits` out"
         )
         return None
-    high_text, dots, low_text = str(text).partition("..")
+    return _bits_said(scope, str(text), span)
+
+
+def _bits_said(scope: Scope, text: str, span: Span) -> tuple[int, int] | None:
+    meant = bits_meant(text)
+    if meant is not None:
+        message = f"{quoted(text)} is not a bit or bits"
+        scope.report.error("wrong-form", message, span, f"write `bits: {meant}`")
+        return None
+    high_text, dots, low_text = text.partition("..")
     high = integer(high_text.strip(), span, scope.report)
     low = integer(low_text.strip(), span, scope.report) if dots else high
     if high is None or low is None:
