@@ -7,6 +7,7 @@ from decimal import Decimal
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
+from fieldscribe.language.meant_keys import meant_key
 from fieldscribe.language.nodes import Map, Seq
 
 if TYPE_CHECKING:
@@ -15,6 +16,8 @@ if TYPE_CHECKING:
 KEYS_PAGE = "see the key in descriptions/KEYS.md"
 _MOST_COMPARED = 500
 _LONGEST_COMPARED = 80
+_TYPING_SLIP = 0.7
+"""How alike keys must be: below that `precision` would be taken for `section`."""
 _WHOLE = "(0x[0-9A-Fa-f]{1,16}|[0-9A-Fa-f]{1,16}[hH]|[Hh]'[0-9A-Fa-f]{1,16}|0b[01]{1,64}|[0-9]{1,5})"
 
 NAME = "^[a-z][a-z0-9]*(_[a-z0-9]+)*$"
@@ -46,19 +49,7 @@ _FORMS = {
 }
 """What the patterns of the schema mean, in words."""
 
-
-_MEANT = {
-    **dict.fromkeys(("address", "adress", "addr", "register", "offset", "wire"), "at"),
-    **dict.fromkeys(("scaling", "factor", "formula", "resolution", "gain"), "scale"),
-    **dict.fromkeys(("min", "max", "minimum", "maximum", "limits", "values"), "range"),
-    **dict.fromkeys(("datatype", "data_type", "format"), "type"),
-    **dict.fromkeys(("description", "label", "text", "desc"), "title"),
-    **dict.fromkeys(("choices", "options", "states"), "enum"),
-    **dict.fromkeys(("id", "number"), "code"),
-    **dict.fromkeys(("rights", "mode"), "access"),
-    "reason": "why",
-}
-"""Keys that people try, and what they mean here."""
+_GERMAN = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue", "Ä": "Ae", "Ö": "Oe", "Ü": "Ue", "ß": "ss"})
 
 
 def quoted(text: str) -> str:
@@ -139,20 +130,35 @@ def form_hint(value: str, pattern: str) -> str:
         return hint
     import unicodedata
 
-    plain = unicodedata.normalize("NFKD", value[:60]).encode("ascii", "ignore").decode()
+    spelled = value[:60].translate(_GERMAN)
+    plain = unicodedata.normalize("NFKD", spelled).encode("ascii", "ignore").decode()
     suggestion = re.sub(r"[^a-z0-9]+", "_", re.sub(r"([a-z0-9])([A-Z])", r"\1_\2", plain).lower()).strip("_")
+    if value[:1].isdigit():
+        return "a name starts with a letter: `speed_2`, not `2nd_speed`"
     return f"write `{suggestion}`" if re.fullmatch(NAME, suggestion) else hint
 
 
-def key_hint(key: str, known: Collection[str], patterns: Iterable[str]) -> str:
-    """What an unknown key may have meant."""
+def named_otherwise(key: str, patterns: Collection[str]) -> str | None:
+    """A key of bits or of a language that is only written in another way; None if it is not."""
+    from fieldscribe.language.meant import LANGUAGES, bits_meant
+
+    if BITS_KEY in patterns:
+        return bits_meant(key)
+    return LANGUAGES.get(key.lower()) if "^[a-z]{2}$" in patterns else None
+
+
+def key_hint(key: str, known: Collection[str], patterns: Iterable[str], value: Any = None) -> str:
+    """What an unknown key with that value may have meant."""
     if key == "<<":
         return "merge keys are not part of YAML 1.2: write the keys out, or share them under `formats`"
-    meant = _MEANT.get(key.lower())
-    if meant in known:
-        return f"did you mean `{meant}`?"
+    meant = meant_key(key, value, known)
+    if meant is not None:
+        return meant
     forms = [pattern for pattern in patterns if pattern != "^x-"]
-    near = nearest(key, tuple(known))
+    named = named_otherwise(key, forms)
+    if named is not None:
+        return f"write `{named}`"
+    near = nearest(key, tuple(known), _TYPING_SLIP)
     if near is not None:
         return f"did you mean `{near}`?"
     said = [form_hint(key, pattern) for pattern in forms]
@@ -162,12 +168,12 @@ def key_hint(key: str, known: Collection[str], patterns: Iterable[str]) -> str:
 
 
 @lru_cache(maxsize=4096)
-def nearest(word: str, known: tuple[str, ...]) -> str | None:
+def nearest(word: str, known: tuple[str, ...], likeness: float = 0.6) -> str | None:
     """The known word that is most like this one, or None."""
     import difflib
 
     if len(word) > _LONGEST_COMPARED:
         return None
     by_folded = {one.lower(): one for one in reversed(known[:_MOST_COMPARED])}
-    near = difflib.get_close_matches(word.lower(), by_folded, 1, 0.6)
+    near = difflib.get_close_matches(word.lower(), by_folded, 1, likeness)
     return by_folded[near[0]] if near else None

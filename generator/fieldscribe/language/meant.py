@@ -25,6 +25,7 @@ _TYPE_WORDS = {
     "f64": "double lreal float64",
     "text": "string str ascii char[] visible_string",
 }
+LANGUAGES = {"german": "de", "deutsch": "de", "english": "en", "french": "fr", "italian": "it", "spanish": "es"}
 _ENDIAN = re.compile(r"[-_ ]?(be|le|abcd|cdab|badc|dcba|swap(ped)?|big|little)$")
 _WORDS: Mapping[str, Mapping[str, str]] = {
     "type": {
@@ -54,7 +55,7 @@ _WORDS: Mapping[str, Mapping[str, str]] = {
     "certainty": dict.fromkeys(("sure", "high", "yes", "true", "100%"), "certain")
     | dict.fromkeys(("probable", "probably", "medium", "guess"), "likely")
     | dict.fromkeys(("low", "unsure", "no", "false", "open"), "unknown"),
-    "language": {"german": "de", "deutsch": "de", "english": "en", "french": "fr", "italian": "it", "spanish": "es"},
+    "language": LANGUAGES,
     "active": dict.fromkeys(("low", "false", "inverted", "0"), "0") | dict.fromkeys(("high", "true", "1"), "1"),
     "open": {"yes": "true", "no": "false", "1": "true", "0": "false"},
     "reserved": {"yes": "true", "no": "false", "1": "true", "0": "false"},
@@ -72,7 +73,7 @@ _ALSO = {
 """What else a type needs."""
 _LONGEST = 60
 _NUMBER = r"[-+]?[0-9][0-9A-Fa-fxX]*(?:\.[0-9]+)?[hH]?"
-_BETWEEN = r"(?:-|\u2013|\u2014|~|:|;|\.\.\.|\u2026|\u00f7|to|bis|through)"
+_BETWEEN = r"(?:\.\.|-|\u2013|\u2014|~|:|;|\.\.\.|\u2026|\u00f7|to|bis|through)"
 _INTERVAL = re.compile(rf"[\[(]?\s*({_NUMBER})\s*{_BETWEEN}\s*({_NUMBER})\s*[\])]?\s*[^\s\d]{{0,4}}")
 _PAIRS = re.compile(r"([-+]?[0-9]+)\s*[=:]\s*([A-Za-z][A-Za-z0-9_ ]*)")
 
@@ -218,6 +219,54 @@ def _at(_: str, value: Any) -> str | None:
     return None
 
 
+def _unit(_: str, value: Any) -> str | None:
+    """A number, or several symbols."""
+    if isinstance(value, int | Decimal):
+        return "a unit is a symbol such as `Hz`: `fieldscribe units` lists them; a factor belongs to `scale`"
+    alone = isinstance(value, Seq) and len(value) == 1 and isinstance(value[0], str)
+    return f"write `unit: {value[0]}`" if alone else None
+
+
+def _when(_: str, value: Any) -> str | None:
+    """A mapping of points to numbers."""
+    plain = isinstance(value, Map) and 0 < len(value) < 5 and all(isinstance(one, int | str) for one in value.values())
+    return f"write `when: {' and '.join(f'{key} == {one}' for key, one in value.items())}`" if plain else None
+
+
+def _printed(_: str, value: Any) -> str | None:
+    """A number of which nobody says in which numbering."""
+    plain = isinstance(value, int | str) and not isinstance(value, bool) and len(str(value)) < _LONGEST
+    return f"say which number it is: `printed: {{wire: {value}}}`, or a name of `numbering`" if plain else None
+
+
+def _line(key: str, value: Any) -> str | None:
+    """Several lines where one is meant."""
+    found = re.fullmatch(r"([0-9]{1,9})\s*(?:-|\.\.|,|to).*", value) if isinstance(value, str) else None
+    return None if found is None else f"write the line where it begins: `{key}: {found[1]}`"
+
+
+def _index(key: str, value: Any) -> str | None:
+    many = {"index": "indices", "set": "sets"}[key]
+    return f"several are `{many}: {value}`" if isinstance(value, str) and ".." in value else None
+
+
+def _sets(key: str, value: Any) -> str | None:
+    """How many sets there are, where each needs its address."""
+    if isinstance(value, int | Seq):
+        return (
+            f"each set has its address: `{key}: {{2: {{at: …}}}}`; by a rule of the group: `at: {{number: …, sets: 4}}`"
+        )
+    return None
+
+
+def _digits(key: str, value: Any) -> str | None:
+    return f"write `{key}: {{count: {value}, enum: …}}`" if isinstance(value, int) else None
+
+
+def _special(key: str, value: Any) -> str | None:
+    return f"write `{key}: {{{value}: name_of_it}}`" if isinstance(value, int) else _names(key, value)
+
+
 def _functions(key: str, value: Any) -> str | None:
     """Numbers without names."""
     if isinstance(value, Seq) and 0 < len(value) <= 16 and all(isinstance(one, int | str) for one in value):
@@ -244,8 +293,16 @@ _MAKERS: Mapping[str, Callable[[str, Any], str | None]] = {
     "type": _type,
     **dict.fromkeys(("range", "range_in_units", "units", "pzd"), _interval),
     "bits": _bits,
+    "unit": _unit,
+    "when": _when,
+    "printed": _printed,
+    "line": _line,
+    **dict.fromkeys(("index", "set"), _index),
+    "sets": _sets,
+    "digits": _digits,
+    "special": _special,
     "scale": _scale,
-    **dict.fromkeys(("enum", "flags", "special"), _names),
+    **dict.fromkeys(("enum", "flags"), _names),
     "values": _values,
     "steps": _steps,
     "decimals": _decimals,

@@ -165,7 +165,7 @@ class ObjectCheck:
             if found is None:
                 forms = [text for text, _, _ in self.patterns]
                 named = {NUMBER_KEY, BITS_KEY} & {*forms}
-                hint = (reversed_hint(key, one) if named else None) or key_hint(key, self.properties, forms)
+                hint = (reversed_hint(key, one) if named else None) or key_hint(key, self.properties, forms, one)
                 report.error("unknown-key", f"the key {quoted(key)} is not known here", value.key_span(key), hint)
                 broken.append(key)
             elif not found(one, value, key, report):

@@ -6,6 +6,7 @@ import re
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
+from fieldscribe.language.meant import interval_meant
 from fieldscribe.language.nodes import Map
 from fieldscribe.model import TYPES, Place
 from fieldscribe.resolve.numbering import Numberings
@@ -157,6 +158,12 @@ class Places:
     def _number(self, draft: Draft, text: str) -> int | None:
         """A number, or a formula of `base`."""
         span = draft.span("at")
+        several = None if ":" in text else interval_meant(text)
+        if several is not None:
+            first = several.partition("..")[0]
+            hint = f"it stands once, at its first word: write `at: {first}`; the `type` says how many words it has"
+            self.report.error("bad-number", f"`{several}` are several addresses", span, hint)
+            return None
         if _FORMULA.search(text) is None:
             return integer(text, span, self.report)
         base = self._base(draft)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from decimal import Decimal
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
@@ -22,6 +23,8 @@ if TYPE_CHECKING:
     from fieldscribe.resolve.drafts import Draft
 
 _MOST_CODES = 4096
+_ONE_SIDED = tuple("<>\u2264\u2265")
+_DECIMAL_END = re.compile(r"(?:^|\.\.|[|,])\s*([-+]?[0-9]+\.[0-9]+)\s*(?=$|\.\.|[|,])")
 
 
 class Ranges:
@@ -56,6 +59,12 @@ class Ranges:
         What is only `printed` may leave the type and run downwards: misprints do.
         """
         text = as_text(raw)
+        decimal = _DECIMAL_END.search(text) if not in_units and not printed else None
+        if decimal is not None:
+            message = f"`{decimal[1]}` has a decimal point, and `range` is in raw numbers"
+            hint = f"write `range_in_units: {text}`, or the raw numbers without a decimal point"
+            self.report.error("bad-number", message, span, hint)
+            return None
         if isinstance(raw, Seq) and not printed and self._two_meanings(raw, span):
             return None
         try:
@@ -71,7 +80,9 @@ class Ranges:
             listed = parse_range(text).listed
         except FormulaError as error:
             meant = interval_meant(text)
-            if meant is not None:
+            if text.lstrip()[:1] in _ONE_SIDED:
+                error.hint = "an interval has both ends, low..high; those of the type where nothing else limits it"
+            elif meant is not None:
                 error.hint = (
                     f"write `{meant}`" if printed else f"write `{'range_in_units' if in_units else 'range'}: {meant}`"
                 )

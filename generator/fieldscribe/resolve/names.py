@@ -54,7 +54,9 @@ class Index:
             message = f"`{word}` is the code of {len(several)} points"
             self.scope.report.error("unknown-point", message, span, f"name one of them, such as `{several[0].name}`")
             return
-        self.scope.unknown("point", word, span, [*self.by_name, *self.by_code])
+        hexadecimal = word.isupper() and all(one in "0123456789ABCDEF" for one in word)
+        hint = f"if a hexadecimal number is meant, write 0{word}h" if hexadecimal else None
+        self.scope.unknown("point", word, span, [*self.by_name, *self.by_code], hint)
 
 
 def index_of(scope: Scope, drafts: list[Draft]) -> Index:

@@ -27,6 +27,9 @@ if TYPE_CHECKING:
     from fieldscribe.resolve.telegrams import Telegrams
 
 
+_MOST_NAMES = 12
+
+
 @dataclass(frozen=True, slots=True)
 class Resolved:
     """A point with the draft that it came from: the model knows no places in the text, the checks do."""
@@ -181,6 +184,10 @@ def _default(scope: Scope, draft: Draft, enum: Enum | None) -> Fraction | None:
     for entry in enum.entries if enum is not None else ():
         if entry.name == raw:
             return Fraction(entry.raw)
+    if isinstance(raw, str) and enum is not None and raw.isidentifier():
+        hint = f"write a number, or one of {', '.join(entry.name for entry in enum.entries[:_MOST_NAMES])}"
+        scope.report.error("bad-number", f"`{raw}` is no name of this enum", draft.span("default"), hint)
+        return None
     return None if raw is None else number(raw, draft.span("default"), scope.report)
 
 

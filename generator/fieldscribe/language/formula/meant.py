@@ -60,3 +60,29 @@ def _readable(line: str) -> str | None:
     except FormulaError:
         return None
     return exact_scale(line)
+
+
+_CONDITION = (
+    (r"^\s*(?:if|only if|when)\s+", ""),
+    (r"\|\|", " or "),
+    (r"&&?", " and "),
+    (r"\bis not\b|<>|\u2260", "!="),
+    (r"\bis\b|===|(?<![=!<>])=(?!=)", "=="),
+    (r"\bin\s*[\[{]([^\]}]*)[\]}]", r"in (\1)"),
+    (r"([A-Za-z]\w*) in ([-+0-9A-Fa-fxh]+)\s*\.\.\s*([-+0-9A-Fa-fxh]+)", r"\1 >= \2 and \1 <= \3"),
+)
+
+
+def condition_meant(text: str) -> str | None:
+    """The condition that a text means, as the language writes it; None where that is not known."""
+    from fieldscribe.language.formula.conditions import read_condition
+
+    plain = text[:_LONGEST]
+    for pattern, ours in _CONDITION:
+        plain = re.sub(pattern, ours, plain)
+    plain = re.sub(r"\s+", " ", plain).strip()
+    try:
+        read_condition(plain)
+    except FormulaError:
+        return None
+    return plain if plain != text and len(text) <= _LONGEST else None
