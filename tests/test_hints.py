@@ -175,6 +175,46 @@ def test_a_cut_decimal_is_a_warning_that_can_be_followed(tmp_path: Path, facts: 
         ("type: int48", "wrong-choice", "`type: ~` documents the point"),
         ("unit: mw", "unknown-unit", "`mW` (milliwatt) or `MW` (megawatt)"),
         ("unit: furlong", "unknown-unit", "`fieldscribe units` lists what is known"),
+        ("size: 2", "unknown-key", "the `type` says how wide a number is"),
+        ("byte_order: little", "unknown-key", "`words: low first`"),
+        ("multiplier: 0.1", "unknown-key", "`scale: value = raw * 0.1`"),
+        ("divisor: 10", "unknown-key", "`scale: value = raw / 10`"),
+        ("offset: -40", "unknown-key", "what is added to a number stands in its rule"),
+        ("precision: 1", "unknown-key", "did you mean `decimals`?"),
+        ("readonly: true", "unknown-key", "write `access: r`"),
+        ("writable: true", "unknown-key", "write `access: rw`"),
+        ("writable: false", "unknown-key", "did you mean `access`?"),
+        ("function: 3", "unknown-key", "the `space` says what is read and written"),
+        ("min: 0", "unknown-key", "`range: low..high`"),
+        ("comment: x", "unknown-key", "did you mean `note`?"),
+        ("space: HR", "unknown-space", "write `space: holding`"),
+        ("space: input_registers", "unknown-space", "write `space: input`"),
+        ("format: int16", "unknown-format", "write `type: s16`"),
+        ("unit: 10", "wrong-type", "a unit is a symbol such as `Hz`"),
+        ("default: auto, enum: {0: off, 1: on}", "bad-number", "write a number, or one of off, on"),
+        ("enum: {0: off, 1-3: on}", "bad-number", "write a row for each number"),
+        ("enum: {0: {name: off, title: Off}}", "unknown-key", "`{name: off, en: Off}`"),
+        ("flags: {bit0: ready}", "unknown-key", "write `0`"),
+        ("flags: {0-3: mode_bits}", "unknown-key", "write `3..0`"),
+        ("flags: {1: a1, 2: a2, 4: a3, 8: a4}", "looks-like-masks", "keys are bit numbers from 0"),
+        ("flags: {0: {name: fault, inverted: true}}", "unknown-key", "write `active: 0`"),
+        ("special: 65535", "wrong-type", "write `special: {65535: name_of_it}`"),
+        ("when: mode is 1", "bad-formula", "write `mode == 1`"),
+        ("when: if mode == 1", "bad-formula", "write `mode == 1`"),
+        ('when: "mode in [0, 1]"', "bad-formula", "write `mode in (0, 1)`"),
+        ('when: "mode in 0..1"', "bad-formula", "write `mode >= 0 and mode <= 1`"),
+        ("when: mode == 1 || mode == 2", "bad-formula", "write `mode == 1 or mode == 2`"),
+        ("when: {mode: 1}", "wrong-type", "write `when: mode == 1`"),
+        ("printed: 40002", "wrong-type", "`printed: {wire: 40002}`"),
+        ("printed: {modicon: 40002}", "unknown-key", "`numbering: {modicon: wire + 1}`"),
+        ("line: 780-790", "wrong-type", "write the line where it begins: `line: 780`"),
+        ("range: 0..FFFF", "unknown-point", "if a hexadecimal number is meant, write 0FFFFh"),
+        ('range: ">= 0"', "bad-formula", "an interval has both ends"),
+        ("range: 0.0..50.0", "bad-number", "write `range_in_units: 0.0..50.0`"),
+        ("keeps: eeprom", "unknown-command", "write `keeps: yes`"),
+        ("digits: 4", "wrong-type", "write `digits: {count: 4, enum: …}`"),
+        ("sets: 4", "wrong-type", "has its address"),
+        ("title: {english: X}", "unknown-key", "write `en`"),
         ("keeps: choice", "wrong-choice", "write `keeps: yes`, `keeps: no`, or the command that stores"),
         ("type", "yaml-comma", "give it a value: `type: …`"),
         ("type: BYTE", "wrong-choice", "write `type: u8` with the `bits: 7..0`"),
@@ -185,6 +225,61 @@ def test_a_cut_decimal_is_a_warning_that_can_be_followed(tmp_path: Path, facts: 
 def test_hints_name_what_is_meant(tmp_path: Path, facts: str, rule: str, hint: str) -> None:
     found = [one for one in findings(tmp_path, facts) if one.rule == rule]
     assert hint in (found[0].hint or "")
+
+
+@pytest.mark.parametrize(
+    ("name", "hint"),
+    [
+        ("größe", "write `groesse`"),
+        ("2nd_speed", "a name starts with a letter: `speed_2`, not `2nd_speed`"),
+        ("Base Frequency", "write `base_frequency`"),
+    ],
+)
+def test_names_are_made(tmp_path: Path, name: str, hint: str) -> None:
+    (tmp_path / "device.yaml").write_text(f"{HEAD}  - {{name: {name}, at: 1}}\n", "utf-8")
+    report = Report()
+    load_device(tmp_path / "device.yaml", report)
+    assert report.findings[0].hint == hint
+
+
+@pytest.mark.parametrize("at", ["1 - 2", "1..2", "[1, 2]"])
+def test_a_point_of_two_words_stands_once(tmp_path: Path, at: str) -> None:
+    (tmp_path / "device.yaml").write_text(f"{HEAD}  - {{name: made, at: {at}, type: u32}}\n", "utf-8")
+    report = Report()
+    load_device(tmp_path / "device.yaml", report)
+    assert "write `at: 1`" in (report.findings[0].hint or "")
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong", "hint"),
+    [
+        ("family: modbus", "family: Modbus RTU", "write `family: modbus`; rtu and tcp are `framings` under `bus`"),
+        ("family: modbus", "family: canopen", "the family can is for a maker's own messages"),
+        ("language: en", "language: German", "write `language: de`"),
+        ("units: 1..247", "units: 1-247", "write 1..247"),
+        ("units: 1..247", "units: [1, 247]", "write `units: 1..247`"),
+        ("units: 1..247", "units: 1..247\n  gaps: {holding: [100-200]}", "write 100..200"),
+        ("units: 1..247", "units: 1..247\n  words: little", "write `words: low first`"),
+        ("units: 1..247", "units: 1..247\n  baud: 9600", "`serial: {baud: 9600}`"),
+        ("framings: [rtu]", "framings: [RTU]", "did you mean `rtu`?"),
+        ("functions: {01h: read_coils,", "functions: {read_coils: 1,", "the number stands first: `1: read_coils`"),
+        ("- group: main", "- name: main", "did you mean `group`?"),
+        ('source: {document: manual, section: "1"}', "source: page 5", 'section: "page 5"}`'),
+        ("space: holding", "space: HR", "write `space: holding`"),
+        ("space: holding", "space: holding\n  numbering: {modicon: +1}", "write a formula: wire + 1"),
+        ("groups:", "frames: [{name: f, bytes: [1, 3, 0]}]\ngroups:", "write `bytes: 01 03 00`"),
+        ("groups:", "frames: [{name: f, bytes: 0x01 0x3}]\ngroups:", "write `bytes: 01 03`"),
+        ("groups:", "points: [{name: x, at: 1}]\ngroups:", "points stand in a group"),
+    ],
+)
+def test_hints_for_the_whole_file(tmp_path: Path, right: str, wrong: str, hint: str) -> None:
+    assert right in HEAD
+    (tmp_path / "device.yaml").write_text(HEAD.replace(right, wrong, 1), "utf-8")
+    report = Report()
+    load_device(tmp_path / "device.yaml", report)
+    hints = [one.hint or "" for one in report.findings]
+    assert any(hint in one for one in hints), hints
+    assert len(hints) == 1 or "group" in right, hints
 
 
 def test_a_number_for_people_is_no_address(tmp_path: Path) -> None:

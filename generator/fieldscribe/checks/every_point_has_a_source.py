@@ -47,9 +47,9 @@ def check(subject: Subject) -> None:
 
 
 def _broken(draft: Draft) -> tuple[str, ...]:
-    """What had the wrong shape in the source itself."""
+    """What had the wrong shape in the group, or in the source itself."""
     source = draft.get("source")
-    return source.broken if isinstance(source, Map) else ()
+    return (*draft.group.broken, *(source.broken if isinstance(source, Map) else ()))
 
 
 def _tell_of_each(subject: Subject, found: list[_Lacks]) -> None:

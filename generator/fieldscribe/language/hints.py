@@ -90,6 +90,8 @@ def _about_number(value: int | Decimal, accepted: Collection[type], example: Any
         return _whole_hint(value, example)
     if pattern is not None and not re.search(pattern, str(value)):
         return form_hint(str(value), pattern)
+    if isinstance(example, str) and "wire" in example:
+        return f"write a formula: {example}"
     if str in accepted:
         return f'quote it: "{str(value).lower() if isinstance(value, bool) else value}"'
     return None

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from fieldscribe.language.nodes import Map, Seq
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Collection, Mapping
 
 _TYPE_WORDS = {
     "bit": "bool boolean coil flag discrete bit1",
@@ -49,17 +49,22 @@ _WORDS: Mapping[str, Mapping[str, str]] = {
     "changes": dict.fromkeys(("constant", "const", "static", "once", "no", "false"), "never")
     | dict.fromkeys(("slow", "sometimes", "seldom", "settings"), "rarely")
     | dict.fromkeys(("fast", "often", "cyclic", "live", "yes", "true"), "always"),
-    "direction": dict.fromkeys(("read", "write", "tx", "task", "query", "command", "master"), "request")
-    | dict.fromkeys(("reply", "answer", "rx", "slave"), "response")
+    "direction": dict.fromkeys(("read", "write", "task", "query", "command", "master"), "request")
+    | dict.fromkeys(("reply", "answer", "slave"), "response")
     | dict.fromkeys(("broadcast", "periodic", "event"), "cyclic"),
     "certainty": dict.fromkeys(("sure", "high", "yes", "true", "100%"), "certain")
     | dict.fromkeys(("probable", "probably", "medium", "guess"), "likely")
     | dict.fromkeys(("low", "unsure", "no", "false", "open"), "unknown"),
     "language": LANGUAGES,
+    "space": dict.fromkeys(
+        ("hr", "4x", "holding_register", "holding_registers", "holding register", "register"), "holding"
+    )
+    | dict.fromkeys(("ir", "3x", "input_register", "input_registers", "input register"), "input")
+    | dict.fromkeys(("do", "0x", "coils", "output", "digital_output"), "coil")
+    | dict.fromkeys(("di", "1x", "discrete_input", "discrete_inputs", "discrete input", "digital_input"), "discrete"),
     "active": dict.fromkeys(("low", "false", "inverted", "0"), "0") | dict.fromkeys(("high", "true", "1"), "1"),
     "open": {"yes": "true", "no": "false", "1": "true", "0": "false"},
     "reserved": {"yes": "true", "no": "false", "1": "true", "0": "false"},
-    "family": {"can_bus": "can", "j1939": "can", "canopen": "can"},
     "encoding": {"utf-8": "ascii` or `encoding: latin-1", "utf8": "ascii` or `encoding: latin-1"},
 }
 """By key: other people's word, small, and ours."""
@@ -85,6 +90,12 @@ def value_hint(key: Any, value: Any) -> str | None:
     making = _MAKERS.get(key)
     made = None if making is None else making(key, value)
     return made or _word_hint(key, value)
+
+
+def space_hint(space: str, known: Collection[str]) -> str | None:
+    """The space of the family that somebody calls otherwise; None if none is known."""
+    found = _WORDS["space"].get(space.strip().lower()[:_LONGEST])
+    return f"write `space: {found}`" if found in known else None
 
 
 def reversed_hint(key: str, value: Any) -> str | None:
@@ -279,7 +290,20 @@ def _family(_: str, value: Any) -> str | None:
         name = value.lower()[: 6 if value.lower().startswith("modbus") else 3]
         more = "; rtu and tcp are `framings` under `bus`" if name == "modbus" and len(value) > len(name) else ""
         return f"write `family: {name}`{more}"
+    if isinstance(value, str) and value.lower() in ("canopen", "j1939", "nmea2000", "devicenet"):
+        return "the family can is for a maker's own messages, laid out byte by byte; this one is not known yet"
     return None
+
+
+def _bytes(key: str, value: Any) -> str | None:
+    """Bytes as a list, with markers or with commas."""
+    if isinstance(value, Seq):
+        whole = 0 < len(value) <= 32 and all(isinstance(one, int) and 0 <= one < 256 for one in value)
+        return f"write `{key}: {' '.join(f'{one:02X}' for one in value)}`" if whole else None
+    words = re.split(r"[\s,;:]+", value.strip()) if isinstance(value, str) and len(value) < 200 else []
+    plain = [re.sub(r"^(0[xX]|\$)|[hH]$", "", word) for word in words]
+    fine = plain and all(re.fullmatch(r"[0-9A-Fa-f]{1,2}", word) for word in plain)
+    return f"write `{key}: {' '.join(word.upper().zfill(2) for word in plain)}`" if fine else None
 
 
 def _values(_: str, value: Any) -> str | None:
@@ -293,6 +317,7 @@ _MAKERS: Mapping[str, Callable[[str, Any], str | None]] = {
     "type": _type,
     **dict.fromkeys(("range", "range_in_units", "units", "pzd"), _interval),
     "bits": _bits,
+    "bytes": _bytes,
     "unit": _unit,
     "when": _when,
     "printed": _printed,

@@ -46,12 +46,21 @@ _MEANT: Mapping[str, tuple[str, str]] = {
         ("no_value", "", "invalid nan missing na_value"),
         ("active", "write `active: 0`", "inverted invert negated active_low low_active"),
         ("units", "", "slave slave_id unit_id slave_address address_range node_id"),
-        ("serial", "", "baud baudrate parity stopbits stop_bits"),
+        (
+            "serial",
+            "settings of the line stand together: `serial: {baud: 9600}`",
+            "baud baudrate parity stopbits stop_bits",
+        ),
         ("vendor", "", "manufacturer maker brand"),
         ("model", "", "product device_model type_name"),
         ("device", "", "device_id"),
         ("family", "", "protocol bus_type"),
-        ("groups", "", "registers points_list sections"),
+        (
+            "groups",
+            "points stand in a group: `groups: [{group: …, space: …, source: …, points: […]}]`",
+            "points registers",
+        ),
+        ("group", "", "name section"),
         ("why", "", "reason because"),
         ("taken", "", "used corrected correct"),
     )
@@ -68,6 +77,8 @@ def meant_key(key: str, value: Any, known: Collection[str]) -> str | None:
     if hint in ("*", "/"):
         plain = isinstance(value, int | Decimal) and not isinstance(value, bool)
         hint = _SCALE.format(hint, f"{value:f}" if isinstance(value, Decimal) else value) if plain else ""
+    if ours == "access" and value is False:
+        hint = ""  # the other way round: which of the others is meant, nobody knows
     return hint or f"did you mean `{ours}`?"
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fieldscribe.language.meant import value_hint
 from fieldscribe.language.nodes import Map
 from fieldscribe.language.numbers import parse_integer
 from fieldscribe.resolve.drafts import Draft, groups, humanised
@@ -255,7 +256,8 @@ def _format(scope: Scope, point: Map) -> tuple[Map, ...]:
         return ()
     found = scope.formats.get(point["format"])
     if found is None:
-        scope.unknown("format", point["format"], point.span("format"), scope.formats)
+        hint = value_hint("type", point["format"])
+        scope.unknown("format", point["format"], point.span("format"), scope.formats, hint)
         nothing = Map(point.file, point.at)
         nothing.broken = _OF_FORMATS
         return (nothing,)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.language.hints import quoted
-from fieldscribe.language.meant import bits_meant
+from fieldscribe.language.meant import bits_meant, space_hint
 from fieldscribe.model import TYPES, TypeInfo
 from fieldscribe.resolve.values import integer
 
@@ -93,7 +93,7 @@ def space_of(scope: Scope, draft: Draft) -> str:
     known = scope.family.spaces
     if space in known:
         return space
-    scope.unknown("space", space, draft.span("space"), known)
+    scope.unknown("space", space, draft.span("space"), known, space_hint(space, known))
     draft.failed.add("space")
     return next(name for name, holds in known.items() if holds == "word")
 
