@@ -250,6 +250,14 @@ def test_a_point_of_two_words_stands_once(tmp_path: Path, at: str) -> None:
     assert "write `at: 1`" in (report.findings[0].hint or "")
 
 
+def test_an_address_may_be_computed(tmp_path: Path) -> None:
+    (tmp_path / "device.yaml").write_text(f"{HEAD}  - {{name: made, at: 1029h - 1}}\n", "utf-8")
+    report = Report()
+    device = load_device(tmp_path / "device.yaml", report)
+    assert device is not None
+    assert device.points[1].address == 0x1028
+
+
 @pytest.mark.parametrize(
     ("right", "wrong", "hint"),
     [

@@ -131,7 +131,7 @@ class _Builder:
                     self._cut(result, last, cut)
                 return result
             named, event = event, next_event()
-            if _is_alone(named, event):
+            if type(event) is yaml.ScalarEvent and not event.value and _is_alone(named, event):
                 cut.append(named)
                 continue
             if cut:
@@ -218,8 +218,8 @@ class _Builder:
 
 
 def _is_alone(key: Any, value: Any) -> bool:
-    """Whether a key in braces has neither a colon nor a value: `{when: a in (0, 1)}` holds the key `1)`."""
-    if not (type(value) is type(key) is yaml.ScalarEvent) or value.value or value.style or value.tag or value.anchor:
+    """Whether a key in braces, with an empty value, has no colon either: `{when: a in (0, 1)}` holds the key `1)`."""
+    if type(key) is not yaml.ScalarEvent or value.style or value.tag or value.anchor:
         return False
     start, end = value.start_mark, key.end_mark
     return start is not None and end is not None and bool(start.index == end.index)

@@ -7,6 +7,7 @@ from decimal import Decimal
 from typing import TYPE_CHECKING, Any
 
 from fieldscribe.language.nodes import Map, Seq
+from fieldscribe.language.numbers import NumberError, parse_number
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Mapping
@@ -132,7 +133,14 @@ def _type(_: str, value: Any) -> str | None:
 def interval_meant(text: str) -> str | None:
     """`0-100`, `0 to 100`, `[0:100]` as it is written here; None if it is nothing like that."""
     found = _INTERVAL.fullmatch(text.strip()) if len(text) <= _LONGEST else None
-    return None if found is None else f"{found[1]}..{found[2]}"
+    return f"{found[1]}..{found[2]}" if found is not None and _numbers(found[1], found[2]) else None
+
+
+def _numbers(*texts: str) -> bool:
+    try:
+        return all(parse_number(text) is not None for text in texts)
+    except NumberError:
+        return False
 
 
 def _interval(key: str, value: Any) -> str | None:
