@@ -175,6 +175,16 @@ def bits_meant(text: str) -> str | None:
     return "..".join(map(str, ends))
 
 
+def _rule(_: str, value: Any) -> str | None:
+    """The same in a case of a scale."""
+    hint = _scale("", value)
+    return None if hint is None else hint.replace("`scale: ", "`rule: ")
+
+
+def _no_value(key: str, value: Any) -> str | None:
+    return f"list the codes that mean so: `{key}: [7FFFh]`" if isinstance(value, bool) else None
+
+
 def _scale(_: str, value: Any) -> str | None:
     """A bare factor, or an offset and a factor."""
     if isinstance(value, bool) or not isinstance(value, int | Decimal | Map):
@@ -335,6 +345,8 @@ _MAKERS: Mapping[str, Callable[[str, Any], str | None]] = {
     "digits": _digits,
     "special": _special,
     "scale": _scale,
+    "rule": _rule,
+    "no_value": _no_value,
     **dict.fromkeys(("enum", "flags"), _names),
     "values": _values,
     "steps": _steps,

@@ -61,6 +61,8 @@ _MEANT: Mapping[str, tuple[str, str]] = {
             "points registers",
         ),
         ("group", "", "name section"),
+        ("rule", "", "then expression"),
+        ("when", "", "if condition case"),
         ("why", "", "reason because"),
         ("taken", "", "used corrected correct"),
     )

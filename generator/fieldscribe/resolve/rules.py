@@ -154,7 +154,7 @@ class Scales:
             message = "a floating-point number can be a factor, but no exponent and no part of a sum"
             self.scope.report.error("bad-formula", message, span, "multiply with it, or divide by it")
         except FormulaError as error:
-            _explained(error, text)
+            _explained(error, text, "rule" if isinstance(draft.get("scale"), list) else "scale")
             formula_finding(error, span, self.scope.report)
         except UnknownError:
             pass
@@ -216,11 +216,11 @@ class Scales:
         raise UnknownError
 
 
-def _explained(error: FormulaError, text: str) -> None:
+def _explained(error: FormulaError, text: str, key: str) -> None:
     """Give the error a whole line as its hint, where the text is no scale but one can be guessed from it."""
     try:
         parse_scale(text)
     except FormulaError:
         meant = scale_meant(text)
         if meant is not None:
-            error.hint = f"write `scale: {meant}`"
+            error.hint = f"write `{key}: {meant}`"
