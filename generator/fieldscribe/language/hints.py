@@ -142,7 +142,8 @@ def form_hint(value: str, pattern: str) -> str:
 
 def named_otherwise(key: str, patterns: Collection[str]) -> str | None:
     """A key of bits or of a language that is only written in another way; None if it is not."""
-    from fieldscribe.language.meant import LANGUAGES, bits_meant
+    from fieldscribe.language.meant import bits_meant
+    from fieldscribe.language.meant_words import LANGUAGES
 
     if BITS_KEY in patterns:
         return bits_meant(key)
