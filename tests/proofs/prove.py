@@ -1,6 +1,6 @@
 """Proves with Frama-C that no input makes the C parsers and builders of frames do anything undefined.
 
-    .venv/bin/python tests/proofs/prove.py [--machine x86_16 gcc_x86_32 x86_64] [--family modbus can uss]
+    .venv/bin/python tests/proofs/prove.py [--machine x86_16 gcc_x86_32 x86_64] [--family modbus can uss shipped]
 
 Each function of a family's header has a harness in <family>.c, which Frama-C's value analysis (EVA) follows for all
 arguments, bytes, lengths, requests and profiles of their types at once. No alarm means: no access outside of an array,
@@ -27,7 +27,10 @@ if TYPE_CHECKING:
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 RUNTIME = ROOT / "templates" / "c" / "runtime"
+GENERATED = ROOT / "generated" / "c"
 FAMILIES = ("modbus", "can", "uss")
+SOURCES = (*FAMILIES, "shipped")
+"""The sources of harnesses: one for all functions of each family's header, and one with the tables of shipped devices."""
 MACHINES = ("x86_16", "gcc_x86_32", "x86_64")
 OPTIONS = (
     *("-eva", "-lib-entry", "-eva-precision", "0", "-eva-auto-loop-unroll", "8", "-eva-split-limit", "4096"),
@@ -78,7 +81,7 @@ def unproven(family: str, runtime: Path = RUNTIME) -> list[str]:
 
 def prove(family: str, harness: str, machine: str, runtime: Path = RUNTIME) -> Proof:
     """Has Frama-C follow one harness."""
-    includes = f"-cpp-extra-args=-I{runtime} -I{HERE}"
+    includes = f"-cpp-extra-args=-I{runtime} -I{HERE} -I{GENERATED}"
     main = ("-main", f"prove_{harness}", "-machdep", machine)
     command = ["frama-c", *OPTIONS, *main, includes, str(HERE / f"{family}.c")]
     started = time.perf_counter()
@@ -125,12 +128,13 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Print the table; 1 on any alarm."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--machine", nargs="+", choices=MACHINES, default=list(MACHINES))
-    parser.add_argument("--family", nargs="+", choices=FAMILIES, default=list(FAMILIES))
+    parser.add_argument("--family", nargs="+", choices=SOURCES, default=list(SOURCES))
     chosen = parser.parse_args(argv)
     if shutil.which("frama-c") is None:
         print("frama-c is missing: install frama-c-base", file=sys.stderr)
         return 2
-    missing = {family: unproven(family) for family in chosen.family}
+    families = [family for family in chosen.family if family in FAMILIES]
+    missing = {family: unproven(family) for family in families}
     for family, names in missing.items():
         if names:
             print(
@@ -139,7 +143,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     pairs = [(family, name) for family in chosen.family for name in harnesses(HERE / f"{family}.c")]
     proofs = prove_all((*pair, machine) for machine in chosen.machine for pair in pairs)
     bad = [proof for proof in proofs if not proof.holds]
-    covered = sum(len(functions(RUNTIME / f"fieldscribe_{family}.h")) for family in chosen.family)
+    covered = sum(len(functions(RUNTIME / f"fieldscribe_{family}.h")) for family in families)
     told = f"{covered} functions, {len(proofs)} proofs on {', '.join(chosen.machine)}"
     print(f"{told}: {'nothing undefined for any input' if not bad else f'{len(bad)} do not hold'}")
     return 1 if bad or any(missing.values()) else 0
