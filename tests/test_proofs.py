@@ -13,7 +13,7 @@ HERE = Path(__file__).parent / "proofs"
 
 PLANTED = {
     "modbus": ("crc", "at < length; ++at", "at <= length; ++at", "crc"),
-    "can": ("xor", "at < FIELDSCRIBE_CAN_BYTES; ++at", "at <= FIELDSCRIBE_CAN_BYTES; ++at", "xor"),
+    "can": ("listen", "at < fieldscribe_can_slots(telegram)", "at <= fieldscribe_can_slots(telegram)", "listen"),
     "uss": ("assemble", "at < head_bytes; ++at", "at <= head_bytes; ++at", "assemble__words"),
 }
 """By family: a function, an end of a loop in it, the same one step too late, and the harness that sees it."""

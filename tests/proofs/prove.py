@@ -30,7 +30,7 @@ RUNTIME = ROOT / "templates" / "c" / "runtime"
 GENERATED = ROOT / "generated" / "c"
 FAMILIES = ("modbus", "can", "uss")
 SOURCES = (*FAMILIES, "shipped")
-"""The sources of harnesses: one for all functions of each family's header, and one with the tables of shipped devices."""
+"""The sources of harnesses: one for the functions of each family's header, one with the tables of shipped devices."""
 MACHINES = ("x86_16", "gcc_x86_32", "x86_64")
 OPTIONS = (
     *("-eva", "-lib-entry", "-eva-precision", "0", "-eva-auto-loop-unroll", "8", "-eva-split-limit", "4096"),

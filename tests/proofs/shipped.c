@@ -3,6 +3,11 @@
  * that vendors these headers calls them.
  */
 #include "arbitrary.h"
+/* the sources, not the copies beside the devices */
+#include "fieldscribe_can.h"
+#include "fieldscribe_modbus.h"
+#include "fieldscribe_uss.h"
+
 #include "jumo_controller_modbus.h"
 #include "siemens_mm4_uss.h"
 #include "woodward_mpu2s_can.h"
