@@ -155,11 +155,16 @@ def _forget_stdout() -> None:
         return
 
 
-def _failed(error: Exception) -> int:
+def show_traceback(error: BaseException) -> None:
+    """Where an internal error came from, for those who ask."""
     if os.environ.get("FIELDSCRIBE_DEBUG"):
         import traceback
 
-        traceback.print_exc()
+        traceback.print_exception(error)
+
+
+def _failed(error: Exception) -> int:
+    show_traceback(error)
     said = ascii(str(error)[:200])[1:-1]
     print(
         f"fieldscribe: internal error: {type(error).__name__}: {said}; this is a bug: please report it to the project "
