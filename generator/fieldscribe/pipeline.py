@@ -47,7 +47,7 @@ def find_devices(paths: Iterable[Path], report: Report) -> list[Path]:
 
 
 def device_files_below(folder: Path) -> list[Path]:
-    """What is called device.yaml in the folders of a folder, be it readable or not; what is not gets its finding later."""
+    """What is called device.yaml in the folders of a folder; what cannot be read gets its finding later."""
     try:
         names = sorted(os.listdir(folder))
     except OSError:

@@ -6,7 +6,7 @@ import gc
 import os
 import sys
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NoReturn
 
 from fieldscribe import __version__
 
@@ -129,7 +129,15 @@ def _command(name: str) -> Command:
 def _parser(prog: str, description: str, epilog: str) -> ArgumentParser:
     from argparse import ArgumentParser, RawDescriptionHelpFormatter
 
-    return ArgumentParser(
+    class Parser(ArgumentParser):
+        """Quotes arguments, which may be the names of a stranger's files, as findings do."""
+
+        def error(self, message: str) -> NoReturn:
+            from fieldscribe.report import visible
+
+            super().error(visible(message))
+
+    return Parser(
         prog=prog,
         description=description[0].upper() + description[1:].rstrip(".") + ".",
         epilog=epilog,

@@ -44,7 +44,7 @@ class SourceFile:
 def shown(path: Path) -> str:
     """The path as people typed or would type it: relative to the working folder when it lies below."""
     try:
-        return Path(os.path.realpath(path)).relative_to(Path.cwd()).as_posix()  # resolve() fails on a circle of links
+        return Path(os.path.abspath(path)).relative_to(Path.cwd()).as_posix()
     except ValueError:
         return path.as_posix()
 
