@@ -214,6 +214,21 @@ def test_a_killed_run_leaves_nothing_that_the_next_one_takes_for_foreign(
     assert "pending" not in json.loads((tmp_path / "manifest/drive.json").read_text())
 
 
+def test_a_run_of_one_target_on_format_1_keeps_the_others_ours(tmp_path: Path) -> None:
+    for path, data in (("docs/drive.csv", b"old\n"), ("c/drive.h", HEAD)):
+        (tmp_path / path).parent.mkdir()
+        (tmp_path / path).write_bytes(data)
+    manifest(tmp_path, "drive", {"c": ["c/drive.h"], "docs": ["docs/drive.csv"]}, 1)
+    generate(tmp_path, "drive", {"c": {"c/drive.h": HEAD + b"new\n"}})
+    assert json.loads((tmp_path / "manifest/drive.json").read_text())["targets"]["docs"] == {"docs/drive.csv": None}
+    assert list(generate(tmp_path, "drive", FILES).write) == [
+        "c/drive.h",
+        "c/runtime.h",
+        "docs/drive.csv",
+        "manifest/drive.json",
+    ]
+
+
 def test_what_changes_while_it_is_compared_is_not_called_current(tmp_path: Path) -> None:
     generate(tmp_path, "drive", FILES)
     plan = planned(tmp_path, "drive", FILES)

@@ -29,7 +29,7 @@ _HEADS = (
 _PLAIN_PATH = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_.-]*(?:/[A-Za-z0-9_][A-Za-z0-9_.-]*)+")
 
 Digests = tuple[str, ...]
-"""The checksums that a file may have and be ours; none where format 1 named it without one."""
+"""The checksums that a file may have and be ours; an empty one where format 1 named it without."""
 
 Targets = dict[str, dict[str, Digests]]
 """Paths of each target, relative to the output folder."""
@@ -68,7 +68,7 @@ class Manifests:
             return True
         known = self._users.get(path, {}).values()
         same = {sha256(data).hexdigest(), sha256(data.replace(b"\r\n", b"\n")).hexdigest()}  # git for Windows
-        unknown = not all(known) and _looks_ours(path, device, data)
+        unknown = any("" in digests for digests in known) and _looks_ours(path, device, data)
         return unknown or any(not same.isdisjoint(digests) for digests in known)
 
 
@@ -86,7 +86,7 @@ def manifest_path(device: str) -> str:
 def manifest_text(device: str, targets: Targets) -> str:
     """The manifest. Of several checksums of a file the first is what it has, the last what it is about to have."""
     named = {
-        name: {path: digests[0] if digests else None for path, digests in sorted(files.items())}
+        name: {path: digests[0] or None for path, digests in sorted(files.items())}
         for name, files in sorted(targets.items())
     }
     pending = {
@@ -116,9 +116,11 @@ def read_manifest(place: Path) -> Targets:
 def _files(files: Any, pending: Any) -> list[tuple[str, Digests]]:
     """Paths with checksums; format 1 has a list of paths alone."""
     if isinstance(files, list):
-        return [(str(path), ()) for path in files]
-    digests = {path: tuple(one for one in (digest, pending.get(path)) if one) for path, digest in files.items()}
-    return [(path, tuple(map(str, known))) for path, known in digests.items()]
+        return [(str(path), ("",)) for path in files]
+    return [
+        (path, (str(digest or ""), str(pending[path])) if path in pending else (str(digest or ""),))
+        for path, digest in files.items()
+    ]
 
 
 def _is_below(path: str, target: str) -> bool:

@@ -48,7 +48,7 @@ class Plan:
     @property
     def digests(self) -> dict[str, str]:
         """The checksums of the files, and of the manifest."""
-        found = {path: digests[0] for files in self.targets.values() for path, digests in files.items() if digests}
+        found = {path: digests[0] for files in self.targets.values() for path, digests in files.items()}
         text = manifest_text(self.device, self.targets)
         return {**found, manifest_path(self.device): sha256(text.encode()).hexdigest()}
 
