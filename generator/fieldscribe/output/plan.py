@@ -21,7 +21,7 @@ Made = dict[str, dict[str, bytes]]
 """The files of each target: path relative to the output folder, and contents."""
 
 _MOST_BYTES = 512 << 20
-_NOT_OURS = "it is not ours: it has neither our head nor the checksum that the manifest records"
+_NOT_OURS = "it was edited, or is somebody else's: it has neither our head nor the recorded checksum"
 
 
 class UnsafePathError(Exception):
