@@ -20,8 +20,8 @@ EXAMPLE = """examples:
   fieldscribe generate hitachi_l200 --target c --out firmware/drivers
   fieldscribe generate --check          (says what is stale and writes nothing; for CI)
 
-A device with an error, or with somebody else's file in its way, writes nothing; the others are written.
-Ends with 1 when there is such a device, or, with --check, when anything is stale."""
+a device with an error, or with somebody else's file in its way, writes nothing; the others are written
+ends with 1 when there is such a device, and with --check when anything is stale"""
 
 
 def add_arguments(parser: ArgumentParser) -> None:
