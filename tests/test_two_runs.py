@@ -91,6 +91,22 @@ def test_many_runs_one_after_the_other(tmp_path: Path) -> None:
     assert list((tmp_path / "out").glob("*")) == []  # at most the empty folder
 
 
+def test_the_lock_of_another_user_that_was_killed_can_be_taken(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its file cannot be written to, but it can be locked."""
+    (tmp_path / NAME).touch()
+    opened = os.open
+
+    def denied(path: Any, flags: int, mode: int = 0o777) -> int:
+        if Path(path).name == NAME and flags & os.O_RDWR and not flags & os.O_CREAT:
+            raise PermissionError(13, "Permission denied", str(path))
+        return opened(path, flags, mode)
+
+    monkeypatch.setattr(os, "open", denied)
+    with only_run(tmp_path, nobody, 1.0):
+        pass
+    assert list(tmp_path.iterdir()) == []
+
+
 @pytest.mark.parametrize(
     "put",
     [

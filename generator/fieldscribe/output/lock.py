@@ -101,7 +101,9 @@ def _existing(place: Path) -> int | None:
         kind = kind_of(status) or ("it is not empty, so it is no lock" if status.st_size else None)
         if kind is not None:
             raise UnfitFileError(errno.EEXIST, f"{kind}: move it away", str(place))
-        return os.open(place, _FLAGS)
+        with suppress(PermissionError):
+            return os.open(place, _FLAGS)
+        return os.open(place, _FLAGS & ~os.O_RDWR)  # another user's, which may be locked all the same
     except (FileNotFoundError, PermissionError) as error:
         if isinstance(error, PermissionError) and os.name != "nt":
             raise
