@@ -29,11 +29,11 @@ void prove_jumo_controller(size_t length, size_t room)
 {
     size_t used;
     if (length <= FRAMES) {
-        //@ split length;
         request.values = items;
         if (request.count <= LARGE / 2U) {
             (void)fieldscribe_modbus_build(
                 &jumo_controller_modbus_profile, FIELDSCRIBE_MODBUS_RTU, &request, bytes, FRAMES, &used);
+            //@ split length;
             (void)fieldscribe_modbus_parse(
                 FIELDSCRIBE_MODBUS_RTU, &request, EXACTLY(length, bytes), length, items, room, &reply);
         }
@@ -44,9 +44,9 @@ void prove_siemens_mm4(size_t length, size_t room)
 {
     size_t used;
     if (length <= FRAMES) {
-        //@ split length;
         link.single_first = number % 2U != 0U;
         (void)fieldscribe_uss_build(&siemens_mm4_uss_profile, &link, &task, items, link.pzd, bytes, FRAMES, &used);
+        //@ split length;
         (void)fieldscribe_uss_parse(
             &siemens_mm4_uss_profile, &link, &task, EXACTLY(length, bytes), length, items, room, &answer);
     }
