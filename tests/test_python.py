@@ -528,8 +528,8 @@ def test_writes_go_only_to_spaces_that_can_be_written(drive: Any, slave: Slave) 
 def test_unknown_variants_are_refused(package: Any) -> None:
     with pytest.raises(ValueError, match="voltage_class is one of 200V, 400V, not '100V'"):
         package.SampleDrive(Slave(), unit=1, voltage_class="100V")
+    bare = type("Bare", (sys.modules["fieldscribe_runtime"].Device,), {"PROFILE": package.SampleDrive.PROFILE})
     with pytest.raises(ValueError, match="no variants by 'colour'"):
-        bare = type("Bare", (sys.modules["fieldscribe_runtime"].Device,), {"PROFILE": package.SampleDrive.PROFILE})
         bare(Slave(), 1, {"colour": "red"})
 
 
