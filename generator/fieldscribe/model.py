@@ -64,13 +64,17 @@ class Place:
 
 @dataclass(frozen=True, slots=True)
 class Factor:
-    """A run-time factor of a rule: (raw * slope + intercept) of a point to the power of 1 or -1; or ten to that."""
+    """A run-time factor of a rule: (raw * slope + intercept) of a point to the power of 1 or -1; or ten to that.
+
+    `exponents` are the raw numbers for which ten to it is defined; None before the points are complete.
+    """
 
     point: str
     slope: int
     intercept: int
     power: int
     ten_to: bool
+    exponents: tuple[int, int] | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -280,6 +284,13 @@ class Point:
     def greatest(self) -> int:
         """The largest raw number that the bits can hold."""
         return (1 << (self.width - self.info.signed)) - 1
+
+    @property
+    def outer(self) -> tuple[int, int]:
+        """The least and greatest raw number that may ever be written; what the bits hold where nothing is said."""
+        lows = [one.low if isinstance(one.low, int) else one.low.least for one in self.allowed.intervals]
+        highs = [one.high if isinstance(one.high, int) else one.high.greatest for one in self.allowed.intervals]
+        return max(min(lows, default=self.least), self.least), min(max(highs, default=self.greatest), self.greatest)
 
     @property
     def addresses(self) -> tuple[int, ...]:

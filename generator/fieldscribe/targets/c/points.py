@@ -13,7 +13,6 @@ from fieldscribe.targets.c.literals import (
     VALUE_BOUNDS,
     bare,
     float_order,
-    outer_limits,
     raw_bounds,
     raw_type,
     signed,
@@ -45,7 +44,7 @@ _COMMENT_WIDTH = 114
 def point_view(point: Point, scope: Scope) -> PointView:
     """The view of a generated point."""
     macro = f"{scope.upper}_{upper(point.item)}"
-    low, high = (0, 0) if point.info.floating else outer_limits(point)
+    low, high = (0, 0) if point.info.floating else point.outer
     scale, limits = point.scale_arguments, point.limit_arguments
     shape, codec = _codec(point, macro, scope, (low, high), scale)
     checked = point.writable and shape in ("plain", "scaled", "ruled")

@@ -37,16 +37,6 @@ class CountPath:
     high: str
 
 
-def bounds(point: Point) -> tuple[int, int]:
-    """The least and greatest raw number that may ever be written; the bits' own where the manual says none."""
-    intervals = point.allowed.intervals
-    if not intervals:
-        return point.least, point.greatest
-    low = min(one.low if isinstance(one.low, int) else one.low.least for one in intervals)
-    high = max(one.high if isinstance(one.high, int) else one.high.greatest for one in intervals)
-    return max(low, point.least), min(high, point.greatest)
-
-
 @lru_cache(maxsize=4096)
 def encode_float(rule: Linear) -> str:
     """A value as a raw number before rounding, each step rounded to binary64."""
@@ -204,7 +194,7 @@ def _factor(factor: Factor, points: Mapping[str, Point], *, limit: bool) -> Fact
     if factor.ten_to:
         method = "times_ten_to" if factor.power > 0 else "over_ten_to"
         if source is not None:
-            low, high = bounds(source)
+            low, high = factor.exponents or source.outer
             exponent_bounds = f"{integer(low)}, {integer(high)}"
     elif factor.power > 0:
         method = "limited_by" if limit else "times"
