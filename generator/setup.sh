@@ -19,6 +19,8 @@ if [ "$purpose" = tests ]; then
     need g++ g++
     need clang "clang libclang-rt-14-dev"
     need arm-none-eabi-gcc gcc-arm-none-eabi
+    need avr-gcc "gcc-avr avr-libc"
+    echo "#include <stdio.h>" | gcc -m32 -fsyntax-only -x c - 2>/dev/null || missing_packages="$missing_packages gcc-multilib"
     [ -e /usr/lib/arm-none-eabi/include/stdint.h ] || [ -e /usr/include/newlib/stdint.h ] || missing_packages="$missing_packages libnewlib-arm-none-eabi"
     need cargo "cargo-web rustc-web"
     need rustfmt rustfmt-web

@@ -55,6 +55,7 @@ _HELPERS = (
 _MACROS = (
     "OK",
     "OUT_OF_RANGE",
+    "MAY_FUSE",
     "NOT_A_NUMBER",
     "UNKNOWN_VALUE",
     "ZERO_FACTOR",

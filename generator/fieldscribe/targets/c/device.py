@@ -135,4 +135,6 @@ def _needs(scope: Scope) -> Needs:
         shifts=rules and scope.shifts,
         lifts=rules and scope.lifts,
         floats=bool(used & _FLOATS),
+        computes=bool(used & (_FLOATS | {"real", "double"})),
+        double=rules or "double" in used,
     )

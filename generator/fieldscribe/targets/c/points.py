@@ -156,7 +156,7 @@ def _codec(
 
 def _float_view(point: Point, scope: Scope) -> FloatView:
     bits = point.info.bits
-    scope.used.add(f"f{bits}")
+    scope.used.update((f"f{bits}", "double") if bits == 64 else (f"f{bits}",))
     if point.writable:
         scope.used.add(f"f{bits}_order")
     infinity = 0x7F80_0000 if bits == 32 else 0x7FF0 << 48

@@ -53,6 +53,8 @@ def _scaled_view(point: Point, rule: Linear, scope: Scope, low: int, high: int) 
     tests += [f"count > {bare(plan.counts[1])}"] if plan.counts[1] < limits[1] else []
     narrow = _is_float(plan, rule, low, high)
     wide = not narrow
+    if wide:
+        scope.used.add("double")
     if point.writable:
         scope.used.add("round_wide" if wide else "round")
     return ScaledView(

@@ -223,7 +223,10 @@ class GroupView:
 
 @dataclass(frozen=True, slots=True)
 class Needs:
-    """Which shared helpers the header holds."""
+    """Which shared helpers the header holds.
+
+    `computes` says that some function takes or gives a floating-point number, `double` that it is never a float.
+    """
 
     signed: bool
     signed32: bool
@@ -243,6 +246,8 @@ class Needs:
     shifts: bool
     lifts: bool
     floats: bool
+    computes: bool
+    double: bool
 
 
 @dataclass(frozen=True, slots=True)
