@@ -212,7 +212,8 @@ class Point:
 
     `name` is unique but for variants: points of one name differ in `variant` ("axis=value"). `places` is empty when the
     manual prints no address. `scale` is None where the raw number is the value. `decimals` k fixes the unit of the
-    integer path, 10^-k units. `specials` are never computed with. `steps` gives (from raw, step in raw). `generated` is
+    integer path, 10^-k units; it is None where no 64-bit integer holds the counts, and there are none then.
+    `encodes_values` is False where raw numbers exceed 53 bits: values are decoded only. `specials` are never computed with. `steps` gives (from raw, step in raw). `generated` is
     False for what is only documented; `reason` then says why.
     """
 
@@ -230,7 +231,7 @@ class Point:
     note: Titles
     unit: Unit
     scale: tuple[ScaleCase, ...] | None
-    decimals: int
+    decimals: int | None
     allowed: Allowed
     default: Fraction | None
     steps: tuple[tuple[int, int], ...]
@@ -257,6 +258,7 @@ class Point:
     digits: Digits | None = None
     fixed: Fixed | None = None
     changes_with: tuple[str, ...] = ()
+    encodes_values: bool = True
 
     @property
     def info(self) -> TypeInfo:

@@ -150,7 +150,7 @@ def _common_facts(point: Point) -> tuple[object, ...]:
         point.access,
         point.unit.symbol,
         point.scale,
-        point.decimals,
+        (point.decimals, point.encodes_values),
         point.allowed,
         point.default,
         point.steps,

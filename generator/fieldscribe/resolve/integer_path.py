@@ -1,8 +1,8 @@
-"""The unit of the integer path: the decimals that a count needs to lose no raw number, and whether 64 bits hold it."""
+"""The ways to compute a scaled point: by counts of 10^-k units in 64 bits, and by values in binary64, as far as they go."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
     from fieldscribe.model import Linear, ScaleCase
@@ -11,45 +11,91 @@ if TYPE_CHECKING:
 
 MOST_DECIMALS = 12
 _INT64 = 1 << 62
+_WORD = 1 << 63
 _EXACT = 1 << 53
+_ROUNDED = 1 << 50
+"""Up to here four roundings in binary64 stay below half a raw step."""
 _MANTISSA = 24
 """Of an f32 that is a factor the mantissa takes part; its exponent only shifts the result."""
 
 _NARROW = "narrow the range of the point or of the points in its scale"
 
 
-def decimals_of(draft: Draft, cases: tuple[ScaleCase, ...] | None, bounds: Bounds) -> int:
-    """The k of the point's counts (10^-k units): the author's, or the least at which a raw step is a count at least."""
+class Paths(NamedTuple):
+    """The k of the point's counts (None where no 64-bit integer holds them), and whether values can be encoded."""
+
+    decimals: int | None
+    encodes_values: bool = True
+
+
+class _Needs(NamedTuple):
+    """The largest integers that a rule meets: with its offset, in the numerator of a value, and among its constants."""
+
+    raw: int
+    numerator: int
+    constant: int
+    fixed: bool
+
+    @property
+    def encodes(self) -> bool:
+        """Whether every raw number survives the way to its value and back, step by step in binary64."""
+        if self.numerator <= _EXACT:
+            return True
+        return self.fixed and self.raw <= _ROUNDED and self.constant <= _EXACT
+
+
+def paths_of(draft: Draft, cases: tuple[ScaleCase, ...] | None, bounds: Bounds) -> Paths:
+    """How the point can be computed; the k is the author's, or the least at which a raw step is a count at least."""
     said: int | None = draft.get("decimals")
     report = bounds.scales.scope.report
     if cases is None:
         if said and "scale" not in draft.failed and draft.get("scale") is None and not draft.floating:
             message = "`decimals` belongs to a scale, and the raw number is the value here"
             report.error("integer-path", message, draft.span("decimals"), "leave it out, or give the `scale`")
-        return 0
+        return Paths(0)
     span = draft.span("decimals" if said is not None else "scale")
     if said is None and any(bounds.scales.floats(case.rule) for case in cases):
         message = "nothing says how fine the counts are: a floating-point factor has no finest step"
         report.error("integer-path", message, span, "add `decimals: …`, the decimals that the device resolves")
-        return 0
+        return Paths(0)
+    needs = [_needs(case.rule, _largest(draft, bounds), bounds) for case in cases]
+    encodes = all(one.encodes for one in needs)
+    if any(one.constant >= _WORD or not (one.fixed or one.encodes) for one in needs):
+        message = "some values of this point cannot be exact in a double"
+        long = f"{_NARROW}, or write the scale with fewer digits"
+        report.error("float-path", message, draft.span("scale"), long)
+    return Paths(_decimals(draft, cases, bounds, needs), encodes)
+
+
+def _largest(draft: Draft, bounds: Bounds) -> int:
+    """The largest raw number that has to survive: any, or where the type is too wide for that, any in range."""
+    raw = max(map(abs, bounds.holds[draft]))
+    return raw if raw < 1 << 33 else max(map(abs, bounds.own_hull(draft)))
+
+
+def _decimals(draft: Draft, cases: tuple[ScaleCase, ...], bounds: Bounds, needs: list[_Needs]) -> int | None:
+    """The decimals of the counts; None, which is no finding, where they are beyond 64 bits."""
+    said: int | None = draft.get("decimals")
     needed = max(_needed(case.rule, bounds) for case in cases)
-    if needed > MOST_DECIMALS:
-        message = f"one raw step can be finer than 10^-{MOST_DECIMALS} units"
-        report.error("integer-path", message, span, "give the points in the scale a narrower `range`")
-        return MOST_DECIMALS
-    if said is not None and said < needed:
+    fits = needed <= MOST_DECIMALS and _fit(needs, needed)
+    if said is None:
+        return needed if fits else None
+    if said < needed:
         message = f"with {said} decimals two raw numbers would have one count"
-        report.error("integer-path", message, span, f"at least {needed} decimals are needed")
+        alone = "leave `decimals` out: no 64-bit integer holds counts that tell them apart, so the point has none"
+        hint = f"at least {needed} decimals are needed" if fits else alone
+        bounds.scales.scope.report.error("integer-path", message, draft.span("decimals"), hint)
         return needed
-    chosen = needed if said is None else said
-    raw = max(map(abs, bounds.holds[draft]))  # every raw number survives where the type is not too wide for that
-    if raw >= 1 << 33:
-        raw = max(map(abs, bounds.own_hull(draft)))
-    for case in cases:
-        fault = _fault(case.rule, chosen, raw, bounds)
-        if fault is not None:
-            report.error(fault[0], fault[1], span, fault[2])
-    return chosen
+    if fits and not _fit(needs, said):
+        message = f"counts of 10^-{said} units do not fit into 64 bits"
+        hint = f"give fewer `decimals`: {needed} do"
+        bounds.scales.scope.report.error("integer-path", message, draft.span("decimals"), hint)
+    return said if fits else None
+
+
+def _fit(needs: list[_Needs], decimals: int) -> bool:
+    """Whether counts of so many decimals, and all that is computed with them, stay within 62 bits."""
+    return all(2 * max(one.numerator, one.constant) * 10**decimals <= _INT64 for one in needs)
 
 
 def _needed(rule: Linear, bounds: Bounds) -> int:
@@ -67,8 +113,8 @@ def _needed(rule: Linear, bounds: Bounds) -> int:
     return needed
 
 
-def _fault(rule: Linear, decimals: int, raw: int, bounds: Bounds) -> tuple[str, str, str] | None:
-    """Rule, message and hint unless all intermediates of both paths are wide enough: 62 bits integer, 53 as double."""
+def _needs(rule: Linear, raw: int, bounds: Bounds) -> _Needs:
+    """What both paths of a rule meet, whatever the points in it hold."""
     up, down = abs(rule.ratio.numerator), rule.ratio.denominator
     floats = bounds.scales.floats(rule)
     for factor in rule.factors:
@@ -82,11 +128,7 @@ def _fault(rule: Linear, decimals: int, raw: int, bounds: Bounds) -> tuple[str, 
             up *= most
         else:
             down *= most
-    part = rule.offset.denominator
-    numerator = (raw * part + abs(rule.offset.numerator)) * down
-    if numerator > _EXACT or up * part > _EXACT:
-        return "float-path", "some values of this point cannot be exact in a double", _NARROW
-    if 2 * max(numerator, up * part) * 10**decimals > _INT64:
-        message = f"counts of 10^-{decimals} units do not fit into 64 bits"
-        return "integer-path", message, f"{_NARROW}, or give fewer `decimals`"
-    return None
+    part, lift = rule.offset.denominator, abs(rule.offset.numerator)
+    numerator = (raw * part + lift) * down
+    constant = max(up * part, down * part, lift * down)
+    return _Needs(raw + lift // part, max(numerator, up * part), constant, not rule.factors)

@@ -35,6 +35,7 @@ _HELPERS = (
     "round",
     "round_wide",
     "copy",
+    "quotient",
     "f32_of_bits",
     "bits_of_f32",
     "f64_of_bits",

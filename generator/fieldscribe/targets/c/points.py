@@ -31,7 +31,7 @@ from fieldscribe.targets.c.views import (
     PointView,
 )
 from fieldscribe.text import c_comment, c_string
-from fieldscribe.wording import access_text, range_text, raw_range_text, resolution_text, with_unit
+from fieldscribe.wording import access_text, range_text, raw_range_text, resolution_text, width_texts, with_unit
 from fieldscribe.wording.exact import number_text
 
 if TYPE_CHECKING:
@@ -64,6 +64,8 @@ def point_view(point: Point, scope: Scope) -> PointView:
         raw_type=kind,
         from_whole="whole != 0" if kind == "bool" else f"({kind})whole",
         from_value="value != 0" if kind == "bool" else "value" if kind == "uint64_t" else f"({kind})value",
+        counts=point.decimals is not None,
+        encodes=point.encodes_values,
         readable=point.readable,
         writable=point.writable,
         check=check,
@@ -97,6 +99,7 @@ def comment_lines(point: Point, scope: Scope) -> tuple[str, ...]:
     if point.default is not None:
         facts.append(f"default {with_unit(number_text(point.default), point)}")
     lines = [*_wrapped(head), *_wrapped("; ".join(fact for fact in facts if fact) + ".")]
+    lines += [f"{text[0].upper()}{text[1:]}." for text in width_texts(point)]
     for flag in point.flags:
         if flag.width == 1 and flag.active == 0:
             lines += _wrapped(f"Bit {flag.low} ({flag.name}) is true when it is 0.")

@@ -22,7 +22,7 @@ def ruled_view(point: Point, scope: Scope) -> RuledView:
     return RuledView(
         cases=cases,
         total=any(not case.test for case in cases),
-        tens=signed(10**point.decimals),
+        tens=signed(10 ** (point.decimals or 0)),
         pass_scale=scope.place(point.scale_arguments),
     )
 

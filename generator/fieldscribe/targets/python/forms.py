@@ -54,7 +54,8 @@ def _floating(point: Point, wire: str, scope: Scope) -> Node:
 
 def _scaled(point: Point, wire: str, scope: Scope) -> Node:
     scope.used.update(("Rule", "Scaled"))
-    return call("Scaled", (wire, _scale(point.scale or (), scope), f"decimals={point.decimals}"))
+    only_decodes = () if point.encodes_values else ("encodes=False",)
+    return call("Scaled", (wire, _scale(point.scale or (), scope), f"decimals={point.decimals}", *only_decodes))
 
 
 def _flags(point: Point, wire: str, scope: Scope) -> Node:
