@@ -3,7 +3,7 @@
 use fieldscribe_runtime::client::{Client, Transport};
 use fieldscribe_runtime::modbus::{crc, BuildError, Framing, Function, Profile, Request};
 use fieldscribe_runtime::{Error, Text};
-use rare::{points, Point, Whole, Writable};
+use rare::{points, Encodable, Point, Whole};
 
 static PROFILE: Profile = Profile::new(&[Function::new(3, 125), Function::new(16, 123)], &[Framing::Rtu], (1, 9), None, false);
 

@@ -1,4 +1,4 @@
-"""The ways to compute a scaled point: by counts of 10^-k units in 64 bits, and by values in binary64, as far as they go."""
+"""The ways to compute a scaled point, as far as they go: counts of 10^-k units in 64 bits, and values in binary64."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ MOST_DECIMALS = 12
 _INT64 = 1 << 62
 _WORD = 1 << 63
 _EXACT = 1 << 53
-_ROUNDED = 1 << 50
-"""Up to here four roundings in binary64 stay below half a raw step."""
+_ROUNDED = 1 << 49
+"""Up to here six roundings in binary64, those of the constants too, stay below half a raw step."""
 _MANTISSA = 24
 """Of an f32 that is a factor the mantissa takes part; its exponent only shifts the result."""
 
@@ -41,7 +41,7 @@ class _Needs(NamedTuple):
         """Whether every raw number survives the way to its value and back, step by step in binary64."""
         if self.numerator <= _EXACT:
             return True
-        return self.fixed and self.raw <= _ROUNDED and self.constant <= _EXACT
+        return self.fixed and self.raw <= _ROUNDED
 
 
 def paths_of(draft: Draft, cases: tuple[ScaleCase, ...] | None, bounds: Bounds) -> Paths:

@@ -193,14 +193,19 @@ def _scaled(rule: Linear, scope: Scope, wide: bool) -> str:
     """The value in raw steps, before rounding: times, divided by, plus, each rounded by itself."""
     text = "value"
     if rule.ratio.numerator != 1:
-        text = f"{scope.helper('times_wide' if wide else 'times')}(value, {signed(rule.ratio.numerator)})"
+        text = f"{scope.helper('times_wide' if wide else 'times')}(value, {_constant(rule.ratio.numerator)})"
     if rule.ratio.denominator != 1:
-        text = f"{text} / {rule.ratio.denominator}"
+        text = f"{text} / {_constant(rule.ratio.denominator)}"
     if rule.offset:
         offset = abs(rule.offset)
         number = real(offset) if offset.denominator != 1 else str(offset.numerator)
         text += f" {'-' if rule.offset < 0 else '+'} ({'double' if wide else scope.prefix + '_real'}){number}"
     return text
+
+
+def _constant(number: int) -> str:
+    """An integer as the double that is nearest to it, where none is equal."""
+    return signed(number) if abs(number) <= _EXACT else f"{number}.0"
 
 
 def _value_of_raw(plan: Plan, point: Point, scope: Scope, real_type: str) -> str:

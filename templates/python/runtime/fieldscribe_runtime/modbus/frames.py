@@ -28,8 +28,8 @@ RTU, TCP = "rtu", "tcp"
 class Profile:
     """What a device takes: functions with the most items of one request, unit numbers, and its peculiarities.
 
-    `broadcast` is the unit number that means all units, `broadcasts` the functions that may be sent to it. `framings` is
-    what the device speaks: where a gateway translates between both, a subclass of the device may have a PROFILE with both.
+    `broadcast` is the unit number that means all units, `broadcasts` the functions that may be sent to it. `framings`
+    is what the device speaks: where a gateway translates, a subclass of the device may have a PROFILE with both.
     """
 
     functions: Mapping[int, int]
