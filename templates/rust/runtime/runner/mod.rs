@@ -9,8 +9,8 @@ use std::collections::BTreeMap;
 use std::process::ExitCode;
 
 use fieldscribe_runtime::{
-    BitGroup, CountReadable, CountWritable, Decoded, Encodable, Error, Point, Raw, Readable, Text, Whole,
-    Writable,
+    BitGroup, CountReadable, CountWritable, Decoded, Encodable, Error, Point, Raw, Readable, Text,
+    Whole, Writable,
 };
 use serde_json::Value;
 
