@@ -26,7 +26,7 @@ PATHS = {
     "energy_balance": (None, False),
     "long_distance": (None, False),
     "thirds": (None, False),
-    "cut_off_voltage": (None, True),
+    "uneven_voltage": (None, True),
     "fine_steps": (None, True),
     "odd_ratio": (None, True),
     "limited_total": (3, True),
@@ -136,12 +136,12 @@ def test_python_says_what_there_is_not(package: Any) -> None:
         (total.encode, 1.0, "values are only decoded: use raw numbers"),
         (total.encode_count, 1, "no 64-bit integer holds the counts"),
         (total.decode_count, 1, "no 64-bit integer holds the counts"),
-        (package.KitchenSink.cut_off_voltage.encode_count, 1, "no 64-bit integer holds the counts"),
+        (package.KitchenSink.uneven_voltage.encode_count, 1, "no 64-bit integer holds the counts"),
     ):
         failure = error(call, number)
         assert (failure.status, isinstance(failure, TypeError)) == ("wrong_type", True)
         assert words in str(failure)
-    assert package.KitchenSink.cut_off_voltage.encode(1.0) == 65536
+    assert package.KitchenSink.uneven_voltage.encode(1.0) == 31831
 
 
 def test_documentation_says_what_there_is_not() -> None:

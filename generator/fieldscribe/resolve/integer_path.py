@@ -18,8 +18,6 @@ _ROUNDED = 1 << 49
 _MANTISSA = 24
 """Of an f32 that is a factor the mantissa takes part; its exponent only shifts the result."""
 
-_NARROW = "narrow the range of the point or of the points in its scale"
-
 
 class Paths(NamedTuple):
     """The k of the point's counts (None where no 64-bit integer holds them), and whether values can be encoded."""
@@ -49,7 +47,7 @@ def paths_of(draft: Draft, cases: tuple[ScaleCase, ...] | None, bounds: Bounds) 
     said: int | None = draft.get("decimals")
     report = bounds.scales.scope.report
     if cases is None:
-        if said and "scale" not in draft.failed and draft.get("scale") is None and not draft.floating:
+        if said and "scale" not in draft.failed and draft.layer("scale") is None and not draft.floating:
             message = "`decimals` belongs to a scale, and the raw number is the value here"
             report.error("integer-path", message, draft.span("decimals"), "leave it out, or give the `scale`")
         return Paths(0)
@@ -62,8 +60,7 @@ def paths_of(draft: Draft, cases: tuple[ScaleCase, ...] | None, bounds: Bounds) 
     encodes = all(one.encodes for one in needs)
     if any(one.constant >= _WORD or not (one.fixed or one.encodes) for one in needs):
         message = "some values of this point cannot be exact in a double"
-        long = f"{_NARROW}, or write the scale with fewer digits"
-        report.error("float-path", message, draft.span("scale"), long)
+        report.error("float-path", message, draft.span("scale"), _way_out(cases, bounds))
     return Paths(_decimals(draft, cases, bounds, needs), encodes)
 
 
@@ -83,14 +80,22 @@ def _decimals(draft: Draft, cases: tuple[ScaleCase, ...], bounds: Bounds, needs:
     if said < needed:
         message = f"with {said} decimals two raw numbers would have one count"
         alone = "leave `decimals` out: no 64-bit integer holds counts that tell them apart, so the point has none"
-        hint = f"at least {needed} decimals are needed" if fits else alone
+        hint = f"write `decimals: {needed}`, or leave it out" if fits else alone
         bounds.scales.scope.report.error("integer-path", message, draft.span("decimals"), hint)
         return needed
     if fits and not _fit(needs, said):
         message = f"counts of 10^-{said} units do not fit into 64 bits"
-        hint = f"give fewer `decimals`: {needed} do"
+        hint = f"write `decimals: {max(one for one in range(needed, said) if _fit(needs, one))}`"
         bounds.scales.scope.report.error("integer-path", message, draft.span("decimals"), hint)
     return said if fits else None
+
+
+def _way_out(cases: tuple[ScaleCase, ...], bounds: Bounds) -> str:
+    """What to do where the steps of a scale do not fit: something that leads into no other fault."""
+    used = {bounds.scales.index.by_item(factor.point).name for case in cases for factor in case.rule.factors}
+    if used:
+        return f"give {' and '.join(f'`{name}`' for name in sorted(used))} a narrower `range`"
+    return "write a scale of fewer digits, or `scale: ~`: the point is then documented only"
 
 
 def _fit(needs: list[_Needs], decimals: int) -> bool:

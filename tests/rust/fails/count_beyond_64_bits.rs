@@ -1,10 +1,10 @@
 // error: E0277
 // Counts that no integer of 64 bits holds do not exist.
 
-use kitchen_sink::{points::CutOffVoltage, CountReadable};
+use kitchen_sink::{points::UnevenVoltage, CountReadable};
 
 pub fn countable<P: CountReadable>() {}
 
 pub fn wrong() {
-    countable::<CutOffVoltage>();
+    countable::<UnevenVoltage>();
 }
