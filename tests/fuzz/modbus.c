@@ -3,7 +3,7 @@
 #include "fieldscribe_modbus.h"
 
 static const char *const names[] = {"ok", "bad_unit", "bad_function", "bad_count", "bad_address", "bad_value",
-    "buffer_too_small", "short_frame", "long_frame", "bad_crc", "bad_protocol", "wrong_transaction", "wrong_unit",
+    "bad_framing", "buffer_too_small", "short_frame", "long_frame", "bad_crc", "bad_protocol", "wrong_transaction", "wrong_unit",
     "wrong_function", "exception", "bad_byte_count", "echo_mismatch"};
 
 /* What is written: the number itself, or its bits one after the other to coils. */

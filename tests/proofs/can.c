@@ -24,6 +24,7 @@ static volatile uint8_t number;
 static void hear(uint16_t words, uint8_t per_frame)
 {
     message.adds_unit = number % 2U != 0U;
+    telegram.profile = &profile;
     telegram.message = &message;
     telegram.words = words;
     telegram.per_frame = per_frame;
@@ -153,6 +154,7 @@ static void hear_long(void)
     if (telegram.words >= SLOTS) {
         telegram.words = 0U;
     }
+    telegram.profile = &profile;
     telegram.message = &message;
     message.adds_unit = number % 2U != 0U;
     receiver.telegram = &telegram;

@@ -32,6 +32,8 @@ static void know(size_t count)
         functions[at].broadcast = number % 2U != 0U;
     }
     profile.pads_coil_bytes = number % 2U != 0U;
+    profile.rtu = number % 2U != 0U;
+    profile.tcp = number % 2U != 0U;
     profile.functions = EXACTLY(count, functions);
     profile.function_count = count;
 }
