@@ -38,7 +38,7 @@ WRONG: tuple[Any, ...] = (
 
 def mutant(seed: int) -> str:
     """One device as text, with one to three places changed; in every second one a value of another place stands."""
-    chance = random.Random(seed)  # noqa: S311 -- tests, no secrets
+    chance = random.Random(seed)
     start = WHOLES[seed % len(WHOLES)]
     device = start
     paths = sorted(nodes(start), key=str)
@@ -55,7 +55,7 @@ def mutant(seed: int) -> str:
 
 def aliased(seed: int) -> str:
     """One device as text in which a value stands at two places, the second time as an alias."""
-    chance = random.Random(seed)  # noqa: S311 -- tests, no secrets
+    chance = random.Random(seed)
     start: dict[str, Any] = copy.deepcopy(WHOLES[seed % len(WHOLES)])
     paths = [path for path in nodes(start) if isinstance(_at(start, path), dict | list)]
     places = sorted(range(len(paths)), key=lambda _: chance.random())[:2]

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from fractions import Fraction
 
+    from fieldscribe.existence import Condition
+
 Titles = Mapping[str, str]
 """Text for people by language code; `en` is always there."""
 
@@ -238,7 +240,7 @@ class Point:
     changes: str | None
     keeps: str | None
     conditions: tuple[str, ...]
-    when: str | None
+    when: Condition | None
     since: str | None
     until: str | None
     was: tuple[str, ...]

@@ -15,6 +15,7 @@ def run_checks(subject: Subject) -> None:
     from fieldscribe.checks import (
         addresses_do_not_overlap,
         codes_agree,
+        conditions_can_hold,
         defaults_are_allowed,
         enums_fit_their_range,
         errata_are_used,
@@ -36,6 +37,7 @@ def run_checks(subject: Subject) -> None:
         every_point_has_a_source.check,
         lines_run_upwards.check,
         meanings_do_not_compete.check,
+        conditions_can_hold.check,
         addresses_do_not_overlap.check,
         groups_use_what_they_say.check,
         enums_fit_their_range.check,

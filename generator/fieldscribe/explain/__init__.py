@@ -162,7 +162,7 @@ def _names_rows(point: Point) -> Iterator[Row]:
 def _behaviour_rows(device: Device, point: Point) -> Iterator[Row]:
     yield "Kept", wording.keeps_text(device, point)
     yield "Write only when", ", ".join(point.conditions)
-    yield "Exists when", point.when or ""
+    yield "Exists when", wording.condition_text(point.when, {one.name: one for one in device.points})
     yield "Since", point.since or ""
     yield "Until", point.until or ""
     yield "Changes", point.changes or ""

@@ -79,7 +79,7 @@ Value: TypeAlias = Map | Seq | int | Decimal | bool | str | None
 
 
 def share(value: Value) -> None:
-    """Mark all that an alias repeats: it must have the shape of each place, and what one place drops stays elsewhere."""
+    """Mark all that an alias repeats: it must have the shape of each place, and what one drops stays in the others."""
     waiting = [value]
     while waiting:
         one = waiting.pop()

@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.wording.exact import exact, fixed_rule, hex_text, number_text
 from fieldscribe.wording.rules import RAW, Points, inverse_text, ranges_text, shown
+from fieldscribe.wording.rules import clause_text as clause_text
+from fieldscribe.wording.rules import condition_text as condition_text
 
 if TYPE_CHECKING:
     from fieldscribe.model import Device, Entry, Flag, Point, Special, Titles

@@ -7,10 +7,11 @@ from fieldscribe.language.formula.conditions import (
     Condition,
     Constant,
     Not,
-    condition_comparisons,
+    clauses_of,
     condition_names,
     parse_case,
     parse_condition,
+    wrong_number,
 )
 from fieldscribe.language.formula.errors import FormulaError
 from fieldscribe.language.formula.evaluation import evaluate
@@ -49,7 +50,7 @@ __all__ = [
     "Range",
     "Resolve",
     "Scale",
-    "condition_comparisons",
+    "clauses_of",
     "condition_names",
     "constant",
     "evaluate",
@@ -64,4 +65,5 @@ __all__ = [
     "parse_range",
     "parse_scale",
     "scale_rule",
+    "wrong_number",
 ]
