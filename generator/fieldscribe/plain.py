@@ -5,6 +5,7 @@ What is for people changes often, and must not touch vendored code when it does;
 
 from __future__ import annotations
 
+import hashlib
 from dataclasses import replace
 from functools import lru_cache
 
@@ -37,6 +38,11 @@ def for_code(device: Device) -> Device:
         messages=tuple(replace(one, title=_plain(one.name), source=_NOWHERE) for one in device.messages),
         telegrams=tuple(replace(one, title=_plain(one.name), source=_NOWHERE) for one in device.telegrams),
     )
+
+
+def digest(device: Device) -> str:
+    """A checksum of what code is made of: every field of all that code may know, but for the digest itself."""
+    return hashlib.sha256(repr(replace(for_code(device), digest="")).encode("utf-8", "surrogatepass")).hexdigest()
 
 
 def _point(point: Point, enums: dict[int, Enum]) -> Point:
