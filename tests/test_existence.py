@@ -69,11 +69,7 @@ def test_clauses_mean_what_the_text_means(seed: int) -> None:
     condition = parse_condition(text)
     clauses: Any = tuple(
         tuple(
-            Comparison(
-                one.name.name,
-                one.op,
-                tuple([each.text if one.name.name == "size" else int(each.value) for each in one.constants]),
-            )
+            Comparison(one.name.name, one.op, _meant(one))
             for one in clause
         )
         for clause in clauses_of(condition)
