@@ -55,6 +55,7 @@ def _point(point: Point, enums: dict[int, Enum]) -> Point:
         enum=point.enum and (enums.get(id(point.enum)) or _enum(point.enum)),
         digits=digits and replace(digits, enum=enums.get(id(digits.enum)) or _enum(digits.enum)),
         flags=tuple(_flag(flag) for flag in point.flags),
+        untyped=None if point.untyped is None else "",
         specials=tuple(_special(special) for special in point.specials),
     )
 

@@ -9,7 +9,6 @@ from fieldscribe import wording
 from fieldscribe.explain.lookup import Match, find, near
 from fieldscribe.explain.requests import read_text, write_text
 from fieldscribe.families import FAMILIES
-from fieldscribe.model import UNSETTLED_TYPE
 from fieldscribe.text import line
 from fieldscribe.wording.exact import hex_text, number_text
 
@@ -110,9 +109,7 @@ def _where(device: Device, point: Point) -> str:
 
 
 def _type_text(point: Point) -> str:
-    if point.reason == UNSETTLED_TYPE:
-        return "not settled by the manual"
-    if point.type == "bit" or point.text is not None:
+    if point.untyped is not None or point.type == "bit" or point.text is not None:
         return wording.type_text(point)
     kind = f"{_KINDS[point.type[0]]}, {point.width} bits"
     if point.digits is not None:

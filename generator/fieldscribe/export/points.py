@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.export.rules import PointsByName, bound_of, scale_of
-from fieldscribe.model import UNSETTLED_TYPE
 from fieldscribe.wording.exact import fixed_rule, number_text
 
 if TYPE_CHECKING:
@@ -35,7 +34,7 @@ def export_point(
         "addresses": list(point.addresses),
         "references": dict(point.references),
         "places": [_place(one) for one in places or point.places],
-        "type": None if point.reason == UNSETTLED_TYPE else point.type,
+        "type": point.type if point.untyped is None else None,
         "words": point.words,
         "access": point.access,
         "bits": None if point.bits is None else list(point.bits),

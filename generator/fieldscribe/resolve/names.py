@@ -129,7 +129,7 @@ def type_of(scope: Scope, draft: Draft, space: str, bits: tuple[int, int] | None
     single = scope.family.spaces[space] == "bit"
     width = bits[0] - bits[1] + 1 if bits else None
     default = "bit" if single or width == 1 else "u8" if width is not None and width <= 8 else "u16"
-    said = str(draft.get("type") or default)
+    said = str(draft.get("type") or default) if draft.untyped is None else default
     fault = None if "space" in draft.failed else _type_fault(said, space, single, width, default)
     fault = fault or (None if bits else _carrier_fault(scope, said, space))
     if fault is None:

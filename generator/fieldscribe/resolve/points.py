@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from fieldscribe.model import TYPES, UNSETTLED_TYPE, Allowed, Enum, Place, Point, ScaleCase, Special, Unit
+from fieldscribe.model import TYPES, Allowed, Enum, Place, Point, ScaleCase, Special, Unit
 from fieldscribe.resolve.addresses import Places
 from fieldscribe.resolve.allowed import Ranges
 from fieldscribe.resolve.bounds import Bounds
@@ -135,6 +135,7 @@ def _point(scope: Scope, draft: Draft, shape: Shape, places: Places, ranges: Ran
         digits=digits,
         fixed=fixed_of(scope, draft, shape.bits, shape.width) if writable else None,
         changes_with=_changes_with(draft, ranges.bounds.scales.index),
+        untyped=_untyped(scope, draft),
     )
 
 
@@ -157,11 +158,23 @@ def _reason(draft: Draft, has_place: bool, access: str) -> str | None:
         return "the manual prints no address"
     if draft.get("reserved", False):
         return "reserved by the maker"
-    if draft.layer("type") is not None and draft.get("type") is None:
-        return UNSETTLED_TYPE
+    if draft.untyped is not None:
+        return "no type says its encoding" if draft.untyped else "the manual does not settle its type"
     if draft.layer("scale") is not None and draft.get("scale") is None:
         return "the manual does not settle its scale"
     return "not reachable over the bus" if access == "none" else None
+
+
+def _untyped(scope: Scope, draft: Draft) -> str | None:
+    """What stands in place of a type; a finding where something is said twice, or of nothing."""
+    words, typed = draft.layer("untyped"), draft.layer("type")
+    if words is not None and words is typed and words["type"] is not None:
+        message, hint = f"`{draft.name}` has a type, and words that stand in place of one", "leave one of them out"
+        scope.report.error("two-meanings", message, words.span("untyped"), hint)
+    elif draft.untyped is None and "takes" in draft.own and not draft.failed & {"type", "untyped"}:
+        hint = "its type says how many words it takes: leave `takes` out"
+        scope.report.error("two-meanings", f"`{draft.name}` has a type", draft.span("takes"), hint)
+    return draft.untyped
 
 
 def _unit(scope: Scope, draft: Draft) -> Unit:

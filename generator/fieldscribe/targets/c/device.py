@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe import __version__
-from fieldscribe.model import UNSETTLED_TYPE
 from fieldscribe.names import upper
 from fieldscribe.targets.c.defines import place_defines
 from fieldscribe.targets.c.points import comment_lines, point_view
@@ -101,7 +100,7 @@ def _aliases(view: PointView, function: str, macro: str) -> list[tuple[str, str]
 
 def _is_placed(point: Point) -> bool:
     """Whether the manual leaves open what the words mean but says where they are; others are nobody's to touch."""
-    return point.reason == UNSETTLED_TYPE and point.address is not None and bool(point.places)
+    return point.raw_only
 
 
 def _remark(point: Point, scope: Scope) -> RemarkView:

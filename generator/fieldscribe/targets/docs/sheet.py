@@ -62,7 +62,7 @@ def _hexes(addresses: tuple[int, ...]) -> str:
 def _meaning(point: Point, by_name: dict[str, Point]) -> tuple[str, ...]:
     outer = None if point.info.floating else wording.outer_raw(point)
     return (
-        point.type,
+        point.type if point.untyped is None else _cell(wording.type_text(point)),
         str(point.words),
         f"{point.bits[0]}..{point.bits[1]}" if point.bits else "",
         point.access,

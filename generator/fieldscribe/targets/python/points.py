@@ -23,7 +23,6 @@ if TYPE_CHECKING:
     from fieldscribe.model import Device, Erratum, Point
 
 _DOC = WIDTH - 4 - 6  # what an indentation and two triple quotes leave
-_UNSETTLED = "the manual does not settle"
 _BODY = 8  # the indentation of an attribute's arguments
 
 
@@ -207,7 +206,7 @@ def _labelled(point: Point) -> str:
 def _open_points(device: Device) -> Iterable[str]:
     """Names and wire addresses of the points that are there but for their type or scale; item by item in a list."""
     for point in device.points:
-        if point.generated or not point.places or not (point.reason or "").startswith(_UNSETTLED):
+        if not point.raw_only:
             continue
         numbered = point.space in NUMBERED
         where = ", ".join(str(address) if numbered else f"0x{address:04X}" for address in point.addresses)
