@@ -25,6 +25,8 @@ def for_code(device: Device) -> Device:
         bus=replace(
             device.bus,
             note={},
+            timing={},
+            serial={},
             functions=tuple(replace(code, title=_plain(code.name)) for code in device.bus.functions),
             exceptions=tuple(replace(code, title=_plain(code.name)) for code in device.bus.exceptions),
             responses=tuple(replace(code, title=_plain(code.name)) for code in device.bus.responses),
@@ -55,6 +57,10 @@ def _point(point: Point, enums: dict[int, Enum]) -> Point:
         enum=point.enum and (enums.get(id(point.enum)) or _enum(point.enum)),
         digits=digits and replace(digits, enum=enums.get(id(digits.enum)) or _enum(digits.enum)),
         flags=tuple(_flag(flag) for flag in point.flags),
+        unit=replace(point.unit, name="", quantity=""),
+        since=None,
+        until=None,
+        record=None,
         untyped=None if point.untyped is None else "",
         specials=tuple(_special(special) for special in point.specials),
     )

@@ -98,18 +98,14 @@ def _aliases(view: PointView, function: str, macro: str) -> list[tuple[str, str]
     return [*((macro + name[len(view.macro) :], name) for name, _ in view.defines), *renamed]
 
 
-def _is_placed(point: Point) -> bool:
-    """Whether the manual leaves open what the words mean but says where they are; others are nobody's to touch."""
-    return point.raw_only
-
-
 def _remark(point: Point, scope: Scope) -> RemarkView:
     lines = [
         *comment_lines(point, scope),
         c_comment(f"Not generated ({point.item}): {point.reason or 'documented only'}."),
     ]
-    places = place_defines(point, f"{scope.upper}_{upper(point.item)}", scope) if _is_placed(point) else ()
-    return RemarkView(point.item, tuple(lines), tuple(places))
+    macro = f"{scope.upper}_{upper(point.item)}"
+    places = (*place_defines(point, macro, scope), (f"{macro}_WORDS", f"{point.words}U")) if point.raw_only else ()
+    return RemarkView(point.item, tuple(lines), places)
 
 
 def _needs(scope: Scope) -> Needs:

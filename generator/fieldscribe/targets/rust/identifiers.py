@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fieldscribe.names import upper
 from fieldscribe.targets.rust.families import family_identifiers
 from fieldscribe.targets.rust.literals import type_name
 from fieldscribe.targets.rust.subjects import Subject, scope_of
@@ -23,6 +24,9 @@ def identifiers(device: Device) -> Iterator[Identifier]:
     scope = scope_of(device)
     for subject in scope.subjects:
         yield from _of_point(subject)
+    for point in device.points:
+        if point.raw_only:
+            yield "points::documented", upper(point.item), f"point {point.name}"
     for enum in device.enums:
         if enum.name in scope.enums:
             yield "enums", type_name(enum.name), f"enum {enum.name}"
