@@ -27,7 +27,7 @@ def device_view(device: Device) -> tuple[DeviceView, Scope]:
     for point in device.points:
         if not point.generated:
             by_group.setdefault(point.group, []).append((None, _remark(point, scope)))
-            if _is_placed(point):
+            if point.raw_only:
                 spaces.setdefault(point.space)
             continue
         one = point_view(point, scope)
