@@ -43,13 +43,12 @@ def find_devices(paths: Iterable[Path], report: Report) -> list[Path]:
 def load_device(device_file: Path, report: Report) -> Device | None:
     """The model of a description: read, validate, interpret, resolve, check. None and findings when it is wrong."""
     from fieldscribe.language.files import read_files
-    from fieldscribe.resolve.device import build_device
 
     own = Report()
     files = read_files(device_file, own)
     subject = None if files is None else _checked(files, own)
     report.extend(own)
-    return None if subject is None else build_device(subject)
+    return None if subject is None else subject.device
 
 
 def load_subject(device_file: Path, report: Report) -> Subject | None:

@@ -12,7 +12,7 @@ from fieldscribe.language.numbers import NumberError, parse_number
 
 if TYPE_CHECKING:
     from fieldscribe.diagnostics import Report, Span
-    from fieldscribe.model import Allowed, Bus, Command, Frame, Message
+    from fieldscribe.model import Allowed, Bus, Command, Device, Frame, Message
     from fieldscribe.resolve.addresses import Places
     from fieldscribe.resolve.allowed import Ranges
     from fieldscribe.resolve.errata import OpenErratum
@@ -61,6 +61,7 @@ class Subject:
     errata: list[OpenErratum]
     frames: list[Frame] = field(default_factory=list)
     cited: dict[str, list[OpenErratum]] = field(default_factory=dict)
+    _device: Device | None = None
 
     def __post_init__(self) -> None:
         for erratum in self.errata:
@@ -71,6 +72,15 @@ class Subject:
     def bus_is_whole(self) -> bool:
         """Whether all that was written under `bus` could be read: else what rests on it cannot be judged."""
         return self.scope.bus is not None and not _lost(self.scope.bus)
+
+    @property
+    def device(self) -> Device:
+        """The model, made when it is first asked for: only of a device without errors."""
+        if self._device is None:
+            from fieldscribe.resolve.device import build_device
+
+            self._device = build_device(self)
+        return self._device
 
     @property
     def report(self) -> Report:

@@ -116,7 +116,7 @@ def _imports(used: set[str], family: Family) -> list[tuple[str, list[str]]]:
 def _point(point: Point, family: Family, scope: Scope, errata: Mapping[str, Erratum]) -> PointView:
     maker = family.maker(point)
     scope.used.add(maker)
-    old_names = point.was if point.variant is None else ()
+    old_names = tuple(map(attribute, point.was)) if point.variant is None else ()
     if old_names:
         scope.used.add("renamed")
     arguments = tuple([laid_out(argument, _BODY) for argument in _arguments(point, scope)])
