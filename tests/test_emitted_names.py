@@ -125,7 +125,8 @@ def c_names(text: str) -> Iterator[str]:
 def python_names(text: str) -> Iterator[tuple[str, str]]:
     """What a module and its classes define, by scope."""
     tree = ast.parse(text)
-    for holder in (tree, *(one for one in ast.walk(tree) if isinstance(one, ast.ClassDef))):
+    holders: list[ast.Module | ast.ClassDef] = [tree, *(one for one in ast.walk(tree) if isinstance(one, ast.ClassDef))]
+    for holder in holders:
         scope = getattr(holder, "name", "")
         for one in holder.body:
             if isinstance(one, ast.Assign | ast.AnnAssign):
@@ -135,9 +136,10 @@ def python_names(text: str) -> Iterator[tuple[str, str]]:
                 yield scope, one.name
             elif isinstance(one, ast.Import | ast.ImportFrom):
                 yield from ((scope, each.asname or each.name) for each in one.names)
-        for one in ast.walk(holder):
-            if isinstance(one, ast.FunctionDef):
-                arguments = [each.arg for each in (*one.args.posonlyargs, *one.args.args, *one.args.kwonlyargs)]
+        for inside in ast.walk(holder):
+            if isinstance(inside, ast.FunctionDef):
+                given = (*inside.args.posonlyargs, *inside.args.args, *inside.args.kwonlyargs)
+                arguments = [each.arg for each in given]
                 assert len(arguments) == len(set(arguments)), arguments
 
 
