@@ -68,11 +68,7 @@ def test_clauses_mean_what_the_text_means(seed: int) -> None:
     text = _text(random.Random(seed), 3)
     condition = parse_condition(text)
     clauses: Any = tuple(
-        tuple(
-            Comparison(one.name.name, one.op, _meant(one))
-            for one in clause
-        )
-        for clause in clauses_of(condition)
+        tuple(Comparison(one.name.name, one.op, _meant(one)) for one in clause) for clause in clauses_of(condition)
     )
     assert {name.name for name in condition_names(condition)} >= set(Condition(clauses).names)
     for values in EVERY:
