@@ -221,7 +221,7 @@ def test_points_that_are_only_documented_have_an_address(tmp_path: Path) -> None
         point("known", 1),
         point("ramp", 0x1980, code="P102", **unsettled),
         point("wide", 0x2000, "u32", **unsettled),
-        point("reserved", 0x3000, generated=False, reason="reserved by the maker"),
+        point("reserved", 0x3000, generated=False, reserved=True, reason="reserved by the maker"),
         point("nowhere", None),
     )
     folder = write_package(replace(sample_device(points), errata=(), blocks={}, id="open_ends"), tmp_path)
