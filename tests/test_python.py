@@ -414,8 +414,8 @@ def test_names_that_are_taken(tmp_path: Path) -> None:
         for name in taken:
             assert getattr(drive, f"{name}_" if name != "match" else name, None) or drive.POINTS[name]
             assert drive.POINTS[name].facts.name == name
-        assert package.Word(2).class_ is True
-        assert package.Word.value_.number(1) == 1
+        assert package.WordFlags(2).class_ is True
+        assert package.WordFlags.value_.number(1) == 1
 
 
 def test_tables_of_taken_names_are_complete(package: Any) -> None:
