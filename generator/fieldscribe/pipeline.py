@@ -66,7 +66,7 @@ def load_device(device_file: Path, report: Report, inputs: Inputs | None = None)
     files = read_files(device_file, own, inputs)
     subject = None if files is None else _checked(files, own)
     report.extend(own)
-    return None if subject is None else subject.device
+    return None if subject is None else subject.models[0]
 
 
 def load_subject(device_file: Path, report: Report) -> Subject | None:

@@ -44,7 +44,14 @@ def for_code(device: Device) -> Device:
 
 def digest(device: Device) -> str:
     """A checksum of what code is made of: every field of all that code may know, but for the digest itself."""
-    return hashlib.sha256(repr(replace(for_code(device), digest="")).encode("utf-8", "surrogatepass")).hexdigest()
+    return with_digest(device)[0].digest
+
+
+def with_digest(device: Device) -> tuple[Device, Device]:
+    """The device with its digest, and the same as code may know it."""
+    plain = replace(for_code(device), digest="")
+    found = hashlib.sha256(repr(plain).encode("utf-8", "surrogatepass")).hexdigest()
+    return replace(device, digest=found), replace(plain, digest=found)
 
 
 def _point(point: Point, enums: dict[int, Enum]) -> Point:

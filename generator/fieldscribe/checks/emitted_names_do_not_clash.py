@@ -25,11 +25,10 @@ def check(subject: Subject) -> None:
     """Names that meet in a target, whichever is generated today."""
     if subject.report.has_errors:
         return
-    from fieldscribe.plain import for_code
     from fieldscribe.targets import NAMESPACES, target
     from fieldscribe.targets.identifiers import clashes
 
-    device = for_code(subject.device)
+    _, device = subject.models
     places: _Places | None = None
     told: set[tuple[str, str]] = set()
     for name in NAMESPACES:

@@ -61,7 +61,7 @@ class Subject:
     errata: list[OpenErratum]
     frames: list[Frame] = field(default_factory=list)
     cited: dict[str, list[OpenErratum]] = field(default_factory=dict)
-    _device: Device | None = None
+    _models: tuple[Device, Device] | None = None
 
     def __post_init__(self) -> None:
         for erratum in self.errata:
@@ -74,13 +74,13 @@ class Subject:
         return self.scope.bus is not None and not _lost(self.scope.bus)
 
     @property
-    def device(self) -> Device:
-        """The model, made when it is first asked for: only of a device without errors."""
-        if self._device is None:
+    def models(self) -> tuple[Device, Device]:
+        """The model and what code may know of it, made when first asked for: only of a device without errors."""
+        if self._models is None:
             from fieldscribe.resolve.device import build_device
 
-            self._device = build_device(self)
-        return self._device
+            self._models = build_device(self)
+        return self._models
 
     @property
     def report(self) -> Report:

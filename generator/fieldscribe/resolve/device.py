@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.families import modbus
 from fieldscribe.model import Block, Device, Enum, Group, Point
-from fieldscribe.plain import digest
+from fieldscribe.plain import with_digest
 from fieldscribe.resolve.drafts import groups, humanised
 from fieldscribe.resolve.scope import Scope, source_of, titles
 
@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from fieldscribe.checks.subject import Subject
 
 
-def build_device(subject: Subject) -> Device:
-    """The model of a device without findings."""
+def build_device(subject: Subject) -> tuple[Device, Device]:
+    """The model of a device without findings, and the same as code may know it."""
     scope, header = subject.scope, subject.scope.header
     points = tuple(_with_errata(subject, resolved.point) for resolved in subject.resolved)
     device = Device(
@@ -43,7 +43,7 @@ def build_device(subject: Subject) -> Device:
         messages=subject.messages,
         telegrams=tuple(telegram for telegram, _ in subject.places.telegrams.values()),
     )
-    return replace(device, digest=digest(device))
+    return with_digest(device)
 
 
 def _with_errata(subject: Subject, point: Point) -> Point:

@@ -99,7 +99,7 @@ def _of_points(view: DeviceView) -> Iterator[tuple[str, Owner]]:
             if point.enum is not None:
                 owner = Owner("enum", point.enum.function.removeprefix(f"{view.prefix}_").removesuffix("_name"))
                 yield point.enum.function, owner
-                yield from ((name, owner._replace(part=name)) for name, _, _ in point.enum.entries)
-            owner = Owner("point", point.item)
-            yield from ((name, owner._replace(part=f"constant {literal}")) for name, literal in point.defines)
-            yield from ((name, owner._replace(part="function")) for name in function_names(point))
+                yield from ((name, Owner("enum", owner.name, name)) for name, _, _ in point.enum.entries)
+            owner = Owner("point", point.item, "function")
+            yield from ((name, Owner("point", point.item, f"constant {literal}")) for name, literal in point.defines)
+            yield from ((name, owner) for name in function_names(point))

@@ -37,8 +37,8 @@ def identifiers(device: Device) -> Iterator[Identifier]:
             owner = Owner("enum", enum.name)
             yield Identifier("Rust, enums", type_name(enum.name), owner)
             for entry in enum.entries:
-                space = f"Rust, enums::{type_name(enum.name)}"
-                yield Identifier(space, type_name(entry.name), owner._replace(part=f"entry {entry.name}"))
+                part = Owner("enum", enum.name, f"entry {entry.name}")
+                yield Identifier(f"Rust, enums::{enum.name}", type_name(entry.name), part)
     for command in device.commands:
         yield Identifier("Rust, commands", command.name.upper(), Owner("command", command.name))
     for group in device.blocks:
@@ -50,11 +50,11 @@ def identifiers(device: Device) -> Iterator[Identifier]:
 
 def _of_point(subject: Subject) -> Iterator[Identifier]:
     point, owner = subject.point, Owner("point", subject.point.item)
-    own = f"Rust, points::{subject.name}"
+    own = f"Rust, points::{point.item}"
     yield Identifier("Rust, points", subject.name, owner)
     for old in point.was if point.variant is None else ():
         yield Identifier("Rust, points", type_name(old), owner._replace(part=f"old name {old}"))
-    for name in CONSTANTS if point.references or point.specials else ():
+    for name in CONSTANTS.intersection((*point.references, *(special.name for special in point.specials))):
         yield Identifier(own, name.upper(), Owner("target", f"the constant `{name.upper()}` of every point"))
     for key in point.references:
         yield Identifier(own, key.upper(), owner._replace(part=f"numbering {key}"))
@@ -69,7 +69,7 @@ def _of_point(subject: Subject) -> Iterator[Identifier]:
 
 
 def _of_flags(subject: Subject) -> Iterator[Identifier]:
-    owner, space = Owner("point", subject.point.item), f"Rust, flags::{subject.name}"
+    owner, space = Owner("point", subject.point.item), f"Rust, flags::{subject.point.item}"
     yield Identifier(space, "ALL_FALSE", Owner("target", "the constant `ALL_FALSE` of every word of flags"))
     for flag in subject.point.flags:
         named = owner._replace(part=f"flag {flag.name}")
