@@ -107,10 +107,11 @@ class Runner:
         low, high = point.raw_limits
         found = {"kind": "address", "point": point.facts.item, "code": point.facts.code}
         found |= {"space": at.space, "address": at.address, "words": point.size}
-        found |= {"raw_min": low, "raw_max": high, "decimals": point.decimals}
+        found |= {"raw_min": low, "raw_max": high}
+        found |= {} if point.decimals is None else {"decimals": point.decimals}
         references = {key: number for key, number in vector.items() if key not in found}
         same = all(vector[key] == value for key, value in found.items() if key in vector)
-        return same and references == point.facts.references and (point.decimals == 0 or "decimals" in vector)
+        return same and references == point.facts.references and (not point.decimals or "decimals" in vector)
 
     def _place(self, vector: Vector) -> bool:
         at = self._point(vector).facts.at

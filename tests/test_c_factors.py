@@ -59,15 +59,16 @@ def draws(rng: random.Random) -> Iterator[dict[str, Any]]:
             yield {"kind": "decode_count", **head, "raw": raw, "status": ratio}
             yield {"kind": "encode_count", **head, "count": raw, "status": ratio}
             continue
-        count = near_count(rng, ratio, raw, point.decimals)
+        decimals = point.decimals or 0
+        count = near_count(rng, ratio, raw, decimals)
         for kind, key, number, found in (
-            ("encode_count", "count", count, ratio.raw_of_count(count, point.decimals)),
+            ("encode_count", "count", count, ratio.raw_of_count(count, decimals)),
             *encoded_value(rng, ratio, raw),
         ):
             inside = found is not None and any(low <= found <= high for low, high in limits)
             answer = {"status": "ok", "raw": found} if inside else {"status": "out_of_range"}
             yield {"kind": kind, **head, key: number, **answer}
-        decoded = ratio.count_of_raw(raw, point.decimals)
+        decoded = ratio.count_of_raw(raw, decimals)
         fits = {"status": "ok", "count": decoded} if -INT64 <= decoded < INT64 else {"status": "overflow"}
         yield {"kind": "decode_count", **head, "raw": raw, **fits}
         if ratio.divides_exactly(raw):

@@ -9,6 +9,7 @@ from fieldscribe.families import modbus
 from fieldscribe.model import Block, Device, Enum, Group, Point
 from fieldscribe.plain import with_digest
 from fieldscribe.resolve.drafts import groups, humanised
+from fieldscribe.resolve.exponents import with_exponents
 from fieldscribe.resolve.scope import Scope, source_of, titles
 
 if TYPE_CHECKING:
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
 def build_device(subject: Subject) -> tuple[Device, Device]:
     """The model of a device without findings, and the same as code may know it."""
     scope, header = subject.scope, subject.scope.header
-    points = tuple(_with_errata(subject, resolved.point) for resolved in subject.resolved)
+    points = with_exponents(tuple([_with_errata(subject, resolved.point) for resolved in subject.resolved]))
     device = Device(
         id=str(header["device"]),
         version=str(header["version"]),

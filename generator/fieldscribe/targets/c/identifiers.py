@@ -54,6 +54,7 @@ _HELPERS = (
     "shifted_ratio",
     "apply_shifted",
     "two_to",
+    "quotient",
 )
 _MACROS = (
     "OK",
@@ -70,6 +71,7 @@ _MACROS = (
     "USS_H",
     "DESCRIPTION_VERSION",
     "DESCRIPTION_DIGEST",
+    "MAY_FUSE",
 )
 
 

@@ -27,7 +27,7 @@ def address(lines: Lines, point: Point) -> None:
     if form not in ("float", "text", "digits"):
         low, high = outer_bounds(point)
         text += f', "raw_min": {low}, "raw_max": {high}'
-    if form == "scaled":
+    if form == "scaled" and point.decimals is not None:
         text += f', "decimals": {point.decimals}'
     for key, number in point.references.items():
         if key not in KEYS:

@@ -46,10 +46,12 @@ def _no_rule(lines: Lines, point: Point, head: str, status: str) -> None:
     raw = next(raw for raw in (1, 0, point.greatest) if not is_no_value(point, raw))
     if point.readable:
         lines.add("decode", f'{head}, "raw": {raw}, "status": "{status}"')
-        lines.add("decode_count", f'{head}, "raw": {raw}, "status": "{status}"')
+        if point.decimals is not None:
+            lines.add("decode_count", f'{head}, "raw": {raw}, "status": "{status}"')
     if point.writable:
         lines.add("encode", f'{head}, {_float(1.0)}, "status": "{status}"')
-        lines.add("encode_count", f'{head}, "count": 1, "status": "{status}"')
+        if point.decimals is not None:
+            lines.add("encode_count", f'{head}, "count": 1, "status": "{status}"')
         lines.add("encode", f'{head}, {_NAN}, "status": "not_a_number"')
 
 
@@ -59,8 +61,11 @@ def _no_limits(lines: Lines, point: Point, head: str, ratio: Ratio, status: str)
         # Inside the outer bounds of the limit, so that nothing but the limit can refuse it.
         raw = samples.limits_of(point)[0].greatest
         value = quotient(ratio.numerator(raw), ratio.denominator)
-        lines.add("encode", f'{head}, {_float(value)}, "status": "{status}"')
-        lines.add("encode_count", f'{head}, "count": {ratio.count_of_raw(raw, point.decimals)}, "status": "{status}"')
+        if point.encodes_values:
+            lines.add("encode", f'{head}, {_float(value)}, "status": "{status}"')
+        if point.decimals is not None:
+            count = ratio.count_of_raw(raw, point.decimals)
+            lines.add("encode_count", f'{head}, "count": {count}, "status": "{status}"')
         lines.add("check", f'{head}, "raw": {raw}, "status": "{status}"')
 
 
@@ -80,10 +85,13 @@ class _Sheet:
         if self.point.readable:
             raws = samples.raws_to_decode(self.point, self.limits)
             self._decode(raws)
-            self._decode_count(raws)
+            if self.point.decimals is not None:
+                self._decode_count(raws, self.point.decimals)
         if self.point.writable:
-            self._encode()
-            self._encode_count()
+            if self.point.encodes_values:
+                self._encode()
+            if self.point.decimals is not None:
+                self._encode_count(self.point.decimals)
             if self.full or self.point.limit_arguments:
                 self._check()
 
@@ -94,7 +102,7 @@ class _Sheet:
         for raw in dict.fromkeys((*raws, telling) if held and telling is not None else raws):
             if is_no_value(self.point, raw):
                 add("decode", f'{head}, "raw": {raw}, "status": "no_value"')
-            elif ratio.divides_exactly(raw):
+            elif ratio.divides_exactly(raw) or not self.point.scale_arguments:
                 over = ratio.numerator(raw)
                 bits = hex64(over / under)
                 add(
@@ -102,8 +110,8 @@ class _Sheet:
                     f'{head}, "raw": {raw}, "status": "ok", "float": "{bits}", "value": "{exact_text(over, under)}"',
                 )
 
-    def _decode_count(self, raws: list[int]) -> None:
-        ratio, head, add, decimals = self.ratio, self.head, self.lines.add, self.point.decimals
+    def _decode_count(self, raws: list[int], decimals: int) -> None:
+        ratio, head, add = self.ratio, self.head, self.lines.add
         for raw in raws:
             if is_no_value(self.point, raw):
                 add("decode_count", f'{head}, "raw": {raw}, "status": "no_value"')
@@ -134,15 +142,15 @@ class _Sheet:
             add("encode", f'{head}, {_MINUS_INFINITY}, "status": "out_of_range"')
             add("encode", f"{head}, {_HUGE}, {self._encoded(ratio.raw_of_float(1e300))}")
 
-    def _encode_count(self) -> None:
-        ratio, head, add, decimals = self.ratio, self.head, self.lines.add, self.point.decimals
-        for count in self._counts():
+    def _encode_count(self, decimals: int) -> None:
+        ratio, head, add = self.ratio, self.head, self.lines.add
+        for count in self._counts(decimals):
             add("encode_count", f'{head}, "count": {count}, {self._encoded(ratio.raw_of_count(count, decimals))}')
 
-    def _counts(self) -> list[int]:
+    def _counts(self, decimals: int) -> list[int]:
         """Counts of the limits and beyond, around the halves on both sides of each limit, and ends of the integers."""
-        point, ratio, power = self.point, self.ratio, 10**self.point.decimals
-        found = {ratio.count_of_raw(raw, point.decimals): None for raw in samples.edges(self.limits)}
+        point, ratio, power = self.point, self.ratio, 10**decimals
+        found = {ratio.count_of_raw(raw, decimals): None for raw in samples.edges(self.limits)}
         if ratio.denominator != power * abs(ratio.den) * ratio.under:  # else a count is a raw number
             low, high = self.limits[0][0], self.limits[-1][1]
             for raw in (low - 1, low, high - 1, high):
@@ -151,7 +159,7 @@ class _Sheet:
                 found.update({below if rest else below - 1: None, below + 1: None})
                 if not rest:
                     found[below] = None
-        ends = [ratio.count_of_raw(raw, point.decimals) for raw in (point.least, point.greatest)]
+        ends = [ratio.count_of_raw(raw, decimals) for raw in (point.least, point.greatest)]
         edge = INT32 if all(-INT32 <= count < INT32 for count in ends) else INT64
         if self.full:
             found.update({INT32 - 1: None, -INT32: None, edge - 1: None, -edge: None})
