@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import re
 import shutil
-from collections import Counter
 from dataclasses import replace
 from fractions import Fraction
 from functools import partial
@@ -21,6 +20,7 @@ from fieldscribe.pipeline import load_device
 from fieldscribe.render import render
 from fieldscribe.resources import templates_dir
 from fieldscribe.targets import rust
+from fieldscribe.targets.identifiers import clashes as found_clashes
 from fieldscribe.targets.rust.documentation import left_out
 from fieldscribe.targets.rust.families import family_traits
 from fieldscribe.targets.rust.identifiers import identifiers
@@ -50,6 +50,7 @@ MODELS: dict[str, Callable[[], Device]] = {
     "kitchen_sink": kitchen_sink,
     "kitchen_can": partial(kitchen, "kitchen_can"),
     "kitchen_uss": partial(kitchen, "kitchen_uss"),
+    "result": partial(kitchen, "odd_names"),
     "odd_can": can_device,
     "odd_uss": uss_device,
 }
@@ -153,8 +154,7 @@ def test_long_lines_break_as_rustfmt_breaks_them() -> None:
 
 
 def clashes(device: Device) -> list[str]:
-    seen = Counter((namespace, name) for namespace, name, _ in identifiers(device))
-    return [name for (_, name), count in seen.items() if count > 1]
+    return [one.name for one in found_clashes(identifiers(device))]
 
 
 def test_clashing_names_are_found() -> None:
