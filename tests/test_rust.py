@@ -334,7 +334,7 @@ impl Transport for Line {
 def probe_source(device: str) -> str:
     """A crate that calls every function of every point."""
     model = MODELS[device]()
-    names = "BitGroup, CountReadable, CountWritable, Error, Point, Readable, Writable, runtime"
+    names = "BitGroup, CountReadable, CountWritable, Encodable, Error, Point, Readable, Writable, runtime"
     lines = ["#![no_std]", f"use {device}::{{{names}}};", CLIENTS.get(model.family, "")]
     scope = scope_of(model)
     for subject in scope.subjects:
@@ -386,7 +386,8 @@ def probes(subject: Subject, name: str) -> Iterator[tuple[str, str]]:
             yield f"decode_count{head}<{count}::Count>", f"{count}::decode_count_with(raw, with)"
     if subject.point.writable:
         tail = f", with: {write}::With) -> Result<{raw}, Error>"
-        yield f"encode(value: {value}{tail}", f"{write}::encode_with(value, with)"
+        if subject.point.encodes_values:
+            yield f"encode(value: {value}{tail}", f"<{name} as Encodable>::encode_with(value, with)"
         if subject.form not in WITHOUT_COUNTS:
             count = f"<{name} as CountWritable>"
             yield f"encode_count(count: {count}::Count{tail}", f"{count}::encode_count_with(count, with)"
