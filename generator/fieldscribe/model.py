@@ -95,11 +95,12 @@ class ScaleCase:
 class Limit:
     """A raw limit that other points set: the rule applied to 1, rounded half away from zero.
 
-    It does not apply while a point holds one of the raw numbers in `unless`; `least` and `greatest` bound it always.
+    It does not apply while a point holds a raw number in one of the bands (low, high) of `unless`; `least` and
+    `greatest` bound it always.
     """
 
     rule: Linear
-    unless: tuple[tuple[str, tuple[int, ...]], ...]
+    unless: tuple[tuple[str, tuple[tuple[int, int], ...]], ...]
     least: int
     greatest: int
 
@@ -150,13 +151,22 @@ class Enum:
 
 @dataclass(frozen=True, slots=True)
 class Special:
-    """Raw numbers low..high that are no quantity: a named state, or `no_value`."""
+    """A special code: raw numbers low..high that are no quantity; with `no_value` they say that there is none.
+
+    It is written only if `writable`; `hexadecimal` says that the manual writes it so.
+    """
 
     low: int
     high: int
     name: str
     title: Titles
     no_value: bool
+    writable: bool = False
+    hexadecimal: bool = False
+
+    def holds(self, raw: int) -> bool:
+        """Whether a raw number is this code."""
+        return self.low <= raw <= self.high
 
 
 @dataclass(frozen=True, slots=True)
@@ -208,7 +218,8 @@ class Point:
 
     `name` is unique but for variants: points of one name differ in `variant` ("axis=value"). `places` is empty when the
     manual prints no address. `scale` is None where the raw number is the value. `decimals` k fixes the unit of the
-    integer path, 10^-k units. `specials` are never computed with. `steps` gives (from raw, step in raw). `generated` is
+    integer path, 10^-k units. `specials` are never computed with; `specials_of` names what declares all of them for many
+    points (a type, a group, a format), and is empty where some are the point's own. `steps` gives (from raw, step in raw). `generated` is
     False for what is only documented; `reason` then says why.
     """
 
@@ -253,6 +264,7 @@ class Point:
     digits: Digits | None = None
     fixed: Fixed | None = None
     changes_with: tuple[str, ...] = ()
+    specials_of: str = ""
 
     @property
     def info(self) -> TypeInfo:
@@ -300,6 +312,10 @@ class Point:
     def writable(self) -> bool:
         """Whether the device takes the point."""
         return "w" in self.access
+
+    def special(self, raw: int) -> Special | None:
+        """The special code that a raw number is, if it is one."""
+        return next((one for one in self.specials if one.low <= raw <= one.high), None)
 
     @property
     def form(self) -> str:

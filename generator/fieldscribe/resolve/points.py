@@ -7,14 +7,15 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from fieldscribe.language.formula import FormulaError, condition_comparisons, parse_condition
-from fieldscribe.model import TYPES, UNSETTLED_TYPE, Allowed, Enum, Place, Point, ScaleCase, Special, Unit
+from fieldscribe.model import TYPES, UNSETTLED_TYPE, Allowed, Enum, Linear, Place, Point, ScaleCase, Special, Unit
 from fieldscribe.resolve.addresses import Places
 from fieldscribe.resolve.allowed import Ranges
 from fieldscribe.resolve.bounds import Bounds
-from fieldscribe.resolve.enums import enum_of, flags_of, specials_of
+from fieldscribe.resolve.enums import enum_of, flags_of
 from fieldscribe.resolve.integer_path import decimals_of
 from fieldscribe.resolve.names import Index, bits_of, space_of, type_of
 from fieldscribe.resolve.rules import Scales
+from fieldscribe.resolve.special_codes import SpecialCodes, quantities
 from fieldscribe.resolve.scope import PLAIN, Scope, source_of, titles
 from fieldscribe.resolve.telegrams import SPACE
 from fieldscribe.resolve.values import formula_finding, integer, number
@@ -42,6 +43,7 @@ class Shape:
     type: str
     bits: tuple[int, int] | None
     specials: tuple[Special, ...]
+    specials_of: str
 
     @property
     def width(self) -> int:
@@ -59,7 +61,9 @@ def resolve_points(
     scope: Scope, drafts: list[Draft], index: Index, telegrams: Telegrams
 ) -> tuple[list[Resolved], Ranges, Places]:
     """All points of the device, computed; what is wrong with one is a finding and falls back to what is plain."""
-    shapes = {draft: _shape(scope, draft) for draft in drafts}
+    codes = SpecialCodes(scope)
+    codes.check_types()
+    shapes = {draft: _shape(scope, draft, codes) for draft in drafts}
     bounds = Bounds(
         Scales(scope, index),
         {draft: shape.holds for draft, shape in shapes.items()},
@@ -71,10 +75,11 @@ def resolve_points(
     return found, ranges, places
 
 
-def _shape(scope: Scope, draft: Draft) -> Shape:
+def _shape(scope: Scope, draft: Draft, codes: SpecialCodes) -> Shape:
     space = space_of(scope, draft)
     bits = bits_of(scope, draft, space)
-    return Shape(space, type_of(scope, draft, space, bits), bits, specials_of(scope, draft))
+    kind = type_of(scope, draft, space, bits)
+    return Shape(space, kind, bits, *codes.of(draft, kind, bits))
 
 
 def _point(scope: Scope, draft: Draft, shape: Shape, places: Places, ranges: Ranges) -> Point:
@@ -87,6 +92,8 @@ def _point(scope: Scope, draft: Draft, shape: Shape, places: Places, ranges: Ran
     allowed = ranges.allowed(draft, enum)
     if digits is not None and not ranged:
         allowed = allowed_digits(scope, draft, digits, shape.holds[1])
+    if shape.specials:
+        allowed = quantities(scope, draft, allowed, shape.specials)
     if enum is not None and not said_open and _all_named(allowed, enum):
         enum = enum_of(scope, draft, closed=True)
     cases = _cases(draft, ranges.bounds)
@@ -111,11 +118,12 @@ def _point(scope: Scope, draft: Draft, shape: Shape, places: Places, ranges: Ran
         scale=cases,
         decimals=decimals_of(draft, cases, ranges.bounds),
         allowed=allowed,
-        default=None if draft.text else _default(scope, draft, enum),
+        default=None if draft.text else _default(scope, draft, enum, shape, cases),
         steps=_steps(scope, draft),
         enum=enum,
         flags=flags_of(scope, draft, shape.bits, shape.width),
         specials=shape.specials,
+        specials_of=shape.specials_of,
         record=draft.record,
         set=draft.set_number,
         changes=get("changes"),
@@ -178,12 +186,18 @@ def _unit(scope: Scope, draft: Draft) -> Unit:
     return found or PLAIN
 
 
-def _default(scope: Scope, draft: Draft, enum: Enum | None) -> Fraction | None:
-    """The factory setting in the unit; of an enum also by name."""
+def _default(
+    scope: Scope, draft: Draft, enum: Enum | None, shape: Shape, cases: tuple[ScaleCase, ...] | None
+) -> Fraction | None:
+    """The factory setting in the unit; of an enum, and of special codes under a fixed scale, also by name."""
     raw = draft.get("default")
     for entry in enum.entries if enum is not None else ():
         if entry.name == raw:
             return Fraction(entry.raw)
+    rule = cases[0].rule if cases is not None else Linear(Fraction(1), Fraction(0), ())
+    for special in shape.specials if not rule.factors and len(cases or ()) < 2 and not draft.floating else ():
+        if special.name == raw and special.low == special.high:
+            return (special.low - rule.offset) / rule.ratio
     return None if raw is None else number(raw, draft.span("default"), scope.report)
 
 
