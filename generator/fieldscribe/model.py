@@ -153,7 +153,8 @@ class Enum:
 class Special:
     """A special code: raw numbers low..high that are no quantity; with `no_value` they say that there is none.
 
-    It is written only if `writable`; `hexadecimal` says that the manual writes it so.
+    It is written only if `writable`; `hexadecimal` says that the manual writes it so. `own` is False for a code that a
+    type, a group or a format gives to many points.
     """
 
     low: int
@@ -163,6 +164,7 @@ class Special:
     no_value: bool
     writable: bool = False
     hexadecimal: bool = False
+    own: bool = True
 
     def holds(self, raw: int) -> bool:
         """Whether a raw number is this code."""
@@ -218,8 +220,8 @@ class Point:
 
     `name` is unique but for variants: points of one name differ in `variant` ("axis=value"). `places` is empty when the
     manual prints no address. `scale` is None where the raw number is the value. `decimals` k fixes the unit of the
-    integer path, 10^-k units. `specials` are never computed with; `specials_of` names what declares all of them for many
-    points (a type, a group, a format), and is empty where some are the point's own. `steps` gives (from raw, step in raw). `generated` is
+    integer path, 10^-k units. `specials` are never computed with; `specials_of` names what gives those that are not the
+    point's own to many points (a type, a group, a format). `steps` gives (from raw, step in raw). `generated` is
     False for what is only documented; `reason` then says why.
     """
 
@@ -316,6 +318,11 @@ class Point:
     def special(self, raw: int) -> Special | None:
         """The special code that a raw number is, if it is one."""
         return next((one for one in self.specials if one.low <= raw <= one.high), None)
+
+    @property
+    def shared_codes(self) -> str:
+        """What gives all special codes of the point to many points; empty where some are its own."""
+        return "" if any(one.own for one in self.specials) else self.specials_of
 
     @property
     def form(self) -> str:

@@ -63,18 +63,24 @@ class SpecialCodes:
                     self.held(facts["special"], kind, TYPES[kind].bits)
 
     def of(self, draft: Draft, kind: str, bits: tuple[int, int] | None) -> tuple[tuple[Special, ...], str]:
-        """The codes of a point of type `kind`, the nearest first, and the name of what declares all of them."""
+        """The codes of a point of type `kind`, the nearest first, and the name of what declares those not its own."""
         levels = tuple(_levels(self.scope, draft, kind, bits))
         if not levels:
             return (), ""
         width = TYPES[kind].bits if bits is None else bits[0] - bits[1] + 1
         key = (*(id(level.codes) for level in levels), kind, width)
         if key not in self._found:
-            codes = self._merged([self.held(level.codes, kind, width) for level in levels])
-            labels = [level.label for level in reversed(levels) if level.label != kind]
-            name = "" if "" in labels else "_".join(dict.fromkeys((*labels, kind)))
-            self._found[key] = tuple(map(_special, codes)), name
+            self._found[key] = self._found_of(levels, kind, width)
         return self._found[key]
+
+    def _found_of(self, levels: tuple[_Level, ...], kind: str, width: int) -> tuple[tuple[Special, ...], str]:
+        codes = self._merged([self.held(level.codes, kind, width) for level in levels])
+        shared = [level for level in levels if level.label]
+        inherited = self._merged([self.held(level.codes, kind, width) for level in shared])
+        whole = bool(inherited) and all(any(one.span == code.span for code in codes) for one in inherited)
+        labels = dict.fromkeys(level.label for level in reversed(shared) if level.label != kind)
+        own = {id(level.codes) for level in levels if not level.label or not whole}
+        return tuple(_special(code, id(code.holder) in own) for code in codes), "_".join((*labels, kind)) if whole else ""
 
     def held(self, raw: Map, kind: str, width: int) -> tuple[_Code, ...]:
         """What one `special` says, as raw numbers of that type; findings for what it cannot hold or is given twice."""
@@ -220,7 +226,7 @@ def _without(low: int, high: int, specials: tuple[Special, ...]) -> list[Interva
     return [*parts, Interval(low, high)] if low <= high else parts
 
 
-def _special(code: _Code) -> Special:
+def _special(code: _Code, own: bool) -> Special:
     value = code.holder[code.key]
     facts = {} if isinstance(value, str) else value
     name = str(code.name)
@@ -232,4 +238,5 @@ def _special(code: _Code) -> Special:
         facts.get("no_value") in (True, "yes"),
         facts.get("writable") in (True, "yes"),
         code.hexadecimal,
+        own,
     )

@@ -32,8 +32,7 @@ from fieldscribe.targets.c.views import (
     PointView,
 )
 from fieldscribe.text import c_comment, c_string
-from fieldscribe.wording import access_text, range_text, raw_range_text, resolution_text, with_unit
-from fieldscribe.wording.exact import number_text
+from fieldscribe.wording import access_text, default_text, range_text, raw_range_text, resolution_text
 
 if TYPE_CHECKING:
     from fieldscribe.model import Enum, Flag, Point
@@ -96,7 +95,7 @@ def comment_lines(point: Point, scope: Scope) -> tuple[str, ...]:
     head = f"{point.code}: {point.title['en']}" if point.code else point.title["en"]
     facts = [_range(point) if point.reason != UNSETTLED_TYPE else "", access_text(point.access)]
     if point.default is not None:
-        facts.append(f"default {with_unit(number_text(point.default), point)}")
+        facts.append(f"default {default_text(point)}")
     lines = [*_wrapped(head), *_wrapped("; ".join(fact for fact in facts if fact) + ".")]
     for flag in point.flags:
         if flag.width == 1 and flag.active == 0:
