@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from fieldscribe.resolve.points import Resolved
 
 HEADER = frozenset(
-    {"ok", "out_of_range", "not_a_number", "unknown_value", "zero_factor", "no_case", "overflow", "no_value", "h"}
+    {"ok", "out_of_range", "not_a_number", "unknown_value", "zero_factor", "no_case", "overflow", "special", "h"}
     | {"modbus_h", "description_version", "description_digest", "status", "real", "rule", "signed", "signed32"}
     | {"signed64", "divide", "divide_wide", "magnitude", "multiply", "add", "times_ten_to", "ratio", "apply_rule"}
     | {"raw_from_count", "count_from_raw", "times", "times_wide", "round", "round_wide", "copy", "f32_of_bits"}
@@ -37,7 +37,10 @@ _FUNCTIONS = frozenset(
 )
 _BITS = frozenset({"shift", "mask"})
 
+_OF_CODES = ("is_special", "special_name", "is_no_value")
+
 _SOMETIMES: Mapping[str, Callable[[Point], bool]] = {
+    **dict.fromkeys(_OF_CODES, lambda point: bool(point.specials)),
     "index": lambda point: point.index is not None,
     "characters": lambda point: point.text is not None,
     "digits": lambda point: point.digits is not None,
@@ -128,10 +131,13 @@ def _of_device(subject: Subject) -> Iterator[str]:
 
 def _named(item: str, point: Point) -> Iterator[tuple[str, str, str, str]]:
     """Prefix, tail, what it is, and the key under which it stands."""
+    holder = point.shared_codes or item
     for special in point.specials:
         ends = ("",) if special.low == special.high else ("_first", "_last")
         for end in ends:
-            yield item, special.name + end, f"the code `{special.name}` of `{item}`", "special"
+            yield holder, special.name + end, f"the code `{special.name}` of `{holder}`", "special"
+    for tail in _OF_CODES if point.shared_codes else ():
+        yield holder, tail, f"the special codes of `{holder}`", "special"
     for flag in point.flags:
         more = ("_shift", *(f"_{value.name}" for value in flag.values)) if flag.width > 1 else ()
         for end in ("", "_mask", *more):

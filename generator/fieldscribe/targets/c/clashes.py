@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.targets.c.device import device_view, function_names
 from fieldscribe.targets.c.families import FAMILIES
+from fieldscribe.targets.c.special_codes import FUNCTIONS
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -60,7 +61,7 @@ _MACROS = (
     "ZERO_FACTOR",
     "NO_CASE",
     "OVERFLOW",
-    "NO_VALUE",
+    "SPECIAL",
     "H",
     "MODBUS_H",
     "CAN_H",
@@ -97,6 +98,10 @@ def _of_points(view: DeviceView) -> Iterator[tuple[str, str]]:
             yield from ((name, remark.item) for name, _ in remark.defines)
             if point is None:
                 continue
+            if point.special is not None and point.special.codes is not None:
+                codes = point.special.codes
+                yield from ((codes.name + tail, codes.name) for tail in FUNCTIONS)
+                yield from ((name, codes.name) for name, _ in codes.defines)
             if point.enum is not None:
                 yield point.enum.function, f"enum {point.enum.function}"
                 for name, _, _ in point.enum.entries:

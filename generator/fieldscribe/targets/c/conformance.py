@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.names import upper
-from fieldscribe.targets.c.defines import special_defines
 from fieldscribe.targets.c.literals import raw_type
 from fieldscribe.targets.c.points import named_numbers, value_type
+from fieldscribe.targets.c.special_codes import owner, special_defines
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -42,7 +42,7 @@ class SuiteView:
     telegrams: tuple[str, ...]
 
 
-_STATUSES = ("ok", "out_of_range", "not_a_number", "unknown_value", "zero_factor", "no_case", "overflow", "no_value")
+_STATUSES = ("ok", "out_of_range", "not_a_number", "unknown_value", "zero_factor", "no_case", "overflow", "special")
 
 
 def conformance_view(device: Device, view: DeviceView, scope: Scope, extra: Mapping[str, str]) -> SuiteView:
@@ -79,7 +79,7 @@ def _adapter(point: Point, view: PointView, scope: Scope, extra: Mapping[str, st
             if flag.width > 1
             for entry in flag.values
         ),
-        tuple(_special(special, view) for special in point.specials),
+        tuple(_special(special, point, scope) for special in point.specials),
     )
 
 
@@ -139,8 +139,8 @@ def _constants(point: Point, view: PointView) -> str:
     return " ".join(f"FIELDSCRIBE_{call}" for call in calls)
 
 
-def _special(special: Special, view: PointView) -> tuple[str, str, str]:
-    (first, _), (last, _) = special_defines(special, view.macro)
+def _special(special: Special, point: Point, scope: Scope) -> tuple[str, str, str]:
+    (first, _), (last, _) = special_defines(special, f"{scope.upper}_{upper(owner(point))}", point)
     return special.name, first, last
 
 
@@ -151,7 +151,7 @@ def _conversions(point: Point, view: PointView, scope: Scope) -> list[str]:
     arguments = point.arguments if view.declare_all else ()
     everything = _with(point, arguments, scope)
     scale = _with(point, view.scale_arguments, scope)
-    attempt = "TRY_" if view.no_value or form == "ruled" else ""
+    attempt = "TRY_" if view.special is not None or form == "ruled" else ""
     counted = "" if form == "plain" else "_count"
     number = getattr(view.codec, "count_type", "int64_t") if form != "plain" else value_type(point)
     if form == "plain" and kind == "bool" and not attempt:

@@ -10,6 +10,7 @@ from fieldscribe.names import upper
 from fieldscribe.targets.c.defines import place_defines
 from fieldscribe.targets.c.points import comment_lines, point_view
 from fieldscribe.targets.c.scope import Scope, scope_of
+from fieldscribe.targets.c.special_codes import FUNCTIONS
 from fieldscribe.targets.c.views import DeviceView, GroupView, Needs, PointView, RemarkView, TelegramView
 from fieldscribe.text import c_comment
 
@@ -78,19 +79,20 @@ def head_lines(device: Device) -> tuple[str, ...]:
 def function_names(view: PointView) -> list[str]:
     """Every function that the header defines for a point, but for the names of its enum."""
     counted = view.shape in ("scaled", "ruled")
+    codes = [] if view.special is None else [view.function + tail for tail in FUNCTIONS]
     if view.shape in ("text", "digits"):
         tails = ["_encode"] if view.writable else []
         tails += ["_decode"] if view.readable else []
         tails += ["_check"] if view.shape == "digits" and view.writable else []
         tails += ["_addresses"] if view.shape == "text" else []
-        return [view.function + tail for tail in tails]
+        return [*(view.function + tail for tail in tails), *codes]
     tails = ["_encode", "_encode_count"][: 1 + counted] if view.writable else []
     tails += ["_decode", "_decode_count"][: 1 + counted] if view.readable else []
     tails += ["_check"] if view.writable else []
     tails += ["_rule"] if view.shape == "ruled" else []
     tails += ["_to_words", "_from_words"] if view.words else []
     tails += ["_extract", "_insert"] if view.bits else []
-    return [view.function + tail for tail in tails] + [flag.function for flag in view.flags]
+    return [*(view.function + tail for tail in tails), *(flag.function for flag in view.flags), *codes]
 
 
 def _aliases(view: PointView, function: str, macro: str) -> list[tuple[str, str]]:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from fieldscribe.model import UNSETTLED_TYPE
 from fieldscribe.names import upper
 from fieldscribe.targets.c.defines import defines
-from fieldscribe.targets.c.limits import any_of, check_view, interval_test
+from fieldscribe.targets.c.limits import any_of, check_view
 from fieldscribe.targets.c.literals import (
     VALUE_BOUNDS,
     bare,
@@ -17,13 +17,14 @@ from fieldscribe.targets.c.literals import (
     raw_bounds,
     raw_type,
     signed,
-    unsigned,
 )
 from fieldscribe.targets.c.parts import digits_view, text_view
 from fieldscribe.targets.c.places import bits_view, fixed_number, fixes, words_view
 from fieldscribe.targets.c.rules import ruled_view
 from fieldscribe.targets.c.scales import scaled_view
+from fieldscribe.targets.c.special_codes import encoded_limits, special_view
 from fieldscribe.targets.c.views import (
+    CheckView,
     Codec,
     EnumView,
     FlagView,
@@ -46,7 +47,8 @@ def point_view(point: Point, scope: Scope) -> PointView:
     macro = f"{scope.upper}_{upper(point.item)}"
     low, high = (0, 0) if point.info.floating else outer_limits(point)
     scale, limits = point.scale_arguments, point.limit_arguments
-    shape, codec = _codec(point, macro, scope, (low, high), scale)
+    reach = encoded_limits(point) if point.specials and not point.info.floating else (low, high)
+    shape, codec = _codec(point, macro, scope, reach, scale)
     checked = point.writable and shape in ("plain", "scaled", "ruled")
     check = check_view(point, macro, scope, limits) if checked else None
     enum = named_numbers(point)
@@ -67,8 +69,10 @@ def point_view(point: Point, scope: Scope) -> PointView:
         readable=point.readable,
         writable=point.writable,
         check=check,
-        recheck=check is not None and (len(point.allowed.intervals) > 1 or bool(check.limits) or fixes(point)),
-        no_value=_no_value(point) if point.specials else "",
+        recheck=check is not None and _is_rechecked(point, check),
+        special=special_view(point, scope),
+        encode_min=signed(reach[0]) if reach[0] < low else f"{macro}_RAW_MIN",
+        encode_max=signed(reach[1]) if reach[1] > high else f"{macro}_RAW_MAX",
         scale_arguments=scale,
         limit_arguments=limits,
         declare_all=scope.declare(point.arguments) if scale and limits else declare_scale or declare_limits,
@@ -81,6 +85,11 @@ def point_view(point: Point, scope: Scope) -> PointView:
         if point.flags
         else (),
     )
+
+
+def _is_rechecked(point: Point, check: CheckView) -> bool:
+    """Whether a number between the outer limits may still not be written."""
+    return len(point.allowed.intervals) > 1 or bool(check.limits) or fixes(point) or bool(point.specials)
 
 
 def value_type(point: Point) -> str:
@@ -149,8 +158,9 @@ def _codec(
         tests = [f"value < {bare(low)}"] if low > least else []
         tests += [f"value > {bare(high)}"] if high < greatest else []
         return "plain", PlainView(kind, " || ".join(tests), fixed_number(point, macro, scope, "value"))
-    tests = [f"value < {macro}_RAW_MIN"] if outer[0] > least else []
-    tests += [f"value > {macro}_RAW_MAX"] if outer[1] < greatest else []
+    low_end, high_end = (bare(outer[0]), bare(outer[1])) if point.specials else (f"{macro}_RAW_MIN", f"{macro}_RAW_MAX")
+    tests = [f"value < {low_end}"] if outer[0] > least else []
+    tests += [f"value > {high_end}"] if outer[1] < greatest else []
     return "plain", PlainView(kind, " || ".join(tests), "")
 
 
@@ -199,8 +209,3 @@ def _flag_view(flag: Flag, point: Point, macro: str, scope: Scope) -> FlagView:
         f"{scope.prefix}_{point.item}_{flag.name}", kind, f"({kind})(({number} & {name}_MASK) >> {name}_SHIFT)"
     )
 
-
-def _no_value(point: Point) -> str:
-    literal = bare if point.info.signed else unsigned
-    codes = [special for special in point.specials if special.no_value]
-    return any_of([interval_test("raw", code.low, code.high, raw_bounds(point), literal) for code in codes])
