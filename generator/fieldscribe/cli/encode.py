@@ -31,7 +31,9 @@ def add_arguments(parser: ArgumentParser) -> None:
     from fieldscribe.cli.link import add_framing, add_uss, add_with
 
     add_device(parser)
-    parser.add_argument("point", metavar="POINT", help="its code, name or address; with .raw behind it VALUE is a raw number")
+    parser.add_argument(
+        "point", metavar="POINT", help="its code, name or address; with .raw behind it VALUE is a raw number"
+    )
     parser.add_argument(
         "value",
         metavar="VALUE",

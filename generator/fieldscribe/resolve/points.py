@@ -15,8 +15,8 @@ from fieldscribe.resolve.enums import enum_of, flags_of
 from fieldscribe.resolve.integer_path import decimals_of
 from fieldscribe.resolve.names import Index, bits_of, space_of, type_of
 from fieldscribe.resolve.rules import Scales
-from fieldscribe.resolve.special_codes import SpecialCodes, quantities
 from fieldscribe.resolve.scope import PLAIN, Scope, source_of, titles
+from fieldscribe.resolve.special_codes import SpecialCodes, quantities
 from fieldscribe.resolve.telegrams import SPACE
 from fieldscribe.resolve.values import formula_finding, integer, number
 from fieldscribe.resolve.word_facts import allowed_digits, digits_of, fixed_of, text_of

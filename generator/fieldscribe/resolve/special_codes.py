@@ -80,7 +80,8 @@ class SpecialCodes:
         whole = bool(inherited) and all(any(one.span == code.span for code in codes) for one in inherited)
         labels = dict.fromkeys(level.label for level in reversed(shared) if level.label != kind)
         own = {id(level.codes) for level in levels if not level.label or not whole}
-        return tuple(_special(code, id(code.holder) in own) for code in codes), "_".join((*labels, kind)) if whole else ""
+        specials = tuple(_special(code, id(code.holder) in own) for code in codes)
+        return specials, "_".join((*labels, kind)) if whole else ""
 
     def held(self, raw: Map, kind: str, width: int) -> tuple[_Code, ...]:
         """What one `special` says, as raw numbers of that type; findings for what it cannot hold or is given twice."""

@@ -208,4 +208,3 @@ def _flag_view(flag: Flag, point: Point, macro: str, scope: Scope) -> FlagView:
     return FlagView(
         f"{scope.prefix}_{point.item}_{flag.name}", kind, f"({kind})(({number} & {name}_MASK) >> {name}_SHIFT)"
     )
-

@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.model import Bound, Factor, Interval, Limit, Linear, Place, Point, ScaleCase, Special
-from fieldscribe.targets.python.layout import Group, Node, call
+from fieldscribe.targets.python.layout import Group, Node, assigned, call
 from fieldscribe.text import python_string
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterator
     from fractions import Fraction
 
     from fieldscribe.targets.python.scope import Scope
@@ -23,11 +23,38 @@ NUMBERED = frozenset({"parameter", "telegram"})
 def form(point: Point, scope: Scope) -> Node:
     """The form of a point, as `Scaled(U16, Rule(num=10), decimals=1)`."""
     inner = _plain_form(point, scope)
-    codes = [special for special in point.specials if special.no_value]
-    if not codes:
+    if not point.specials:
         return inner
-    scope.used.add("OrNone")
-    return call("OrNone", (inner, spans("{", codes)))
+    around = "WithWritableCodes" if any(one.writable for one in point.specials) and point.writable else "WithCodes"
+    scope.used.add(around)
+    return call(around, (inner, _codes(point, scope)))
+
+
+def _codes(point: Point, scope: Scope) -> Node:
+    """The special codes of a point; those that many share have a name of their own."""
+    scope.used.add("Codes")
+    if not point.shared_codes:
+        return call("Codes", _code_arguments(point))
+    name = f"{point.shared_codes.upper()}_CODES"
+    scope.codes.setdefault(name, assigned(name, call("Codes", _code_arguments(point))))
+    return name
+
+
+def _code_arguments(point: Point) -> Iterator[Node]:
+    numbers = [(one, tuple(_code_number(end, one) for end in (one.low, one.high))) for one in point.specials]
+    texts = [
+        f"{python_string(one.name)}: {low if one.low == one.high else f'({low}, {high})'}"
+        for one, (low, high) in numbers
+    ]
+    yield Group("{", tuple(texts), "}")
+    for key in ("no_value", "writable"):
+        names = [python_string(one.name) for one in point.specials if getattr(one, key)]
+        if names:
+            yield Group(f"{key}=(", tuple(names))
+
+
+def _code_number(raw: int, special: Special) -> str:
+    return f"0x{raw:04X}" if special.hexadecimal and raw >= 0 else str(raw)
 
 
 def _plain_form(point: Point, scope: Scope) -> Node:
@@ -173,7 +200,7 @@ def _bound(bound: Bound, scope: Scope) -> Node:
         return str(bound)
     scope.used.update(("Limit", "Rule"))
     unless = [
-        Group(f"{python_string(name)}: (", tuple([str(code) for code in codes]))
+        Group(f"{python_string(name)}: (", tuple([f"({low}, {high})" for low, high in codes]))
         for name, codes in bound.unless
         if codes
     ]
@@ -203,11 +230,6 @@ def place(keyword: str, where: Place, scope: Scope, point: Point | None = None) 
         return call(f"{keyword}={maker}", (*addresses, *function, *index))
     scope.used.add("Place")
     return call(f"{keyword}=Place", (python_string(where.space), Group("(", tuple(addresses)), *function, *index))
-
-
-def spans(head: str, specials: Iterable[Special]) -> Group:
-    """Raw numbers by name, first and last."""
-    return Group(head, tuple(f"{python_string(one.name)}: ({one.low}, {one.high})" for one in specials), "}")
 
 
 def number(value: Fraction, binary: bool = False) -> str:

@@ -19,11 +19,11 @@ from .errors import (
     NoCaseError,
     NoReplyError,
     NotANumberError,
-    NoValueError,
     RangeError,
     RefusedError,
     RequestError,
     ResultOverflowError,
+    SpecialCodeError,
     TelegramError,
     UnknownValueError,
     WrongLengthError,
@@ -69,9 +69,10 @@ from .points import Point
 from .quantities import Floating, Scaled
 from .rules import Case, Factor, Limit, Rule
 from .session import PointTable, Value
+from .special import Codes, Special
 from .texts import Digits, Text
 from .words import Field, Flag, Word
-from .wrappers import OrNone
+from .wrappers import WithCodes, WithWritableCodes
 
 Device = ModbusDevice
 AsyncDevice = AsyncModbusDevice
@@ -99,6 +100,7 @@ __all__ = [
     "ByVariant",
     "Case",
     "CodecError",
+    "Codes",
     "Command",
     "Device",
     "Digits",
@@ -118,9 +120,7 @@ __all__ = [
     "Named",
     "NoCaseError",
     "NoReplyError",
-    "NoValueError",
     "NotANumberError",
-    "OrNone",
     "Place",
     "Point",
     "PointTable",
@@ -133,12 +133,16 @@ __all__ = [
     "ResultOverflowError",
     "Rule",
     "Scaled",
+    "Special",
+    "SpecialCodeError",
     "Telegram",
     "TelegramError",
     "Text",
     "Transport",
     "UnknownValueError",
     "Value",
+    "WithCodes",
+    "WithWritableCodes",
     "Word",
     "WriteOnly",
     "WrongLengthError",

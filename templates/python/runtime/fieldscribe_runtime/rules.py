@@ -155,17 +155,22 @@ def chosen(cases: tuple[Case, ...], raws: Raws) -> Rule:
 
 @dataclass(frozen=True, slots=True)
 class Limit:
-    """A limit that other points set: `rule` applied to 1. It does not hold while a point has a number of `unless`."""
+    """A limit that other points set: `rule` applied to 1.
+
+    It does not hold while a point has a number in one of its bands (first, last) of `unless`.
+    """
 
     rule: Rule
     least: int
     greatest: int
-    unless: Mapping[str, tuple[int, ...]]
+    unless: Mapping[str, tuple[tuple[int, int], ...]]
 
     def raw(self, raws: Raws) -> int | None:
         """The limit as a raw number; None while it does not hold."""
-        if any(raw_of(point, raws) in codes for point, codes in self.unless.items()):
-            return None
+        for point, bands in self.unless.items():
+            held = raw_of(point, raws)
+            if any(first <= held <= last for first, last in bands):
+                return None
         return self.rule.encode_count(1, 0, raws, zero_allowed=True)
 
 
