@@ -86,7 +86,7 @@ def decimal(number: Fraction) -> str:
 
 
 def _names(point: Point) -> Iterator[tuple[int, str]]:
-    seen = set()
+    seen: set[int] = set()
     for one in point.specials if not point.info.floating else ():
         if one.high - one.low < _MOST_CODES:
             seen.update(range(one.low, one.high + 1))

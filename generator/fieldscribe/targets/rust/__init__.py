@@ -38,6 +38,7 @@ _RUNTIME = (
     "src/point.rs",
     "src/raw.rs",
     "src/rule.rs",
+    "src/special.rs",
     "src/text.rs",
     "src/uss/client.rs",
     "src/uss/error.rs",
@@ -54,7 +55,7 @@ def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     context = device_context(device, scope)
     folder = f"rust/{device.id}"
     yield f"{folder}/Cargo.toml", render("rust/Cargo.toml.j2", context)
-    for name in _SOURCES:
+    for name in (*_SOURCES, *(("special",) if context["codes"] else ())):
         yield f"{folder}/src/{name}.rs", render(f"rust/{name}.rs.j2", context)
     tables = conformance_tables(scope)
     suite = {**context, "tables": tables, "kinds": {kind for kind, _, _ in tables}}

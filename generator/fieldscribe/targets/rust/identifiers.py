@@ -44,8 +44,11 @@ def _of_point(subject: Subject) -> Iterator[Identifier]:
         yield "points", type_name(old), f"former name {old} of {own}"
     for key in subject.point.references:
         yield f"points::{item}", key.upper(), f"numbering {key} of {own}"
+    holder = f"special::{subject.point.shared_codes}" if subject.point.shared_codes else f"points::{item}"
     for special in subject.point.specials:
-        yield f"points::{item}", special.name.upper(), f"special {special.name} of {own}"
+        ends = ("",) if special.low == special.high else ("", "_LAST")
+        for end in ends:
+            yield holder, special.name.upper() + end, f"special {special.name} of {holder}"
     if subject.arguments:
         yield "with", subject.name, own
     if subject.factors and subject.factors != subject.arguments:

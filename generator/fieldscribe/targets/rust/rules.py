@@ -108,6 +108,12 @@ def count_path(rule: Linear, decimals: int, raw: str, low: int, high: int) -> Co
     )
 
 
+def encoded_bounds(point: Point, low: int, high: int) -> tuple[int, int]:
+    """The same for what values are looked at: with the special codes, which no value may become."""
+    lows, highs = [one.low for one in point.specials], [one.high for one in point.specials]
+    return min([low, *lows]), max([high, *highs])
+
+
 def run_time_rules(point: Point, points: Mapping[str, Point]) -> tuple[RuleView, ...]:
     """The cases of a scale that needs other points, in their order, up to one that always holds."""
     found: list[RuleView] = []
@@ -177,7 +183,9 @@ def outer(bound: Bound, *, lower: bool) -> int:
 
 def _limit(local: str, limit: Limit, points: Mapping[str, Point]) -> LimitView:
     lower = local.startswith("low")
-    unless = tuple((_raw_of(name), " | ".join(map(integer, codes))) for name, codes in limit.unless if codes)
+    unless = tuple(
+        (_raw_of(name), " | ".join(interval(*band) for band in codes)) for name, codes in limit.unless if codes
+    )
     rule = _rule(limit.rule, "", "", _factors(limit.rule, points, limit=True))
     bound = integer(outer(limit, lower=lower))
     return LimitView(local, unless, bound, rule, f"max({bound})" if lower else f"min({bound})")

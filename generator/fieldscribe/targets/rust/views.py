@@ -67,7 +67,6 @@ class ReadView:
     parameter: str
     failing: bool
     narrows: bool
-    no_value: tuple[str, ...]
     value: str
     count_type: str
     scaled: str
@@ -127,7 +126,11 @@ class OrderView:
 
 @dataclass(frozen=True, slots=True)
 class PointView:
-    """One point. `scattered`: the words of a text do not come first to last; `traits`: what else it implements."""
+    """One point.
+
+    `scattered`: the words of a text do not come first to last; `traits`: what else it implements; `coded`: it has
+    special codes.
+    """
 
     doc: tuple[str, ...]
     alias: str
@@ -146,6 +149,7 @@ class PointView:
     write: WriteView | None
     own_constants: tuple[ConstantView, ...]
     was: tuple[tuple[str, ...], ...]
+    coded: bool
 
 
 @dataclass(frozen=True, slots=True)
