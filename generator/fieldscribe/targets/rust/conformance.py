@@ -26,22 +26,30 @@ def conformance_tables(scope: Scope) -> tuple[Table, ...]:
     texts = [one for one in scope.subjects if one.form == "text"]
     digits = [one for one in scope.subjects if one.form == "digits"]
     whole = [one for one in scope.subjects if one.form not in ("scaled", "float", "text", "digits")]
-    plain = [one for one in whole if one.carried == one.raw]
+    plain = [one for one in whole if one.carried == one.raw and not one.point.specials]
+    coded = [one for one in whole if one.carried == one.raw and one.point.specials]
     mixed = [one for one in whole if one.carried != one.raw]
     read_scaled, write_scaled = tuple(_reads(scaled)), tuple(_writes(scaled))
-    write_plain, write_mixed = tuple(_writes(plain)), tuple(_writes(mixed))
+    write_plain, write_coded, write_mixed = tuple(_writes(plain)), tuple(_writes(coded)), tuple(_writes(mixed))
     return (
         ("decode", "decode", (*read_scaled, *_reads(floats))),
         ("encode", "encode", (*write_scaled, *_writes(floats))),
         ("decode_count", "decode_count", read_scaled),
         ("decode_plain", "decode_plain", tuple(_reads(plain))),
+        ("decode_coded", "decode_coded", tuple(_reads(coded))),
         ("decode_mixed", "decode_count", tuple(_reads(mixed))),
         ("encode_count", "encode_count", write_scaled),
         ("encode_plain", "encode_plain", write_plain),
+        ("encode_coded", "encode_coded", write_coded),
         ("encode_mixed", "encode_count", write_mixed),
-        ("check", "check", (*write_scaled, *write_plain, *write_mixed, *_writes(floats), *_writes(digits))),
+        (
+            "check",
+            "check",
+            (*write_scaled, *write_plain, *write_coded, *write_mixed, *_writes(floats), *_writes(digits)),
+        ),
         ("name", "name", tuple(_names(whole))),
-        ("special", "special", tuple(_specials(scope.subjects))),
+        ("special", "special", tuple(_row(one, "alone") for one in scope.subjects if one.point.specials)),
+        ("special_name", "special_name", tuple(_row(one, "alone") for one in scope.subjects if one.point.specials)),
         ("flag", "flag", tuple(_flags(whole))),
         ("flag_name", "flag_name", tuple(_flag_names(whole))),
         ("bits", "bits", tuple(_row(one, "alone") for one in scope.subjects if one.point.bits)),
@@ -61,8 +69,10 @@ def _newer(scope: Scope, texts: list[Subject], digits: list[Subject]) -> Iterato
         ("fixed", tuple(_row(one, "alone") for one in fixed)),
         ("text_decode", tuple(_row(one, _sizes(one.point)) for one in texts if one.point.readable)),
         ("text_encode", tuple(_row(one, _sizes(one.point)) for one in texts if one.point.writable)),
-        ("digits", tuple(_row(one, _counted(one)) for one in digits if one.point.readable)),
-        ("digits_encode", tuple(_row(one, _counted(one)) for one in digits if one.point.writable)),
+        ("digits", tuple(_digits(digits, "r", coded=False))),
+        ("digits_coded", tuple(_digits(digits, "r", coded=True))),
+        ("digits_encode", tuple(_digits(digits, "w", coded=False))),
+        ("digits_encode_coded", tuple(_digits(digits, "w", coded=True))),
         ("can_telegram", tuple(_row(one, "frames") for one in heard)),
     ):
         if rows:
@@ -80,6 +90,12 @@ def _is_heard(subject: Subject, scope: Scope) -> bool:
 
 def _sizes(point: Point) -> str:
     return f"sizes {point.text.characters if point.text is not None else 0} {point.words}"
+
+
+def _digits(subjects: Iterable[Subject], access: str, *, coded: bool) -> Iterator[str]:
+    for one in subjects:
+        if access in one.point.access and bool(one.point.specials) == coded:
+            yield _row(one, _counted(one))
 
 
 def _counted(subject: Subject) -> str:
@@ -125,13 +141,6 @@ def _names(subjects: Iterable[Subject]) -> Iterator[str]:
     for one in subjects:
         if one.enum is not None:
             yield f"{rust_string(one.point.item)} {type_name(one.enum.name)} (enum {one.carried})"
-
-
-def _specials(subjects: Iterable[Subject]) -> Iterator[str]:
-    for one in subjects:
-        for special in one.point.specials:
-            kind = "one" if special.low == special.high else "several"
-            yield f"{rust_string(f'{one.point.item} {special.name}')} {one.name} ({kind} {special.name.upper()})"
 
 
 def _flags(subjects: Iterable[Subject]) -> Iterator[str]:
