@@ -142,14 +142,18 @@ HAND = [
     by_hand("encode_count", "base_frequency", count=-2147483648, status="out_of_range"),
     by_hand("address", "base_frequency", space="holding", address=4136, words=1, code="A020", raw_min=0, raw_max=4000)
     | {"decimals": 1, "references": {"modicon": "4137", "reference": "404137"}},
-    by_hand("address", "lower_limit", space="holding", address=4186, words=1, raw_min=0, raw_max=4000)
+    by_hand("address", "lower_limit", space="holding", address=4186, words=1, raw_min=5, raw_max=4000)
     | {"decimals": 1, "references": {"modicon": "4187"}},
     by_hand("address", "float_setpoint", space="holding", address=8212, words=2, references={"modicon": "8213"}),
     # raw = value * 10 + 5/2: raw 0 is -0.25, and 0.0 lies halfway between 2 and 3
     by_hand("decode", "temperature", raw=0, status="ok", float="bfd0000000000000"),
-    by_hand("decode", "temperature", raw=32767, status="no_value"),
-    by_hand("decode_count", "temperature", raw=32767, status="no_value"),
+    by_hand("decode", "temperature", raw=32767, status="special", special="no_sensor"),
+    by_hand("decode_count", "temperature", raw=32767, status="special", special="no_sensor"),
     by_hand("special", "temperature", special="no_sensor", low=32767, high=32767),
+    by_hand("special_name", "temperature", raw=32767, name="no_sensor", no_value=1),
+    by_hand("special_name", "temperature", raw=32766),
+    by_hand("encode_count", "upper_limit", **given({"lower_limit": 0}), count=0, status="special"),
+    by_hand("check", "upper_limit", **given({"lower_limit": 4000}), raw=0, status="ok"),
     # raw = value * 3 / 7: 7/3 has no end
     by_hand("decode", "third", raw=30000, status="ok", float=f64(70000.0)),
     by_hand("decode", "third", raw=65535, status="ok", float=f64(152915.0)),
@@ -214,7 +218,7 @@ HAND = [
     | {"float": f64(-1300.0)},
     by_hand("decode", "setpoint", **given({"unit_mode": 2, "reference_frequency": 217}), raw=1, status="no_case"),
     by_hand("decode", "setpoint", **given({"unit_mode": 0, "reference_frequency": 0}), raw=1, status="zero_factor"),
-    # upper_limit: 0, or from lower_limit to 4000; lower_limit 0 lifts the limit
+    # upper_limit: from lower_limit to 4000; 0 is a special code that may be written; lower_limit 0 lifts the limit
     by_hand("check", "upper_limit", **given({"lower_limit": 4000}), raw=3999, status="out_of_range"),
     by_hand("check", "upper_limit", **given({"lower_limit": 4000}), raw=4000, status="ok"),
     by_hand("check", "upper_limit", **given({"lower_limit": 0}), raw=1, status="ok"),
@@ -379,7 +383,7 @@ class Reading:
         """A bound at these settings."""
         if isinstance(bound, int):
             return bound
-        if any(given_[name] in codes for name, codes in bound.unless):
+        if any(first <= given_[name] <= last for name, bands in bound.unless for first, last in bands):
             return bound.least if low else bound.greatest
         product = bound.rule.ratio
         for factor in bound.rule.factors:
@@ -395,9 +399,9 @@ class Reading:
         raise RefusedError("unknown_value" if subject.enum is not None and subject.enum.closed else "out_of_range")
 
     def present(self, subject: Point, raw: int) -> None:
-        """Refuses numbers that say that there is no value."""
-        if any(special.low <= raw <= special.high and special.no_value for special in subject.specials):
-            raise RefusedError("no_value")
+        """Refuses numbers that are special codes."""
+        if any(special.low <= raw <= special.high for special in subject.specials):
+            raise RefusedError("special")
 
     def decode(self, subject: Point, vector: Vector) -> Vector:
         raw = vector["raw"]
@@ -426,6 +430,7 @@ class Reading:
         if math.isinf(value):
             raise RefusedError("out_of_range")
         raw = near(Fraction(value))
+        self.present(subject, raw)
         self.admit(subject, raw, vector.get("with", {}))
         return {"status": "ok", "raw": raw}
 
@@ -435,6 +440,8 @@ class Reading:
             packed = struct.pack(form, value)
         except OverflowError:
             raise RefusedError("out_of_range") from None
+        if math.isfinite(value):
+            self.present(subject, int.from_bytes(packed, "big"))
         self.admit_float(subject, struct.unpack(form, packed)[0])
         return {"status": "ok", "raw": int.from_bytes(packed, "big")}
 
@@ -464,10 +471,14 @@ class Reading:
         ratio, offset = (Fraction(1), Fraction(0)) if subject.scale is None else self.rule(subject, vector)
         power = 1 if subject.scale is None else 10**subject.decimals
         raw = near(Fraction(vector["count"], power) * ratio + offset)
+        self.present(subject, raw)
         self.admit(subject, raw, vector.get("with", {}))
         return {"status": "ok", "raw": raw}
 
     def check(self, subject: Point, vector: Vector) -> Vector:
+        if any(one.low <= vector["raw"] <= one.high and one.writable for one in subject.specials):
+            return {"status": "ok"}
+        self.present(subject, vector["raw"])
         if subject.form == "float":
             form, size = (">f", 4) if subject.type == "f32" else (">d", 8)
             self.admit_float(subject, struct.unpack(form, vector["raw"].to_bytes(size, "big"))[0])
@@ -482,6 +493,10 @@ class Reading:
     def special(self, subject: Point, vector: Vector) -> Vector:
         found = [one for one in subject.specials if one.name == vector["special"]]
         return {"low": found[0].low, "high": found[0].high} if found else {"low": None}
+
+    def special_name(self, subject: Point, vector: Vector) -> Vector:
+        found = [one for one in subject.specials if one.low <= vector["raw"] <= one.high]
+        return {"name": found[0].name, "no_value": int(found[0].no_value)} if found else {}
 
     def flag(self, subject: Point, vector: Vector) -> Vector:
         found = [one for one in subject.flags if one.name == vector["flag"]]
@@ -635,8 +650,13 @@ def names_and_places(subject: Point) -> Iterator[tuple[str, Point]]:
         specials = list(subject.specials)
         specials[index] = replace(special, low=special.low - 1)
         yield f"special {special.name}", replace(subject, specials=tuple(specials))
-        if special.no_value:
-            yield "no specials", replace(subject, specials=())
+        specials[index] = replace(special, no_value=not special.no_value)
+        yield f"no value {special.name}", replace(subject, specials=tuple(specials))
+        if subject.writable:
+            specials[index] = replace(special, writable=not special.writable)
+            yield f"writable {special.name}", replace(subject, specials=tuple(specials))
+    if subject.specials:
+        yield "no specials", replace(subject, specials=())
     place = subject.places[0]
     yield "code", replace(subject, code=f"{subject.code}x")
     for key, number in subject.references.items():
@@ -686,7 +706,7 @@ def test_a_limit_that_divides_by_zero() -> None:
 
 
 def test_a_point_that_only_lifts_a_limit_is_an_argument() -> None:
-    limit = Limit(linear(7), (("mode", (2, 4)),), 0, 100)
+    limit = Limit(linear(7), (("mode", ((2, 2), (4, 4))),), 0, 100)
     subject = point("subject", 1, allowed=allowed((0, limit)))
     found = vectors(sample_device((subject, point("mode", 2, allowed=allowed((0, 9))))))
     checks = {(one["with"]["mode"], one["status"]) for one in found if one["kind"] == "check" and one.get("raw") == 100}

@@ -98,7 +98,7 @@ def spoil(text: str) -> tuple[str, dict[str, int]]:
             forms[fields[0]] = [field.split(":")[1] for field in fields[2:]]
         elif name in forms and fields:
             counts[name] = counts.get(name, 0) + 1
-            if name == "name" and len(fields) == 1:
+            if name in ("name", "special_name") and len(fields) == 1:
                 fields.append("other")  # a number beside one that has no name may have none either
             fields[-1] = _other(forms[name][len(fields) - 1], fields[-1])
         lines.append("\t".join((name, *fields)))
