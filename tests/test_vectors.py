@@ -630,6 +630,21 @@ def near_cases(case: ScaleCase) -> Iterator[tuple[str, ScaleCase]]:
         yield "other number", replace(case, raw=case.raw + 5)
 
 
+def near_codes(subject: Point) -> Iterator[tuple[str, Point]]:
+    """The point with a special code a little wrong, or without its codes."""
+    for index, special in enumerate(subject.specials):
+        specials = list(subject.specials)
+        specials[index] = replace(special, low=special.low - 1)
+        yield f"special {special.name}", replace(subject, specials=tuple(specials))
+        specials[index] = replace(special, no_value=not special.no_value)
+        yield f"no value {special.name}", replace(subject, specials=tuple(specials))
+        if subject.writable:
+            specials[index] = replace(special, writable=not special.writable)
+            yield f"writable {special.name}", replace(subject, specials=tuple(specials))
+    if subject.specials:
+        yield "no specials", replace(subject, specials=())
+
+
 def names_and_places(subject: Point) -> Iterator[tuple[str, Point]]:
     """The point with a name's number, a bit, a code or an address a little wrong."""
     for index, entry in enumerate(subject.enum.entries if subject.enum else ()):
@@ -646,17 +661,7 @@ def names_and_places(subject: Point) -> Iterator[tuple[str, Point]]:
         for other in others:
             flags[index] = other
             yield f"flag {flag.name}", replace(subject, flags=tuple(flags))
-    for index, special in enumerate(subject.specials):
-        specials = list(subject.specials)
-        specials[index] = replace(special, low=special.low - 1)
-        yield f"special {special.name}", replace(subject, specials=tuple(specials))
-        specials[index] = replace(special, no_value=not special.no_value)
-        yield f"no value {special.name}", replace(subject, specials=tuple(specials))
-        if subject.writable:
-            specials[index] = replace(special, writable=not special.writable)
-            yield f"writable {special.name}", replace(subject, specials=tuple(specials))
-    if subject.specials:
-        yield "no specials", replace(subject, specials=())
+    yield from near_codes(subject)
     place = subject.places[0]
     yield "code", replace(subject, code=f"{subject.code}x")
     for key, number in subject.references.items():

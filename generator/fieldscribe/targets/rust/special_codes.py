@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.targets.rust.documentation import sentence
-from fieldscribe.targets.rust.layout import binding
+from fieldscribe.targets.rust.layout import Lines, binding, calls
 from fieldscribe.targets.rust.literals import mask, raw_literal, type_name
 from fieldscribe.targets.rust.views import ConstantView
 from fieldscribe.text import rust_string
@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Special
     from fieldscribe.targets.rust.subjects import Scope, Subject
+
+_WIDTH = 100
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,14 +38,14 @@ def shared_views(scope: Scope) -> Iterator[SharedView]:
             first.setdefault(subject.point.shared_codes, subject)
     for of, subject in first.items():
         left = f"pub const CODES: &'static [runtime::Code<{subject.raw}>]"
-        yield SharedView(type_name(of), of, tuple(code_constants(subject)), tuple(_table(subject, left)))
+        yield SharedView(type_name(of), of, tuple(code_constants(subject)), _table(subject, left))
 
 
 def coded_trait(subject: Subject) -> tuple[str, ...]:
     """The implementation of the trait that gives a point its codes."""
     left = f"const CODES: &'static [runtime::Code<{subject.raw}>]"
     shared = subject.point.shared_codes
-    lines = binding(4, left, f"special::{type_name(shared)}::CODES") if shared else tuple(_table(subject, left))
+    lines = binding(4, left, f"special::{type_name(shared)}::CODES") if shared else _table(subject, left)
     return (f"impl runtime::Coded for {subject.name} {{", *(f"    {line}" for line in lines), "}")
 
 
@@ -53,7 +55,7 @@ def code_constants(subject: Subject) -> Iterator[ConstantView]:
         left = f"pub const {one.name.upper()}: runtime::Special<{subject.raw}>"
         kind = "_".join(word for word, holds in (("writable", one.writable), ("no_value", one.no_value)) if holds)
         call = f"{kind or 'new'}({rust_string(one.name)}, {_literal(one.low, one, subject.raw)})"
-        lines = binding(4, left, f"runtime::Special::{call}")
+        lines = _constant(left, f"runtime::Special::{call}")
         if one.low != one.high:
             last = binding(4, f"pub const {one.name.upper()}_LAST: {subject.raw}", _literal(one.high, one, subject.raw))
             yield ConstantView(sentence(f"{one.name}, the first of a band"), lines)
@@ -62,22 +64,21 @@ def code_constants(subject: Subject) -> Iterator[ConstantView]:
             yield ConstantView(sentence(one.name), lines)
 
 
-def _table(subject: Subject, left: str) -> Iterator[str]:
-    items = [
-        f"runtime::Code::one(Self::{one.name.upper()})"
-        if one.low == one.high
-        else f"runtime::Code::band(Self::{one.name.upper()}, Self::{one.name.upper()}_LAST)"
-        for one in subject.point.specials
-    ]
-    joined = ", ".join(items)
-    if len(joined) <= 60 and 4 + len(left) + 7 + len(joined) <= 100:
-        yield f"{left} = &[{joined}];"
-    elif len(joined) <= 60 and len(items) == 1:
-        yield from binding(4, left, f"&[{joined}]")
-    else:
-        yield f"{left} = &["
-        yield from (f"    {item}," for item in items)
-        yield "];"
+def _table(subject: Subject, left: str) -> Lines:
+    items: list[tuple[str, Lines]] = []
+    for one in subject.point.specials:
+        name = f"Self::{one.name.upper()}"
+        band = ("runtime::Code::band", (name, f"{name}_LAST"))
+        items.append(("runtime::Code::one", (name,)) if one.low == one.high else band)
+    return calls(4, left, items)
+
+
+def _constant(left: str, call: str) -> Lines:
+    """The constant's lines as rustfmt breaks them; those of names that are longer than a line it would tear apart."""
+    lines = binding(4, left, call)
+    if all(4 + len(line) <= _WIDTH for line in lines) and lines[0].startswith(left):
+        return lines
+    return "#[rustfmt::skip] // its name is longer than a line", f"{left} = {call};"
 
 
 def _literal(raw: int, special: Special, rust_type: str) -> str:
