@@ -6,6 +6,7 @@ import re
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, NamedTuple
 
+from fieldscribe.language.meant import interval_meant
 from fieldscribe.model import TYPES, Allowed, Interval, Special
 from fieldscribe.resolve.drafts import groups
 from fieldscribe.resolve.enums import entry_titles, name_of
@@ -99,6 +100,10 @@ class SpecialCodes:
         least, greatest = (-(1 << width - 1), (1 << width - 1) - 1) if info.signed else (0, (1 << width) - 1)
         for key, value in raw.items():
             span = raw.key_span(key)
+            meant = None if ".." in key else interval_meant(key)
+            if meant is not None:
+                self._report("bad-number", f"`{key[:60]}` is no band", span, f"write {meant}")
+                continue
             first, dots, last = key.partition("..")
             texts = [first.strip(), last.strip()] if dots else [first.strip()]
             ends = [integer(text, span, self.scope.report) for text in texts]
