@@ -12,6 +12,7 @@ import math
 import struct
 import sys
 from collections import Counter
+from enum import Enum
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -141,7 +142,11 @@ class Runner:
         return bool(status == vector["status"])
 
     def _name(self, vector: Vector) -> bool:
-        return bool(self._point(vector).name_of(vector["raw"]) == vector["name"])
+        point, number = self._point(vector), vector["raw"]
+        if isinstance(point.decode(number) if hasattr(point, "decode") else None, tuple):
+            member = point.decode(number)[-1]
+            return (member.name.lower() if isinstance(member, Enum) else None) == vector["name"]
+        return bool(point.name_of(number) == vector["name"])
 
     def _special(self, vector: Vector) -> bool:
         return bool(self._point(vector).specials.get(vector["special"]) == (vector["low"], vector["high"]))
@@ -151,7 +156,12 @@ class Runner:
         flag: Any = getattr(word, vector["flag"], None)
         if not hasattr(flag, "number"):
             flag = getattr(word, f"{vector['flag']}_")  # the plain name is a keyword or one of int's own
-        return bool(flag.number(vector["raw"]) == vector["number"])
+        bits = word[vector["flag"].upper()] if vector["flag"].upper() in word.__members__ else None
+        held = bits is None or bool(int(bits) & vector["raw"]) == bool(vector["number"])
+        if vector["truth"] is not None:
+            stated = flag.__get__(word(vector["raw"]), word)
+            held = held and bool(stated) == bool(vector["truth"])
+        return bool(held and flag.number(vector["raw"]) == vector["number"])
 
     def _flag_name(self, vector: Vector) -> bool:
         word = self._point(vector).names
@@ -261,6 +271,25 @@ class Runner:
         block = self.device.BLOCKS[vector["group"]][vector["index"]]
         found = {"space": block.space, "function": block.function, "address": block.address, "count": block.count}
         return all(vector[key] == value for key, value in found.items())
+
+    def _code(self, vector: Vector) -> bool:
+        profile = self.device.PROFILE
+        number, name = vector["number"], vector["name"]
+        if vector["what"] == "task":
+            return number in profile.tasks  # names of tasks and responses are for C and Rust, where they are constants
+        if vector["what"] == "response":
+            return True
+        table = getattr(profile, "exceptions" if vector["what"] == "exception" else "errors", None)
+        return table is None or bool(table[number] == name)
+
+    def _command(self, vector: Vector) -> bool:
+        for kind, script in ((self.device, Script), (self.awaited, AsyncScript)):
+            transport = script({**vector, "needs": {}}, self.can.Frame)
+            handle = kind.__dict__.get(vector["command"], getattr(kind, vector["command"])).__get__(
+                kind(transport, vector["unit"]), kind
+            )
+            self._ran(transport, vector, handle.send)
+        return True
 
     def _request(self, vector: Vector) -> Any:
         head = vector["unit"], vector["function"], vector["address"]

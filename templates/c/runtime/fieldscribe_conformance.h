@@ -97,6 +97,7 @@ typedef struct fieldscribe_suite {
     const fieldscribe_status_name *statuses;
     const fieldscribe_adapter *adapters;
     const char *const *telegrams;
+    void (*run_code)(fieldscribe_vector *v);
 #if defined(FIELDSCRIBE_MODBUS_H)
     const fieldscribe_modbus_profile *profile;
     const fieldscribe_blocks *blocks;
@@ -575,6 +576,13 @@ static inline bool fieldscribe_fits_uint64_t(const char *field)
         fieldscribe_is_number(v, "number", (uint64_t)(bits));                                    \
     }
 
+/* A flag of one bit, and whether it is true. */
+#define FIELDSCRIBE_TRUTH(flag, bits, truth)                                                     \
+    if (fieldscribe_asks_of(v, "flag", "flag", flag)) {                                          \
+        fieldscribe_is_number(v, "number", (uint64_t)(bits));                                    \
+        fieldscribe_is_number(v, "truth", (truth) ? 1U : 0U);                                    \
+    }
+
 #define FIELDSCRIBE_FLAG_NAME(flag, value, constant)                                             \
     if (fieldscribe_asks_of(v, "flag_name", "flag", flag) && fieldscribe_asks_of(v, "flag_name", "name", value)) { \
         fieldscribe_is_number(v, "raw", (uint64_t)(constant));                                   \
@@ -600,13 +608,36 @@ static inline bool fieldscribe_fits_uint64_t(const char *field)
         }                                                                                        \
     }
 
+/* ---- What the protocol names ---- */
+
+#define FIELDSCRIBE_CODE_NUMBER(kind, code, constant)                                            \
+    if (fieldscribe_asks_of(v, "code", "what", kind) && fieldscribe_asks_of(v, "code", "name", code)) { \
+        fieldscribe_is_number(v, "number", (uint64_t)(constant));                                \
+    }
+
+#define FIELDSCRIBE_CODE_NAME(kind, function)                                                    \
+    if (fieldscribe_asks_of(v, "code", "what", kind)) {                                          \
+        fieldscribe_is_text(v, "name", function((uint16_t)fieldscribe_bits(v, "number")));       \
+        fieldscribe_agree(v, function(65535U) == NULL);                                          \
+    }
+
+#define FIELDSCRIBE_COMMAND(command, function, constant)                                         \
+    if (fieldscribe_asks_of(v, "command", "command", command)) {                                 \
+        uint16_t words[128] = {0U};                                                              \
+        const fieldscribe_modbus_request request = function((uint8_t)fieldscribe_bits(v, "unit"), words); \
+        fieldscribe_is_number(v, "value", (constant));                                           \
+        (void)fieldscribe_exchange(v, 0U, &request, words);                                      \
+    }
+
 /* ---- Whole exchanges ---- */
 
 /* The step of a script at that place: what is sent and what comes back; false when there is none. */
 static inline bool fieldscribe_step(fieldscribe_vector *v, size_t place, const char **sent, const char **received)
 {
     const char *at = fieldscribe_field(v, "script");
-    (void)fieldscribe_field(v, "needs"); /* read by languages whose devices ask for other points themselves */
+    if (!fieldscribe_asks(v, "command")) {
+        (void)fieldscribe_field(v, "needs"); /* read by languages whose devices ask for other points themselves */
+    }
     while (place > 0U && at != NULL) {
         at = strchr(at, ',');
         at = at != NULL ? at + 1 : NULL;
@@ -1422,7 +1453,9 @@ static void fieldscribe_run_vector(fieldscribe_file *file, const char *text)
     v->answered = false;
     v->differs = false;
     v->matched = 0U;
-    if (!fieldscribe_run_frame(v)) {
+    if (fieldscribe_asks(v, "code") || fieldscribe_asks(v, "command")) {
+        v->suite->run_code(v);
+    } else if (!fieldscribe_run_frame(v)) {
         fieldscribe_run_point(v);
     }
     if (fieldscribe_passes(v)) {

@@ -13,7 +13,7 @@ from fieldscribe.targets.c.points import named_numbers, value_type
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
 
-    from fieldscribe.model import Device, Point
+    from fieldscribe.model import Code, Device, Point
     from fieldscribe.targets.c.scope import Scope
     from fieldscribe.targets.c.views import DeviceView, PointView
 
@@ -35,6 +35,10 @@ class SuiteView:
     statuses: tuple[tuple[str, str], ...]
     family: str
     groups: tuple[tuple[str, str, str], ...]
+    codes: tuple[tuple[str, str, str], ...]
+    names: tuple[str, ...]
+    """The kinds of codes that a function names."""
+    commands: tuple[tuple[str, str, str], ...]
     telegrams: tuple[str, ...]
 
 
@@ -59,8 +63,28 @@ def conformance_view(device: Device, view: DeviceView, scope: Scope, more: Itera
         statuses=tuple((f"{scope.upper}_{upper(status)}", status) for status in _STATUSES),
         family=device.family,
         groups=tuple(groups),
+        codes=tuple(_codes(device, scope)),
+        names=tuple(kind for kind, codes in _code_kinds(device) if codes and device.family == "uss"),
+        commands=tuple(
+            (one.name, f"{scope.prefix}_command_{one.name}_request", f"{scope.upper}_COMMAND_{upper(one.name)}_VALUE")
+            for one in device.commands
+        ),
         telegrams=tuple(one.name for one in device.telegrams),
     )
+
+
+def _code_kinds(device: Device) -> tuple[tuple[str, tuple[Code, ...]], ...]:
+    bus = device.bus
+    if device.family == "uss":
+        return ("task", bus.functions), ("response", bus.responses), ("error", bus.exceptions)
+    return (("exception", bus.exceptions),)
+
+
+def _codes(device: Device, scope: Scope) -> Iterator[tuple[str, str, str]]:
+    """The kind, name and enumerator of each number of the protocol that has one."""
+    for kind, codes in _code_kinds(device):
+        for code in codes:
+            yield kind, code.name, f"{scope.upper}_{upper(kind)}_{upper(code.name)}"
 
 
 def _adapter(point: Point, view: PointView, scope: Scope, extra: Mapping[str, list[str]]) -> AdapterView:
@@ -75,7 +99,9 @@ def _adapter(point: Point, view: PointView, scope: Scope, extra: Mapping[str, li
 def _parts(point: Point, view: PointView) -> Iterator[str]:
     """What goes by the name of a part: flags, the named numbers of wide ones, special codes."""
     for flag in point.flags:
-        yield f'FLAG("{flag.name}", {_flag(point, view, flag.name, flag.width)})'
+        truth = _truth(point, view, flag.name) if flag.width == 1 else ""
+        kind = "TRUTH" if truth else "FLAG"
+        yield f'{kind}("{flag.name}", {_flag(point, view, flag.name, flag.width)}{truth})'
         for entry in flag.values if flag.width > 1 else ():
             constant = f"{view.macro}_{upper(flag.name)}_{upper(entry.name)}"
             yield f'FLAG_NAME("{flag.name}", "{entry.name}", {constant})'
@@ -188,6 +214,14 @@ def _with(names: tuple[str, ...], scope: Scope) -> str:
     if not names:
         return "FIELDSCRIBE_ALONE"
     return " ".join(f'FIELDSCRIBE_WITH("{name}", {raw_type(scope.points[name])})' for name in names)
+
+
+def _truth(point: Point, view: PointView, name: str) -> str:
+    """Whether the bit of a flag says that it is true, by the constants that a user has."""
+    low = any(flag.width == 1 and not flag.active for flag in point.flags)
+    turned = f" ^ {view.macro}_ACTIVE_LOW_MASK" if low else ""
+    raw = f'({view.raw_type})fieldscribe_bits(v, "raw")'
+    return f", ((({raw}){turned}) & {view.macro}_{upper(name)}_MASK) != 0U"
 
 
 def _flag(point: Point, view: PointView, name: str, width: int) -> str:

@@ -56,7 +56,7 @@ def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     yield f"{folder}/Cargo.toml", render("rust/Cargo.toml.j2", context)
     for name in _SOURCES:
         yield f"{folder}/src/{name}.rs", render(f"rust/{name}.rs.j2", context)
-    tables = conformance_tables(scope)
+    tables = conformance_tables(scope, device)
     suite = {**context, "tables": tables, "kinds": {kind for kind, _, _ in tables}, "arms": tuple(arms(tables))}
     yield f"{folder}/tests/conformance.rs", render("rust/conformance.rs.j2", suite)
 

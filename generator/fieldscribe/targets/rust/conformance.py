@@ -12,7 +12,7 @@ from fieldscribe.text import rust_string
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-    from fieldscribe.model import Point
+    from fieldscribe.model import Device, Point
     from fieldscribe.targets.rust.subjects import Scope, Subject
 
 Needs = tuple[tuple[str, tuple[str, ...]], ...]
@@ -25,7 +25,7 @@ Table = tuple[str, str, tuple[str, ...]]
 """The function that a table becomes, the runner's function behind it, and its rows."""
 
 
-def conformance_tables(scope: Scope) -> tuple[Table, ...]:
+def conformance_tables(scope: Scope, device: Device) -> tuple[Table, ...]:
     """The tables by kind; rows are tokens that the runner's macro reads."""
     scaled = [one for one in scope.subjects if one.form == "scaled"]
     floats = [one for one in scope.subjects if one.form == "float"]
@@ -46,7 +46,7 @@ def conformance_tables(scope: Scope) -> tuple[Table, ...]:
         ("encode_plain", "encode_plain", write_plain),
         ("encode_mixed", "encode_count", write_mixed),
         ("check", "check", (*write_scaled, *write_plain, *write_mixed, *_writes(floats), *_writes(digits))),
-        ("name", "name", tuple(_names(whole))),
+        ("name", "name", tuple(_names((*whole, *digits)))),
         ("special", "special", tuple(_specials(scope.subjects))),
         ("flag", "flag", tuple(_flags(whole))),
         ("flag_name", "flag_name", tuple(_flag_names(whole))),
@@ -54,7 +54,26 @@ def conformance_tables(scope: Scope) -> tuple[Table, ...]:
         ("words", "words", tuple(_row(one, "alone") for one in scope.subjects if _has_words(one.point))),
         ("address", "address", tuple(_row(one, _references(one.point)) for one in scope.subjects)),
         *_newer(scope, texts, digits),
+        *_protocol(device),
     )
+
+
+def _protocol(device: Device) -> Iterator[Table]:
+    """The tables of the numbers of the protocol, and of commands."""
+    bus, uss = device.bus, device.family == "uss"
+    kinds = (("task", "tasks", bus.functions), ("response", "responses", bus.responses)) if uss else ()
+    refusals = "error" if uss else "exception"
+    rows = [_code(what, module, code.name, "code") for what, module, codes in kinds for code in codes]
+    rows += [_code(refusals, "exceptions", code.name, "named") for code in bus.exceptions]
+    if rows:
+        yield "code", "code", tuple(rows)
+    if device.commands:
+        sent = (f"{rust_string(one.name)} commands (sent {one.name.upper()})" for one in device.commands)
+        yield "command", "command", tuple(sent)
+
+
+def _code(what: str, module: str, name: str, how: str) -> str:
+    return f"{rust_string(f'{what} {name}')} {module} ({how} {name.upper()})"
 
 
 def _newer(scope: Scope, texts: list[Subject], digits: list[Subject]) -> Iterator[Table]:
@@ -141,7 +160,7 @@ def arms(tables: Iterable[Table]) -> Iterator[str]:
     for kind in ("read", "write", "store"):
         calls = [f"{name}(vector)" for name in names if name.startswith(f"{kind}_by_")]
         chain = [*calls[:1], *(f".or_else(|| {call})" for call in calls[1:])]
-        if len("".join(chain)) <= _CHAIN:
+        if len(chain) == 2 or len("".join(chain)) <= _CHAIN:
             lines = ["".join(chain)] if chain else []
         else:
             lines = [chain[0], *(f"    {link}" for link in chain[1:])]

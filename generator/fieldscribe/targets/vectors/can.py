@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.can import CanFrame, Receiver, build, checksum, identifier, parse
-from fieldscribe.targets.vectors.exchanges import writing_place
+from fieldscribe.targets.vectors.exchanges import codes, writing_place
 from fieldscribe.targets.vectors.numbers import as_raw
 
 if TYPE_CHECKING:
@@ -82,6 +82,7 @@ def can(lines: Lines, device: Device) -> None:
         if not any(role.kind == "word" for role in message.roles):
             _builds(lines, device.bus.units, message)
             _parses(lines, device.bus.units, message)
+    codes(lines, "exception", device.bus.exceptions)
     for telegram in device.telegrams:
         _telegram(lines, device, telegram)
     lines.gather()
@@ -134,9 +135,20 @@ def _telegram(lines: Lines, device: Device, telegram: Telegram) -> None:
     if message is None:
         return
     unit = device.bus.units[0]
-    for point in device.points:
-        if point.telegram == telegram.name and point.generated and point.form != "text":
-            _heard(lines, telegram, message, point, unit)
+    points = [one for one in device.points if one.telegram == telegram.name and one.generated and one.form != "text"]
+    for point in points:
+        _heard(lines, telegram, message, point, unit)
+    for point in points[:1]:
+        _misheard(_Asking(lines, telegram, message, point, unit))
+
+
+def _misheard(ask: _Asking) -> None:
+    """Every byte that is no word, wrong; so once a telegram every role of a byte."""
+    good = ask.frame(ask.point.addresses[0] // ask.message.words, 0x1234)
+    for place, role in enumerate(ask.message.roles):
+        if role.kind != "word":
+            wrong = bytes((*good.data[:place], good.data[place] ^ 0x80, *good.data[place + 1 :]))
+            ask.answer([CanFrame(good.id, wrong)])
 
 
 def _heard(lines: Lines, telegram: Telegram, message: Message, point: Point, unit: int) -> None:

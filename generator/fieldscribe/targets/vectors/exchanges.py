@@ -10,9 +10,9 @@ from fieldscribe.targets.vectors.oracle import Oracle, admit
 from fieldscribe.targets.vectors.whole import with_fixed
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
-    from fieldscribe.model import Device, Place, Point
+    from fieldscribe.model import Code, Device, Place, Point
     from fieldscribe.targets.vectors.lines import Lines
 
 Script = list[tuple[bytes, bytes]]
@@ -105,6 +105,12 @@ class Exchanges:
         self.spoiled.add((kind, point.space))
         for status, bad in self.wire.spoils(point, script, writes=kind != "read"):
             self.lines.add(kind, bad, status, None if kind == "read" else number)
+
+
+def codes(lines: Lines, what: str, numbers: Iterable[Code]) -> None:
+    """The numbers of the protocol that have a name."""
+    for code in numbers:
+        lines.add("code", what, code.number, code.name)
 
 
 def writing_place(point: Point) -> Place:

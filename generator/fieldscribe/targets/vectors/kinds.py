@@ -67,7 +67,7 @@ KINDS = _table(
         # names of numbers, special codes, flags and the numbers of wide ones
         "name": "raw:int name:text?",
         "special": "special:text low:int high:int",
-        "flag": "flag:text raw:int number:int",
+        "flag": "flag:text raw:int number:int truth:int?",
         "flag_name": "flag:text raw:int name:text",
         # a group of bits out of its word and into it, the words of a number, texts and digits
         "bits": "word:int raw:int replaced:int result:int",
@@ -85,6 +85,10 @@ KINDS = _table(
         "read": _EXCHANGE,
         "write": _EXCHANGE,
         "store": _EXCHANGE,
+        # numbers of the protocol with names, named writes, and what Python says of a point beside (C and Rust only in
+        # comments, which have no conformance)
+        "code": "what:word number:int name:text",
+        "command": "command:word value:int script:script status:word",
         # frames of Modbus, and batched reads
         "build": "status:word bytes:bytes?",
         "reply": "bytes:bytes? status:word values_out:ints? exception:int?",

@@ -18,7 +18,7 @@ from fieldscribe.families.modbus import (
     parse_request,
     profile_of,
 )
-from fieldscribe.targets.vectors.exchanges import writing_place
+from fieldscribe.targets.vectors.exchanges import codes, writing_place
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -54,7 +54,7 @@ class ModbusWire:
         """One request for all words; they have to follow each other."""
         place = point.places[0]
         function = place.function if place.function in _READS else _SPACES[place.space]
-        return self._script(function, place.addresses, words)
+        return self.script(function, place.addresses, words)
 
     def writes(self, point: Point, words: tuple[int, ...], *, keep: bool) -> Script | None:
         """One request for all words, by the function that the manual names or the one for so many."""
@@ -65,9 +65,10 @@ class ModbusWire:
         known = self.profile.most
         usual = single if len(words) == 1 and single in known else several
         function = place.function if place.function in _WRITES else usual
-        return self._script(function, place.addresses, words)
+        return self.script(function, place.addresses, words)
 
-    def _script(self, function: int, addresses: tuple[int, ...], words: tuple[int, ...]) -> Script | None:
+    def script(self, function: int, addresses: tuple[int, ...], words: tuple[int, ...]) -> Script | None:
+        """One request for consecutive addresses and its answer; None where the device does not allow it."""
         if max(addresses) - min(addresses) + 1 != len(words):
             return None
         reads = function in _READS
@@ -110,10 +111,23 @@ def answer_with(request: Request, words: tuple[int, ...]) -> bytes:
 
 def modbus(lines: Lines, device: Device) -> None:
     """Everything about Modbus frames."""
+    codes(lines, "exception", device.bus.exceptions)
+    commands(lines, device)
     builds(lines, device.bus)
     replies(lines, device.bus)
     printed(lines, device)
     blocks(lines, device)
+
+
+def commands(lines: Lines, device: Device) -> None:
+    """Each command sent and answered, by itself and with a refusal."""
+    wire = ModbusWire(device)
+    wire.opens(lines)
+    for command in device.commands:
+        value = 1 if command.value is None else command.value
+        script = wire.script(command.function, (command.address,), (value,))
+        if script is not None:
+            lines.add("command", command.name, value, script, "ok")
 
 
 def builds(lines: Lines, bus: Bus) -> None:

@@ -18,7 +18,7 @@ from fieldscribe.families.uss import (
     parse,
     telegram,
 )
-from fieldscribe.targets.vectors.exchanges import writing_place
+from fieldscribe.targets.vectors.exchanges import codes, writing_place
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -123,6 +123,9 @@ class UssWire:
 
 def uss(lines: Lines, device: Device) -> None:
     """Everything about the telegrams of a USS device."""
+    numbered = (("task", device.bus.functions), ("response", device.bus.responses), ("error", device.bus.exceptions))
+    for what, numbers in numbered:
+        codes(lines, what, numbers)
     for link in _links(device.bus):
         dialogue = _Dialogue(lines, device.bus, link)
         _builds(dialogue)

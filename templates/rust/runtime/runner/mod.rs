@@ -69,6 +69,23 @@ macro_rules! table {
     ($run:ident $point:ident (frames) $vector:ident) => {
         runner::frames::$run::<device::points::$point>($vector)
     };
+    ($run:ident $module:ident (code $constant:ident) $vector:ident) => {
+        runner::code(
+            $vector,
+            u64::from(device::$module::$constant),
+            $vector.said("name").as_deref(),
+        )
+    };
+    ($run:ident $module:ident (named $constant:ident) $vector:ident) => {
+        runner::code(
+            $vector,
+            u64::from(device::$module::$constant),
+            device::$module::name(device::$module::$constant),
+        )
+    };
+    ($run:ident $module:ident (sent $constant:ident) $vector:ident) => {
+        runner::frames::command($vector, &device::PROFILE, &device::$module::$constant)
+    };
     ($run:ident $point:ident (wire) $vector:ident) => {
         runner::frames::$run::<device::points::$point>($vector, &device::PROFILE)
     };
@@ -104,12 +121,14 @@ macro_rules! table {
     ($run:ident $word:ident (on $raw:ident $get:ident $set:ident) $vector:ident) => {{
         let word = device::flags::$word::from($vector.raw::<$raw>("raw"));
         let same = word.$set(word.$get()) == word && word.$set(!word.$get()).$get() != word.$get();
-        runner::flag($vector, u64::from(word.$get()), same)
+        let truth = $vector.raw::<u8>("truth") == u8::from(word.$get());
+        runner::flag($vector, u64::from(word.$get()), same && truth)
     }};
     ($run:ident $word:ident (off $raw:ident $get:ident $set:ident) $vector:ident) => {{
         let word = device::flags::$word::from($vector.raw::<$raw>("raw"));
         let same = word.$set(word.$get()) == word && word.$set(!word.$get()).$get() != word.$get();
-        runner::flag($vector, u64::from(!word.$get()), same)
+        let truth = $vector.raw::<u8>("truth") == u8::from(word.$get());
+        runner::flag($vector, u64::from(!word.$get()), same && truth)
     }};
     ($run:ident $word:ident (bits $raw:ident $get:ident $set:ident) $vector:ident) => {{
         let word = device::flags::$word::from($vector.raw::<$raw>("raw"));
@@ -232,6 +251,8 @@ impl<'a> Vector<'a> {
             "special" => self.text("special"),
             "flag" => self.text("flag"),
             "flag_name" => [self.text("flag"), self.text("name")].join(" "),
+            "code" => return [self.text("what"), self.text("name")].join(" "),
+            "command" => return self.text("command"),
             _ => return self.text("point"),
         };
         [self.text("point"), part].join(" ")
@@ -427,6 +448,12 @@ pub fn special<T: Number + PartialEq + std::fmt::Debug>(
     high: T,
 ) -> Outcome {
     same((vector.raw("low"), vector.raw("high")), (low, high))
+}
+
+/// A number of the protocol by its name, and its name where a function tells it.
+pub fn code(vector: &Vector, number: u64, name: Option<&str>) -> Outcome {
+    same(vector.raw::<u64>("number"), number)?;
+    same(vector.said("name").as_deref(), name)
 }
 
 /// A flag's number as it is in the word, and that setting it does what getting it says.

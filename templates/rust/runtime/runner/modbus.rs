@@ -2,8 +2,8 @@
 //! Vectors of Modbus frames and of batched reads.
 
 use fieldscribe_runtime::modbus::{
-    AsyncClient, Block, BuildError, Client, ClientError, Framing, Profile, ReplyError, Request,
-    LONGEST,
+    AsyncClient, Block, BuildError, Client, ClientError, Command, Framing, Profile, ReplyError,
+    Request, LONGEST,
 };
 use fieldscribe_runtime::{BitGroup, Decoded, Error, Readable, Whole, Writable};
 
@@ -159,6 +159,15 @@ where
     let mut client = Client::new(Script::new(vector), profile, framing(vector), unit);
     let found = client.exchange(request).map(|_| ());
     exchanged(vector, found, name, &client.into_transport()).map(|_| ())
+}
+
+/// A command.
+pub fn command(vector: &Vector, profile: &'static Profile, command: &Command) -> Outcome {
+    let unit = vector.raw("unit");
+    let mut client = Client::new(Script::new(vector), profile, framing(vector), unit);
+    let found = client.exchange(Request::command(unit, command)).map(|_| ());
+    exchanged(vector, found, name, &client.into_transport())?;
+    same(vector.raw("value"), command.value.unwrap_or(1))
 }
 
 /// A batched read.
