@@ -40,18 +40,21 @@ def _table(rows: Mapping[str, str]) -> dict[str, Kind]:
 
 _REQUEST = "framing:word unit:int transaction:int function:int address:int count:int values:ints?"
 
+_EXCHANGE = "script:script status:word raw:int? words:ints? needs:script?"
+
 SETS = _table(
     {
+        "unit": "unit:int framing:word?",
+        "link": "pkw:int pzd:int single_first:int?",
         "point": "point:word",
         "with": "with:pairs?",
         "request": _REQUEST,
         "message": "message:word",
         "telegram": "telegram:word unit:int",
-        "link": "pkw:int pzd:int single_first:int?",
         "task": "unit:int task:int parameter:int index:int width:int value:int words:ints?",
     }
 )
-"""What several vectors share: the point, the raw numbers that it needs, a request, a message, a link and its task."""
+"""What vectors share: the unit and its line, the point, the raw numbers that it needs, a request, a message, a task."""
 
 KINDS = _table(
     {
@@ -65,7 +68,7 @@ KINDS = _table(
         "name": "raw:int name:text?",
         "special": "special:text low:int high:int",
         "special_name": "raw:int name:text? no_value:int?",
-        "flag": "flag:text raw:int number:int",
+        "flag": "flag:text raw:int number:int truth:int?",
         "flag_name": "flag:text raw:int name:text",
         # a group of bits out of its word and into it, the words of a number, texts and digits
         "bits": "word:int raw:int replaced:int result:int",
@@ -79,6 +82,14 @@ KINDS = _table(
         "references:pairs?",
         "place": "addresses:ints index:int? telegram:word?",
         "fixed": "mask:int bits:int",
+        # whole exchanges with a point: what is sent, what comes back, and what that makes of it; to be kept for good
+        "read": _EXCHANGE,
+        "write": _EXCHANGE,
+        "store": _EXCHANGE,
+        # numbers of the protocol with names, named writes, and what Python says of a point beside (C and Rust only in
+        # comments, which have no conformance)
+        "code": "what:word number:int name:text",
+        "command": "command:word value:int script:script status:word",
         # frames of Modbus, and batched reads
         "build": "status:word bytes:bytes?",
         "reply": "bytes:bytes? status:word values_out:ints? exception:int?",
@@ -156,6 +167,12 @@ def _frames(value: object) -> str:
     return ",".join(f"{number}={_bytes(data)}" for number, data in value)
 
 
+def _script(value: object) -> str:
+    if not isinstance(value, (tuple, list)):
+        raise TypeError(f"{value!r} is no list")
+    return ",".join(f"{_bytes(sent)}={_bytes(received)}" for sent, received in value)
+
+
 FORMS: dict[str, Callable[[object], str]] = {
     "int": _int,
     "word": _word,
@@ -166,8 +183,9 @@ FORMS: dict[str, Callable[[object], str]] = {
     "ints": _ints,
     "pairs": _pairs,
     "frames": _frames,
+    "script": _script,
 }
-"""How a field of each form is written: `pairs` are name=text, `frames` id=bytes, lists stand between commas."""
+"""How a field of each form is written: lists are between commas; `pairs`, `frames` and `script` are of two parts."""
 
 
 class Shape:

@@ -63,14 +63,16 @@ def with_fixed(point: Point, raw: int) -> int:
 
 
 def names(lines: Lines, point: Point) -> None:
-    """Each named number of an enum, and numbers without a name."""
-    if point.enum is None:
+    """Each named number of an enum or of a digit, and numbers without a name."""
+    enum = point.digits.enum if point.digits is not None else point.enum
+    if enum is None:
         return
-    named = {entry.raw: entry.name for entry in point.enum.entries}
+    least, greatest = (0, 9) if point.digits is not None else (point.least, point.greatest)
+    named = {entry.raw: entry.name for entry in enum.entries if least <= entry.raw <= greatest}
     for raw, name in named.items():
         lines.add("name", raw, name)
-    strange = dict.fromkeys((*(raw + 1 for raw in named), min(named, default=0) - 1, point.least, point.greatest))
-    for raw in [raw for raw in strange if raw not in named and point.least <= raw <= point.greatest]:
+    strange = dict.fromkeys((*(raw + 1 for raw in named), min(named, default=0) - 1, least, greatest))
+    for raw in [raw for raw in strange if raw not in named and least <= raw <= greatest]:
         lines.add("name", raw)
 
 
@@ -92,7 +94,9 @@ def flags(lines: Lines, point: Point) -> None:
         words = [mask, full ^ mask, *(1 << bit for bit in range(flag.low, flag.low + flag.width))]
         words += [entry.raw << flag.low for entry in flag.values if 0 <= entry.raw <= ones]
         for word in dict.fromkeys(words):
-            lines.add("flag", flag.name, as_raw(point, word), word >> flag.low & ones)
+            number = word >> flag.low & ones
+            truth = int(number == flag.active) if flag.width == 1 else None
+            lines.add("flag", flag.name, as_raw(point, word), number, truth)
         if flag.width > 1:
             for entry in flag.values:
                 lines.add("flag_name", flag.name, entry.raw, entry.name)
