@@ -172,6 +172,8 @@ def test_explain_and_decode_name_codes(capsys: Any) -> None:
         ("outputs not_set", 0, "raw 65535 = FFFFh"),
         ("input_delays not_set", 1, "only read"),
         ("setpoint released", 0, "raw 2143289344 = 7FC00000h"),
+        ("amplified 5 --with gain=10", 0, "amplified = 5"),
+        ("amplified 5 --with gain=out_of_order", 1, "gain is zero or no quantity"),
         ("offset -32768", 1, "8000h, the special code `not_available`"),
     ],
 )
@@ -305,6 +307,12 @@ def test_python_writes_codes_only_where_they_may_be(points: Any) -> None:
     assert points.lower_limit.encode(points.lower_limit.special(4102), {"upper_limit": 0}) == 4102
     assert "4100..4103" in str(error(getattr, points.lower_limit.special, "by_input"))
     assert error(points.level.encode, 6553.3).special == "not_fitted"
+
+
+def test_nothing_is_computed_with_a_code_of_another_point(points: Any) -> None:
+    refused = error(points.amplified.decode, 50, {"gain": 0x7FFE})
+    assert (refused.status, "special code" in str(refused)) == ("zero_factor", True)
+    assert points.amplified.decode(50, {"gain": 0x7FFD}) != 0
 
 
 MISUSE = """

@@ -40,7 +40,11 @@ class CodecError(Exception):
 
 
 class _NoQuantity(Fraction):
-    """What a floating-point point holds while that is a special code: zero to a rule, and known to a limit."""
+    """What a floating-point point holds while that is a special code: known to rules and limits as none."""
+
+
+class _Code(int):
+    """The same of a point of whole numbers: the raw number."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,9 +58,10 @@ class Window:
 
 def setting_of(point: Point, raw: int) -> int | Fraction:
     """What rules take of a point that holds a raw number; 0 for a bit pattern that is no number."""
+    coded = point.special(raw) is not None
     if not point.info.floating:
-        return raw
-    if point.special(raw) is not None:
+        return _Code(raw) if coded else raw
+    if coded:
         return _NoQuantity(0)
     number = float_of(point, raw)
     return Fraction(number) if isfinite(number) else Fraction(0)
@@ -190,6 +195,9 @@ def _with_factors(rule: Linear, settings: Settings) -> Fraction:
     if missing:
         raise CodecError("missing", missing)
     ratio = rule.ratio
+    coded = [factor.point for factor in rule.factors if isinstance(settings[factor.point], (_NoQuantity, _Code))]
+    if coded:
+        raise CodecError("zero_factor", coded)
     for factor in rule.factors:
         number = _factor(factor, settings)
         if number == 0:

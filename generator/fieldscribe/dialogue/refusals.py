@@ -70,7 +70,7 @@ def failure(device: Device, point: Point, error: CodecError) -> tuple[str, str]:
         part = "its scale" if set(error.missing) <= set(point.scale_arguments) else "its range"
         return f"{part} depends on {blamed}", hint
     return {
-        "zero_factor": (f"{blamed} is zero, and nothing can be computed with that", ""),
+        "zero_factor": (f"{blamed} is zero or no quantity, and nothing can be computed with that", ""),
         "no_case": (f"the manual gives no scale for what {blamed} holds", ""),
         "overflow": (f"the exponent {blamed} is too large to compute with", ""),
         "special": ("this raw number is a special code and no quantity", ""),

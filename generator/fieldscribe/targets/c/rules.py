@@ -89,7 +89,19 @@ def _rule(rule: Linear, scope: Scope, test: str = "", *, of_limit: bool = False)
         (*steps, *tens),
         scope.shifts,
         scope.lifts,
+        "" if of_limit else _codes(rule, scope),
     )
+
+
+def _codes(rule: Linear, scope: Scope) -> str:
+    """Whether what is no quantity stands for a factor."""
+    names = dict.fromkeys(factor.point for factor in rule.factors)
+    codes = [(name, one) for name in names for one in scope.points[name].specials]
+    return " || ".join(f"({_is_code(f'{name}_raw', one.low, one.high)})" for name, one in codes)
+
+
+def _is_code(raw: str, low: int, high: int) -> str:
+    return f"{raw} == {bare(low)}" if low == high else f"{raw} >= {bare(low)} && {raw} <= {bare(high)}"
 
 
 def _floats(factor: Factor, scope: Scope) -> bool:

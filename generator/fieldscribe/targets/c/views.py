@@ -38,7 +38,10 @@ class Step:
 
 @dataclass(frozen=True, slots=True)
 class RuleCase:
-    """A linear rule whose factors are known at run time; `test` is empty when it always holds."""
+    """A linear rule whose factors are known at run time; `test` is empty when it always holds.
+
+    `codes` tests whether a factor's point holds a special code, or is empty.
+    """
 
     test: str
     num: str
@@ -48,6 +51,7 @@ class RuleCase:
     steps: tuple[Step, ...]
     shifts: bool
     lifts: bool
+    codes: str = ""
 
 
 @dataclass(frozen=True, slots=True)

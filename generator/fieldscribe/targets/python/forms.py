@@ -136,17 +136,24 @@ def _only_named(point: Point) -> bool:
 
 def _scale(cases: tuple[ScaleCase, ...], scope: Scope) -> Node:
     if len(cases) == 1 and cases[0].point is None:
-        return rule(cases[0].rule, scope)
+        return rule(cases[0].rule, scope, of_scale=True)
     scope.used.add("Case")
     made = [
-        call("Case", ("None" if one.point is None else python_string(one.point), str(one.raw), rule(one.rule, scope)))
+        call(
+            "Case",
+            (
+                "None" if one.point is None else python_string(one.point),
+                str(one.raw),
+                rule(one.rule, scope, of_scale=True),
+            ),
+        )
         for one in cases
     ]
     return Group("(", tuple(made))
 
 
-def rule(linear: Linear, scope: Scope) -> Node:
-    """A linear rule as integers."""
+def rule(linear: Linear, scope: Scope, *, of_scale: bool = False) -> Node:
+    """A linear rule as integers; special codes of a scale's factors are named with them."""
     ratio, offset = linear.ratio, linear.offset
     arguments: list[Node] = []
     if ratio.numerator != 1:
@@ -157,12 +164,12 @@ def rule(linear: Linear, scope: Scope) -> Node:
         arguments.append(f"offset=({offset.numerator}, {offset.denominator})")
     if linear.factors:
         scope.used.add("Factor")
-        arguments.append(Group("factors=(", tuple(_factor(one, scope) for one in linear.factors)))
+        arguments.append(Group("factors=(", tuple(_factor(one, scope, of_scale) for one in linear.factors)))
     return call("Rule", arguments)
 
 
-def _factor(factor: Factor, scope: Scope) -> Node:
-    arguments = [python_string(factor.point)]
+def _factor(factor: Factor, scope: Scope, of_scale: bool) -> Node:
+    arguments: list[Node] = [python_string(factor.point)]
     if factor.slope != 1:
         arguments.append(f"slope={factor.slope}")
     if factor.intercept:
@@ -174,6 +181,8 @@ def _factor(factor: Factor, scope: Scope) -> Node:
         arguments.append("f32=True")
     if factor.ten_to:
         arguments.append("ten_to=({}, {})".format(*_outer(scope.points[factor.point])))
+    if of_scale and source is not None and source.specials:
+        arguments.append(Group("codes=(", tuple([f"({one.low}, {one.high})" for one in source.specials])))
     return call("Factor", arguments)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from math import gcd
 from typing import TYPE_CHECKING
@@ -200,7 +200,17 @@ def _rule(rule: Linear, held: str, code: str, factors: list[FactorView]) -> Rule
 def _factors(rule: Linear, points: Mapping[str, Point], *, limit: bool) -> list[FactorView]:
     """Exponents last: a zero factor is reported before an exponent that is out of its bounds."""
     factors = sorted(rule.factors, key=lambda factor: factor.ten_to)
-    return [_factor(one, points, limit=limit) for one in factors]
+    found = [_factor(one, points, limit=limit) for one in factors]
+    return found if limit else [_with_codes(view, one, points) for view, one in zip(found, factors, strict=True)]
+
+
+def _with_codes(view: FactorView, factor: Factor, points: Mapping[str, Point]) -> FactorView:
+    """The factor with the conditions under which its point holds a special code."""
+    source = points.get(factor.point)
+    if source is None or not source.specials:
+        return view
+    conditions = patterns([(one.low, one.high) for one in source.specials], "held")
+    return replace(view, codes=tuple(one.replace("matches!(raw,", "matches!(held,") for one in conditions))
 
 
 def _factor(factor: Factor, points: Mapping[str, Point], *, limit: bool) -> FactorView:

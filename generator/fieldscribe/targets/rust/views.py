@@ -10,6 +10,7 @@ class FactorView:
     """One factor of a rule: the raw number it takes, the line and the bounds of an exponent (or empty), the method.
 
     `pattern` says that the raw number is the pattern of a floating-point number, which the method takes as it is.
+    `codes` are conditions of which one holds while what is `held` is a special code.
     """
 
     raw: str
@@ -17,6 +18,7 @@ class FactorView:
     bounds: str
     line: str
     method: str
+    codes: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -126,12 +126,19 @@ class Oracle:
 
     def _with_factors(self, rule: Linear, settings: Settings) -> Ratio | str:
         numbers = self._numbers(settings)
+        if any(self._is_code(factor.point, settings[factor.point]) for factor in rule.factors):
+            return "zero_factor"
         if any(_number(factor, numbers) == 0 for factor in rule.factors if not factor.ten_to):
             return "zero_factor"
         if any(not self.exponent_fits(factor, settings) for factor in rule.factors if factor.ten_to):
             return "overflow"
         over, under = _product(rule, numbers)
         return Ratio(over, under, rule.offset.numerator, rule.offset.denominator)
+
+    def _is_code(self, name: str, raw: int) -> bool:
+        """Whether a point holds what is no quantity, so that nothing can be computed with it."""
+        source = self.points.get(name)
+        return source is not None and code_of(source, raw) is not None
 
     def _numbers(self, settings: Settings) -> Numbers:
         return {name: self._value(name, raw) for name, raw in settings.items()}

@@ -144,7 +144,9 @@ def _choices(oracle: Oracle, point: Point, name: str) -> list[int]:
     """Raw numbers for one argument, as far as its point holds them: ends, cases, zeros, codes that lift limits."""
     bands = [band for limit in limits_of(point) for other, codes in limit.unless if other == name for band in codes[:4]]
     lifting = [code for low, high in bands for code in (low, high, high + 1)]
-    if (source := oracle.points.get(name)) is not None and source.info.floating:
+    source = oracle.points.get(name)
+    lifting += [] if source is None else [one.low for one in source.specials[:4]]
+    if source is not None and source.info.floating:
         return [raw for raw in dict.fromkeys((*_FACTORS_32, *lifting)) if raw <= source.greatest]
     low, high = _bounds(oracle, name)
     cases = [case.raw for case in point.scale or () if case.point == name and case.raw is not None]

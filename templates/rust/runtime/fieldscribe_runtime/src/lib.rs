@@ -28,7 +28,7 @@ pub use point::{
 };
 pub use raw::Raw;
 pub use rule::Rule;
-pub use special::{quantity, written, Code, Coded, Reading, Special};
+pub use special::{factor, quantity, written, Code, Coded, Reading, Special};
 pub use text::Text;
 
 use core::fmt;
@@ -43,7 +43,7 @@ pub enum Error {
     NotANumber,
     /// The closed enum has no such number.
     UnknownValue,
-    /// A factor that is read at run time is zero.
+    /// A factor that is read at run time is zero, or no quantity.
     ZeroFactor,
     /// No case of the scale holds.
     NoCase,

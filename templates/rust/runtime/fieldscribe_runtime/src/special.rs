@@ -197,6 +197,18 @@ pub fn written<P: Coded>(special: Special<P::Raw>) -> Result<P::Raw, Error> {
     Ok(special.raw)
 }
 
+/// What a look at a factor says: a special code is no number to compute with.
+///
+/// # Errors
+/// [`Error::ZeroFactor`] if it does not hold.
+pub const fn factor(holds: bool) -> Result<(), Error> {
+    if holds {
+        Ok(())
+    } else {
+        Err(Error::ZeroFactor)
+    }
+}
+
 /// The raw number that a value became, which is never a special code.
 ///
 /// # Errors
