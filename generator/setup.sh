@@ -77,7 +77,8 @@ if [ "$purpose" = compiler ] && [ -x .venv/bin/fieldscribe ] && [ -f .venv/insta
 fi
 if [ ! -x .venv/bin/python ] || [ ! -f .venv/installed ] || [ "$(cat .venv/installed)" != "$wanted" ]; then
     echo "setting up .venv"
-    [ -x .venv/bin/python ] || python3 -m venv .venv
+    # one that was interrupted has a python but no pip
+    .venv/bin/python -m pip --version >/dev/null 2>&1 || python3 -m venv .venv
     .venv/bin/python -m pip install --quiet --disable-pip-version-check --editable ".$extra"
     echo "$wanted" >.venv/installed
 fi

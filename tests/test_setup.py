@@ -61,3 +61,15 @@ def test_a_clang_without_its_sanitizers_is_not_complete(machine: Path) -> None:
 def test_a_gcc_that_cannot_link_is_not_complete(machine: Path) -> None:
     _program(machine / "bin", "gcc", "exit 1")
     assert "gcc libc6-dev" in _missing(machine)
+
+
+def test_an_environment_whose_setting_up_was_interrupted_is_made_whole(machine: Path) -> None:
+    """It has a python, but no pip yet."""
+    _program(machine / ".venv/bin", "python", "exit 1")
+    _program(
+        machine / "bin",
+        "python3",
+        f'[ "$1 $2" = "-m venv" ] && printf "#!/bin/sh\\nexit 0\\n" >{machine}/.venv/bin/python; exit 0',
+    )
+    _missing(machine)
+    assert (machine / ".venv/installed").is_file()
