@@ -67,6 +67,11 @@ def _protocol(device: Device) -> Iterator[Table]:
     rows += [_code(refusals, "exceptions", code.name, "named") for code in bus.exceptions]
     if rows:
         yield "code", "code", tuple(rows)
+    carriers = {one.name for one in device.messages if one.words}
+    heard = [one for one in device.telegrams if one.message in carriers] if device.family == "can" else []
+    if heard:
+        rows = [f"{rust_string(one.name)} telegrams (telegram {type_name(one.name)})" for one in heard]
+        yield "can_taken", "can_taken", tuple(rows)
     if device.commands:
         sent = (f"{rust_string(one.name)} commands (sent {one.name.upper()})" for one in device.commands)
         yield "command", "command", tuple(sent)
