@@ -349,6 +349,28 @@ def test_other_reports_say_the_same(form: str, tmp_path: Path, capsys: pytest.Ca
     assert "<b>" not in said or form == "text"
 
 
+@pytest.mark.parametrize("form", ["text", "html", "json"])
+def test_the_name_of_a_manual_reaches_no_report_raw(
+    form: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    audit(tmp_path, capsys)
+    evil = tmp_path / "manual\x1b]0;owned\x07\u202e.txt"
+    (tmp_path / "manual.txt").rename(evil)
+    assert main(["audit", str(tmp_path / "audited"), "--manual", str(evil), "--report", form]) == 0
+    said = capsys.readouterr().out
+    assert "owned" in said
+    assert not {"\x1b", "\x07", "\u202e"} & set(said)
+
+
+def test_a_description_cannot_name_a_manual_outside_the_folder_that_was_given(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    audit(tmp_path, capsys, device=DEVICE.replace("file: manual.txt", "file: ../manual.txt"))
+    (tmp_path / "empty").mkdir()
+    assert main(["audit", str(tmp_path / "audited"), "--manual", str(tmp_path / "empty")]) == 2
+    assert "holds no manual" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [

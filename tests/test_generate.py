@@ -5,10 +5,14 @@ from __future__ import annotations
 import json
 import os
 import shutil
+import subprocess
+import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 from fieldscribe.cli import main
+from strange_files import KINDS, put
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -56,18 +60,219 @@ def test_check_sees_a_touched_output_and_writes_nothing(
 ) -> None:
     main(["generate", "--target", "docs"])
     assert main(["generate", "--target", "docs", "--check"]) == 0
-    place = project / "generated/docs/hitachi_l200.csv"
+    place = project / "generated/docs/hitachi_l200.md"
     before = place.stat()
     if spoil == "delete":
         place.unlink()
     else:
         place.write_bytes(place.read_bytes().replace(b"4136", b"4135", 1))
     if spoil == "same size and time":
-        os.utime(place, ns=(before.st_atime_ns, before.st_mtime_ns + 1))
+        os.utime(place, ns=(before.st_atime_ns, before.st_mtime_ns))
     assert main(["generate", "--target", "docs", "--check"]) == 1
-    assert "stale: generated/docs/hitachi_l200.csv" in capsys.readouterr().out
+    assert "stale: generated/docs/hitachi_l200.md" in capsys.readouterr().out
     assert main(["generate", "--target", "docs"]) == 0
     assert main(["generate", "--target", "docs", "--check"]) == 0
+
+
+def test_check_asks_no_memory(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    main(["generate", "--target", "docs"])
+
+    def asked(*_: object) -> None:
+        raise AssertionError("--check asked its memory")
+
+    monkeypatch.setattr("fieldscribe.output.memory.Memory.outputs", asked)
+    monkeypatch.setattr("fieldscribe.output.memory.Memory.__init__", asked)
+    assert main(["generate", "--target", "docs", "--check"]) == 0
+
+
+def test_an_input_that_is_edited_during_a_run_and_put_back_is_not_taken_for_compiled(
+    project: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from fieldscribe import pipeline
+
+    assert main(["generate", "--target", "docs", "--out", "right"]) == 0
+    place = project / "descriptions/hitachi_l200/device.yaml"
+    text, before, load = place.read_bytes(), place.stat(), pipeline.load_device
+
+    def meddling(*arguments: Any) -> Any:
+        place.write_bytes(text.replace(b"version: 1.0.0", b"version: 6.6.6"))
+        try:
+            return load(*arguments)
+        finally:
+            place.write_bytes(text)
+            os.utime(place, ns=(before.st_atime_ns, before.st_mtime_ns))
+
+    monkeypatch.setattr(pipeline, "load_device", meddling)
+    assert main(["generate", "--target", "docs"]) == 0
+    monkeypatch.setattr(pipeline, "load_device", load)
+    made = project / "generated/docs/hitachi_l200.md"
+    assert b"6.6.6" in made.read_bytes()
+    assert main(["generate", "--target", "docs", "--check"]) == 1
+    assert main(["generate", "--target", "docs"]) == 0
+    assert made.read_bytes() == (project / "right/docs/hitachi_l200.md").read_bytes()
+
+
+def test_a_foreign_file_is_refused_by_name_and_taken_over_by_force(
+    project: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    place = project / "made/docs/hitachi_l200.csv"
+    place.parent.mkdir(parents=True)
+    place.write_text("precious")
+    assert main(["generate", "--target", "docs", "--out", "made"]) == 1
+    assert "made/docs/hitachi_l200.csv" in (said := capsys.readouterr().err)
+    assert "--force" in said
+    assert place.read_text() == "precious"
+    assert list(files(project / "made")) == ["docs/hitachi_l200.csv"]
+    assert main(["generate", "--target", "docs", "--out", "made", "--force"]) == 0
+    assert main(["generate", "--target", "docs", "--out", "made", "--check"]) == 0
+
+
+def test_a_target_that_fails_leaves_its_device_alone_and_the_others_are_written(
+    project: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    from fieldscribe.targets import vectors
+
+    shutil.copytree(project / "descriptions/hitachi_l200", project / "descriptions/other")
+    place = project / "descriptions/other/device.yaml"
+    place.write_text(place.read_text("utf-8").replace("device: hitachi_l200", "device: other"), "utf-8")
+    outputs = vectors.outputs
+
+    def failing(device: Any, render: Any) -> Any:
+        if device.id == "other":
+            raise ValueError("no \x1b[31m vectors")
+        return outputs(device, render)
+
+    monkeypatch.setattr(vectors, "outputs", failing)
+    assert main(["generate", "--target", "docs,vectors"]) == 1
+    assert sorted(files(project / "generated")) == [
+        "docs/hitachi_l200.csv",
+        "docs/hitachi_l200.md",
+        "manifest/hitachi_l200.json",
+        next(path for path in files(project / "generated") if path.startswith("vectors/hitachi_l200.")),
+    ]
+    said = capsys.readouterr().err
+    assert "internal error in target vectors: ValueError: no [31m vectors" in said
+    assert "descriptions/other/device.yaml" in said
+    assert main(["generate", "--target", "docs,vectors", "--check"]) == 1
+
+
+def test_a_compiler_that_fails_on_one_device_writes_the_others(
+    project: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    from fieldscribe import pipeline
+
+    shutil.copytree(project / "descriptions/hitachi_l200", project / "descriptions/a_broken_one")
+    load = pipeline.load_device
+
+    def failing(device_file: Path, *rest: Any) -> Any:
+        if "broken" in str(device_file):
+            raise KeyError("x")
+        return load(device_file, *rest)
+
+    monkeypatch.setattr(pipeline, "load_device", failing)
+    assert main(["generate", "--target", "docs"]) == 1
+    assert "docs/hitachi_l200.md" in files(project / "generated")
+    assert "internal error in the compiler: KeyError: 'x'" in capsys.readouterr().err
+
+
+def test_what_lies_beside_a_description_is_not_read(project: Path) -> None:
+    for number, kind in enumerate(KINDS):
+        put(kind, project / f"descriptions/hitachi_l200/.#device_{number}.yaml")
+        put(kind, project / f"descriptions/hitachi_l200/another_{number}.yaml")
+    assert run_bounded(project, "generate", "--target", "docs", "--depfile", "docs.d").returncode == 0
+    rule = (project / "docs.d").read_text()
+    assert "standard_a.yaml" in rule
+    assert "another" not in rule
+    assert "device_" not in rule
+
+
+@pytest.mark.parametrize("kind", KINDS[:-1])
+@pytest.mark.parametrize("name", ["device.yaml", "standard_a.yaml"])
+def test_what_is_read_has_to_be_a_regular_file_of_sane_size(project: Path, kind: str, name: str) -> None:
+    place = project / "descriptions/hitachi_l200" / name
+    place.unlink()
+    put(kind, place)
+    for command in (["check"], ["generate", "--target", "docs"]):
+        done = run_bounded(project, *command)
+        assert done.returncode == 1
+        said = done.stdout + done.stderr
+        assert any(rule in said for rule in ("file-unreadable", "file-too-large", "part-outside")), said
+        assert f"hitachi_l200/{'device.yaml' if 'part-outside' in said else name}" in said
+
+
+def test_a_part_may_be_a_link_within_its_folder_but_not_out_of_it(project: Path, tmp_path: Path) -> None:
+    folder = project / "descriptions/hitachi_l200"
+    (folder / "standard_a.yaml").rename(folder / "somewhere.txt")
+    (folder / "standard_a.yaml").symlink_to("somewhere.txt")
+    assert main(["check"]) == 0
+    (folder / "somewhere.txt").rename(tmp_path / "outside.txt")
+    (folder / "standard_a.yaml").unlink()
+    (folder / "standard_a.yaml").symlink_to(tmp_path / "outside.txt")
+    assert main(["check"]) == 1
+
+
+def test_a_folder_of_links_into_one_place_is_fine(project: Path, tmp_path: Path) -> None:
+    farm = tmp_path / "farm/hitachi_l200"
+    farm.mkdir(parents=True)
+    for path in (project / "descriptions/hitachi_l200").iterdir():
+        (farm / path.name).symlink_to(path)
+    assert main(["check", str(farm.parent)]) == 0
+
+
+def test_a_circle_of_links_is_a_finding(project: Path) -> None:
+    place = project / "descriptions/hitachi_l200/device.yaml"
+    place.unlink()
+    place.symlink_to("device.yaml")
+    assert main(["check"]) == 1
+
+
+def test_names_of_files_reach_nobody_raw(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    evil = "made\x1b]0;owned\x07\u202e"
+    for command in (
+        ["generate", "--target", "docs", "--out", evil, "--check"],
+        ["generate", "--target", "docs", "--out", evil, "--list-outputs"],
+        ["generate", "--target", "docs", "--out", evil],
+        ["generate", "--target", evil],
+        ["generate", f"--{evil}"],
+        ["generate", "--format", evil],
+        ["check", evil],
+        ["audit", "hitachi_l200", "--manual", evil],
+        [evil],
+    ):
+        main(command)
+        said = capsys.readouterr()
+        shown = said.out + said.err
+        assert shown
+        assert "\x1b" not in shown, command
+        assert "\u202e" not in shown, command
+
+
+def test_a_name_that_make_cannot_hold_is_no_rule(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    evil = "made\nall:\n\trm -rf x"
+    assert main(["generate", "--target", "docs", "--out", evil, "--depfile", "docs.d"]) == 2
+    assert "make cannot name the path" in capsys.readouterr().err
+    assert not (project / "docs.d").exists()
+
+
+@pytest.mark.parametrize("kind", ["pipe", "folder"])
+def test_a_depfile_replaces_only_a_file(project: Path, kind: str, capsys: pytest.CaptureFixture[str]) -> None:
+    put(kind, project / "docs.d")
+    assert main(["generate", "--target", "docs", "--depfile", "docs.d"]) == 2
+    assert f"it is a {kind}" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("kind", ["pipe", "device", "huge"])
+def test_a_manual_has_to_be_a_regular_file_too(project: Path, kind: str) -> None:
+    put(kind, project / "manual.txt")
+    done = run_bounded(project, "audit", "hitachi_l200", "--manual", "manual.txt")
+    assert done.returncode == 2
+    assert "it is " in done.stderr
+
+
+def run_bounded(folder: Path, *words: str) -> subprocess.CompletedProcess[str]:
+    """The command as a process: one that waits for a pipe, or fills the memory, fails the test."""
+    command = [sys.executable, "-m", "fieldscribe", *words]
+    return subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=30, check=False)
 
 
 def test_a_device_with_errors_writes_nothing_and_the_others_are_written(
@@ -127,6 +332,6 @@ def test_wrong_calls(
 
 
 def test_a_changed_compiler_is_not_mistaken_for_unchanged_input() -> None:
-    from fieldscribe.output import stamp
+    from fieldscribe.output import memory
 
-    assert (stamp.PACKAGE / "pipeline.py").is_file()
+    assert (memory.PACKAGE / "pipeline.py").is_file()

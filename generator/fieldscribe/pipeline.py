@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from typing import TYPE_CHECKING
 
 from fieldscribe.diagnostics import Report, Span
@@ -14,8 +15,13 @@ if TYPE_CHECKING:
     from fieldscribe.checks.subject import Subject
     from fieldscribe.language.files import Files
     from fieldscribe.model import Device
+    from fieldscribe.reading import Inputs
 
 DEVICE_FILE = "device.yaml"
+
+
+class TargetError(Exception):
+    """A target failed; its name is the argument, what happened is the cause."""
 
 
 def find_devices(paths: Iterable[Path], report: Report) -> list[Path]:
@@ -24,10 +30,10 @@ def find_devices(paths: Iterable[Path], report: Report) -> list[Path]:
     for path in paths:
         if path.is_file():
             candidates = [path]
-        elif (path / DEVICE_FILE).is_file():
+        elif os.path.lexists(path / DEVICE_FILE):
             candidates = [path / DEVICE_FILE]
         else:
-            candidates = sorted(path.glob(f"*/{DEVICE_FILE}"))
+            candidates = device_files_below(path)
         if not candidates:
             missing = (
                 "there is no such file or folder"
@@ -40,13 +46,25 @@ def find_devices(paths: Iterable[Path], report: Report) -> list[Path]:
     return list(found)
 
 
-def load_device(device_file: Path, report: Report) -> Device | None:
-    """The model of a description: read, validate, interpret, resolve, check. None and findings when it is wrong."""
+def device_files_below(folder: Path) -> list[Path]:
+    """What is called device.yaml in the folders of a folder; what cannot be read gets its finding later."""
+    try:
+        names = sorted(os.listdir(folder))
+    except OSError:
+        return []
+    return [folder / name / DEVICE_FILE for name in names if os.path.lexists(folder / name / DEVICE_FILE)]
+
+
+def load_device(device_file: Path, report: Report, inputs: Inputs | None = None) -> Device | None:
+    """The model of a description: read, validate, interpret, resolve, check. None and findings when it is wrong.
+
+    `inputs` takes note of the files, with what they held.
+    """
     from fieldscribe.language.files import read_files
     from fieldscribe.resolve.device import build_device
 
     own = Report()
-    files = read_files(device_file, own)
+    files = read_files(device_file, own, inputs)
     subject = None if files is None else _checked(files, own)
     report.extend(own)
     return None if subject is None else build_device(subject)
@@ -60,29 +78,35 @@ def load_subject(device_file: Path, report: Report) -> Subject | None:
     return None if files is None else _checked(files, report)
 
 
-def description_files(device_file: Path) -> list[Path]:
-    """All files that may belong to a description: device.yaml and the YAML files beside it."""
-    others = {path for pattern in ("*.yaml", "*.yml") for path in device_file.parent.glob(pattern)}
-    return [device_file, *sorted(others - {device_file})]
-
-
 def outputs(device: Device, targets: Iterable[str]) -> Iterator[tuple[str, str, str]]:
-    """All files of a device: target, path relative to the output folder, and text; the runtime of each target last."""
+    """All files of a device: target, path relative to the output folder, and text; the runtime of each target last.
+
+    Raises TargetError for whatever fails inside a target.
+    """
     from fieldscribe.plain import for_code
-    from fieldscribe.render import render
-    from fieldscribe.resources import templates_dir
-    from fieldscribe.targets import FOR_PEOPLE, target
+    from fieldscribe.targets import FOR_PEOPLE
 
     plain: Device | None = None
     for name in targets:
-        made = target(name)
-        if name not in FOR_PEOPLE:
-            plain = plain or for_code(device)
-        seen = device if name in FOR_PEOPLE or plain is None else plain
-        for path, text in made.outputs(seen, render):
-            yield name, path, text
-        for path, template in made.runtime(seen):
-            yield name, path, (templates_dir() / template).read_text("utf-8")
+        try:
+            if name not in FOR_PEOPLE:
+                plain = plain or for_code(device)
+            seen = device if name in FOR_PEOPLE or plain is None else plain
+            for path, text in _of_target(name, seen):
+                yield name, path, text
+        except Exception as error:
+            raise TargetError(name) from error
+
+
+def _of_target(name: str, device: Device) -> Iterator[tuple[str, str]]:
+    from fieldscribe.render import render
+    from fieldscribe.resources import templates_dir
+    from fieldscribe.targets import target
+
+    made = target(name)
+    yield from made.outputs(device, render)
+    for path, template in made.runtime(device):
+        yield path, (templates_dir() / template).read_text("utf-8")
 
 
 def _checked(files: Files, report: Report) -> Subject | None:

@@ -6,7 +6,6 @@ from collections.abc import Callable, Mapping
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from fieldscribe.output.cache import cache_dir
 from fieldscribe.resources import templates_dir
 
 if TYPE_CHECKING:
@@ -20,16 +19,16 @@ Render = Callable[[str, Mapping[str, object]], str]
 
 @lru_cache(maxsize=1)
 def _environment(folder: Path) -> Environment:
-    from jinja2 import Environment, FileSystemBytecodeCache, FileSystemLoader, StrictUndefined
+    """Templates are compiled once a run and kept nowhere: what is loaded as code comes from the package alone."""
+    from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
-    compiled = cache_dir("templates")
     made = Environment(
         loader=FileSystemLoader(folder),
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
         keep_trailing_newline=True,
-        bytecode_cache=FileSystemBytecodeCache(str(compiled)) if compiled else None,
+        auto_reload=False,
         autoescape=False,  # noqa: S701 - no HTML: views hold finished text, encoded by text.py
     )
     # views are objects, so the search for items behind attributes (a tenth of a large compile) has nothing to find

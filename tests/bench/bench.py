@@ -61,18 +61,19 @@ def row(what: str, points: int | None, figures: Figures) -> None:
 
 
 def bench_device(name: str, description: Path, points: int, runs: int, scratch: Path) -> None:
-    """check, cold generate of all targets, and generate on unchanged input, for one description."""
+    """check, cold generate of all targets, and generate and its --check on unchanged input, for one description."""
     out = scratch / "out" / name
     environment = {**os.environ, "XDG_CACHE_HOME": str(scratch / "cache")}
 
     def forget() -> None:
         shutil.rmtree(out, ignore_errors=True)
-        shutil.rmtree(scratch / "cache/fieldscribe/runs", ignore_errors=True)  # compiled templates stay, as *.pyc do
+        shutil.rmtree(scratch / "cache", ignore_errors=True)
 
     row(f"check {name}", points, measure([*FIELDSCRIBE, "check", str(description)], runs, environment=environment))
     generate = [*FIELDSCRIBE, "generate", str(description), "--out", str(out)]
     row(f"generate {name}, cold, all targets", points, measure(generate, runs, forget, environment=environment))
     row(f"generate {name}, unchanged", points, measure(generate, runs, environment=environment))
+    row(f"generate --check {name}", points, measure([*generate, "--check"], runs, environment=environment))
 
 
 def main() -> None:

@@ -103,7 +103,8 @@ def as_html(found: Audit) -> str:
         ),
     ]
     seen = [_Table(one.title, one.heads, [tuple(map(_shown, row)) for row in one.rows]) for one in tables]
-    return render("audit.html.j2", {"found": found, "text": _TEXTS[found.same_text], "tables": seen})
+    view = {"found": found, "manual": visible(found.manual), "text": _TEXTS[found.same_text], "tables": seen}
+    return render("audit.html.j2", view)
 
 
 def _shown(cell: object) -> str:

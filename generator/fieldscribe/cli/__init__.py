@@ -6,7 +6,7 @@ import gc
 import os
 import sys
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NoReturn
 
 from fieldscribe import __version__
 
@@ -36,6 +36,7 @@ COMMANDS = {
     "decode": "say what frames from the line mean",
     "encode": "turn a value into its raw number, or into the whole request frame",
     "audit": "hold everything that a description cites against the text of its manual",
+    "units": "list the units that descriptions can use without declaring them",
 }
 """All commands with what they do, in the order in which they are listed. Their modules are imported when chosen."""
 
@@ -129,7 +130,15 @@ def _command(name: str) -> Command:
 def _parser(prog: str, description: str, epilog: str) -> ArgumentParser:
     from argparse import ArgumentParser, RawDescriptionHelpFormatter
 
-    return ArgumentParser(
+    class Parser(ArgumentParser):
+        """Quotes arguments, which may be the names of a stranger's files, as findings do."""
+
+        def error(self, message: str) -> NoReturn:
+            from fieldscribe.report import visible
+
+            super().error(visible(message))
+
+    return Parser(
         prog=prog,
         description=description[0].upper() + description[1:].rstrip(".") + ".",
         epilog=epilog,
@@ -155,11 +164,16 @@ def _forget_stdout() -> None:
         return
 
 
-def _failed(error: Exception) -> int:
+def show_traceback(error: BaseException) -> None:
+    """Where an internal error came from, for those who ask."""
     if os.environ.get("FIELDSCRIBE_DEBUG"):
         import traceback
 
-        traceback.print_exc()
+        traceback.print_exception(error)
+
+
+def _failed(error: Exception) -> int:
+    show_traceback(error)
     said = ascii(str(error)[:200])[1:-1]
     print(
         f"fieldscribe: internal error: {type(error).__name__}: {said}; this is a bug: please report it to the project "

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
-    from pathlib import Path
 
     from fieldscribe.audit import Audit
     from fieldscribe.checks.subject import Subject
@@ -17,6 +17,10 @@ EXAMPLE = """examples:
   fieldscribe audit hitachi_l200 --manual new_edition.txt --report html > audit.html
 
 ends with 1 when a cited fact is not where it is cited; unused numbers and uncited rows are reported only"""
+
+
+_MOST_BYTES = 256 << 20
+"""The largest text of a manual: a hundred times the longest that we know."""
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -57,6 +61,7 @@ def _audit(arguments: Namespace) -> Audit:
     from fieldscribe.cli.common import StopError, device_file, report_findings
     from fieldscribe.diagnostics import Report
     from fieldscribe.pipeline import load_subject
+    from fieldscribe.reading import read_regular
 
     report = Report()
     subject = load_subject(device_file(arguments), report)
@@ -64,7 +69,7 @@ def _audit(arguments: Namespace) -> Audit:
         report_findings(report, "json" if arguments.format == "json" else "text")
         raise StopError("", code=1)
     path, expected = _manual(subject, arguments.manual)
-    data = path.read_bytes()
+    data = read_regular(path, _MOST_BYTES).data
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
@@ -80,7 +85,8 @@ def _manual(subject: Subject, given: Path) -> tuple[Path, str | None]:
     documents = list(subject.scope.documents.values())
     if not given.exists():
         raise StopError(f"there is no file `{given}`", "name the text that was extracted from the manual")
-    known = {one.file: one.sha256 for one in documents if one.file}
+    # a name from a description leads nowhere but into the folder that was given
+    known = {one.file: one.sha256 for one in documents if one.file and Path(one.file).name == one.file}
     if given.is_dir():
         there = [name for name in known if (given / name).is_file()]
         if not there:

@@ -207,6 +207,7 @@ def _near(name: str, known: list[str]) -> str:
 def _reader() -> ReadLines:
     """Reads each file that findings name once."""
     from fieldscribe.language.source import MOST_BYTES
+    from fieldscribe.reading import read_regular
     from fieldscribe.report import split_lines
 
     known: dict[str, list[str] | None] = {}
@@ -214,8 +215,7 @@ def _reader() -> ReadLines:
     def read(name: str) -> list[str] | None:
         if name not in known:
             try:
-                with Path(name).open("rb") as stream:
-                    known[name] = split_lines(stream.read(MOST_BYTES).decode("utf-8-sig", "replace"))
+                known[name] = split_lines(read_regular(name, MOST_BYTES).data.decode("utf-8-sig", "replace"))
             except (OSError, ValueError):
                 known[name] = None
         return known[name]

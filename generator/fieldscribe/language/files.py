@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -15,6 +16,7 @@ if TYPE_CHECKING:
 
     from fieldscribe.diagnostics import Report
     from fieldscribe.language.nodes import Map
+    from fieldscribe.reading import Inputs
 
 _UNSAFE_NAMES = frozenset({"con", "prn", "aux", "nul", *(f"{port}{n}" for port in ("com", "lpt") for n in range(10))})
 _NEEDED = ("device", "family", "documents")
@@ -28,13 +30,16 @@ class Files:
     complete: bool
 
 
-def read_files(device_file: Path, report: Report) -> Files | None:
-    """What the files say; None when device.yaml says too little to go on. Findings go to the report."""
-    header, fine = _file(device_file, "device_file", report)
+def read_files(device_file: Path, report: Report, inputs: Inputs | None = None) -> Files | None:
+    """What the files say; None when device.yaml says too little to go on. Findings go to the report.
+
+    Nothing else of the folder is read: whatever an editor or a stranger leaves there.
+    """
+    header, fine = _file(device_file, "device_file", report, inputs)
     if header is None:
         return None
     _safe_name(header, report)
-    parts = [_file(path, "part_file", report) for path in _parts(device_file, header, report)]
+    parts = [_file(path, "part_file", report, inputs) for path in _parts(device_file, header, report)]
     if not all(key in header for key in _NEEDED):
         return None
     listed = "parts" not in header.broken and len(parts) == len(header.get("parts", ()))
@@ -42,9 +47,9 @@ def read_files(device_file: Path, report: Report) -> Files | None:
     return Files((header, *(part for part, _ in parts if part is not None)), complete)
 
 
-def _file(path: Path, kind: str, report: Report) -> tuple[Map | None, bool]:
+def _file(path: Path, kind: str, report: Report, inputs: Inputs | None) -> tuple[Map | None, bool]:
     """The file's mapping, and whether it is whole."""
-    source = read_source(path, report)
+    source = read_source(path, report, inputs)
     root = None if source is None else load(source, report)
     return root, root is not None and check_shape(root, kind, report)
 
@@ -59,14 +64,23 @@ def _parts(device_file: Path, header: Map, report: Report) -> list[Path]:
             report.error("duplicate-name", f"the part `{name}` is listed twice", span, "remove one of them", [first])
         elif name == device_file.name:
             report.error("missing-part", f"`{name}` cannot be a part of itself", span, "take it off the list")
-        elif not path.is_file():
+        elif not os.path.lexists(path):
             others = tuple(sorted(one.name for one in device_file.parent.glob("*.y*ml") if one != device_file))
             near = nearest(name, others)
             hint = f"did you mean `{near}`?" if near else "create it or take it off the list"
             report.error("missing-part", f"there is no file `{name}` beside {device_file.name}", span, hint)
+        elif path.is_symlink() and not _leads_beside(path, device_file):
+            hint = "parts stand beside device.yaml: copy the file, or link the whole folder"
+            report.error("part-outside", f"`{name}` is a link that leads out of the folder", span, hint)
         else:
             found[name] = path
     return list(found.values())
+
+
+def _leads_beside(link: Path, device_file: Path) -> bool:
+    """Whether a link ends in the folder of the description, or of what its device.yaml is a link to itself."""
+    folder = os.path.dirname(os.path.realpath(link))
+    return folder in (os.path.realpath(device_file.parent), os.path.dirname(os.path.realpath(device_file)))
 
 
 def _safe_name(header: Map, report: Report) -> None:

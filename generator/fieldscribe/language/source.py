@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+import os
 import re
 from dataclasses import dataclass, field
+from errno import EFBIG
 from functools import cache
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from fieldscribe.diagnostics import Report, Span
+
+if TYPE_CHECKING:
+    from fieldscribe.reading import Inputs
 
 MOST_BYTES = 16 * 1024 * 1024
 """The largest description file that is read: about 100,000 points."""
@@ -38,28 +44,41 @@ class SourceFile:
 def shown(path: Path) -> str:
     """The path as people typed or would type it: relative to the working folder when it lies below."""
     try:
-        return path.resolve().relative_to(Path.cwd()).as_posix()
+        return Path(os.path.abspath(path)).relative_to(Path.cwd()).as_posix()
     except ValueError:
         return path.as_posix()
 
 
-def read_source(path: Path, report: Report) -> SourceFile | None:
-    """The file's text, or None and a finding if it is missing, too large, empty, not UTF-8 or holds control codes."""
+def read_source(path: Path, report: Report, inputs: Inputs | None = None) -> SourceFile | None:
+    """The file's text, or None and a finding if it is missing, too large, empty, not UTF-8 or holds control codes.
+
+    `inputs` takes note of the bytes that were read.
+    """
     name = shown(path)
-    start = Span(name, 1, 1)
+    data = _bytes(path, Span(name, 1, 1), report)
+    if data is None:
+        return None
+    if inputs is not None:
+        inputs.note(path, data)
+    return _decoded(name, data, report)
+
+
+def _bytes(path: Path, start: Span, report: Report) -> bytes | None:
+    from fieldscribe.reading import UnfitFileError, read_regular
+
     try:
-        with path.open("rb") as stream:
-            data = stream.read(MOST_BYTES + 1)
+        return read_regular(path, MOST_BYTES).data
+    except UnfitFileError as error:
+        if error.errno == EFBIG:
+            message = f"the file is larger than {MOST_BYTES >> 20} MiB"
+            report.error("file-too-large", message, start, "split it with `parts`")
+        else:
+            hint = "a description is made of regular files: move this away, or name another"
+            report.error("file-unreadable", f"cannot read the file: {error.strerror}", start, hint)
     except OSError as error:
         message = f"cannot read the file: {error.strerror}"
         report.error("file-unreadable", message, start, "check the path and its permissions")
-        return None
-    if len(data) > MOST_BYTES:
-        report.error(
-            "file-too-large", f"the file is larger than {MOST_BYTES >> 20} MiB", start, "split it with `parts`"
-        )
-        return None
-    return _decoded(name, data, report)
+    return None
 
 
 def _decoded(name: str, data: bytes, report: Report) -> SourceFile | None:

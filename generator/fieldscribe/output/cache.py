@@ -1,4 +1,4 @@
-"""The folder of the user's own cache, where what can be computed again is kept between runs."""
+"""The folder of the user's own cache. It holds plain data that can be computed again, and nothing that is executed."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ def cache_dir(name: str) -> Path | None:
     place = Path(base) / "fieldscribe" / name
     try:
         place.mkdir(mode=0o700, parents=True, exist_ok=True)
-        status = place.stat()
-    except OSError:
+        status = place.lstat()
+    except (OSError, ValueError):
         return None
-    # what is loaded from here is trusted, so nobody else may have written it
+    # what others wrote here could call stale outputs unchanged; it could do nothing else
     private = not hasattr(os, "getuid") or (status.st_uid == os.getuid() and not status.st_mode & 0o022)
     return place if private and os.access(place, os.W_OK) else None

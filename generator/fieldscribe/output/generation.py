@@ -1,0 +1,141 @@
+"""All devices of a run: loaded, then compared with the output folder or written to it, one after the other.
+
+A device with an error, in its description or in any one target, or with a file of others in its way, is left as it is.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from fieldscribe.diagnostics import Report, Span
+from fieldscribe.language.source import shown
+from fieldscribe.output.result import Result
+from fieldscribe.reading import Inputs
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+    from pathlib import Path
+
+    from fieldscribe.model import Device
+    from fieldscribe.output.memory import Memory
+    from fieldscribe.output.plan import Made, Plan
+
+
+@dataclass(slots=True)
+class Generation:
+    """One run: which targets, into which folder, from which descriptions."""
+
+    out: Path
+    targets: tuple[str, ...]
+    report: Report
+    debug: Callable[[BaseException], None]
+    """Is shown each internal error."""
+    devices: dict[str, tuple[Path, Device]] = field(default_factory=dict)
+    inputs: Inputs = field(default_factory=Inputs)
+    result: Result = field(default_factory=Result)
+
+    def load(self, device_files: list[Path]) -> None:
+        """Take in the devices without errors; a second description of one is an error."""
+        from fieldscribe.pipeline import DEVICE_FILE, load_device
+
+        for device_file in device_files:
+            try:
+                device = load_device(device_file, self.report, self.inputs)
+            except Exception as error:  # the other devices are written
+                self._report_bug(device_file, "the compiler", error)
+                continue
+            if device is None:
+                continue
+            if device.id in self.devices:
+                first = shown(self.devices[device.id][0])
+                message = f"the device `{device.id}` is described twice in this run, first in {first}"
+                hint = f"give one {DEVICE_FILE} another `device`"
+                self.report.error("duplicate-device", message, Span(shown(device_file), 1, 1), hint)
+                continue
+            self.devices[device.id] = device_file, device
+
+    def list_outputs(self) -> None:
+        """Note what there would be."""
+        for device, made in self._made():
+            self.result.wanted.update(_paths(device, made))
+
+    def compare(self) -> None:
+        """Note what is stale. What was current when it was read has to be so at the end, or somebody is writing."""
+        from fieldscribe.output.manifests import Manifests
+        from fieldscribe.output.plan import changed_since, plan_of
+
+        manifests, result = Manifests(self.out), self.result
+        for device, made in self._made():
+            plan = plan_of(self.out, manifests, device.id, made)
+            result.wanted.update(_paths(device, made))
+            result.stale.update(plan.stale)
+            result.kept.update(plan.kept)
+            result.states.update(plan.unchanged)
+        result.stale.update(changed_since(self.out, result.states))
+
+    def write(self, waiting: Callable[[], None], memory: Memory | None, *, force: bool) -> None:
+        """Write what changed, while no other run writes to the folder. Raises OSError."""
+        from fieldscribe.output.lock import only_run
+
+        if not self.devices:
+            return
+        with only_run(self.out, waiting):
+            self._write_all(force=force)
+            if memory and not self.report.has_errors:
+                memory.keep(self.inputs, self.result.states, self.result.digests)
+
+    def _write_all(self, *, force: bool) -> None:
+        from fieldscribe.output.manifests import Manifests
+        from fieldscribe.output.plan import plan_of
+        from fieldscribe.output.writing import carry_out
+
+        manifests, result = Manifests(self.out), self.result
+        for device, made in self._made():
+            plan = plan_of(self.out, manifests, device.id, made, force=force)
+            if plan.refused:
+                self._report_refused(plan)
+                continue
+            result.states.update(carry_out(self.out, manifests, plan))
+            result.digests.update(plan.digests)
+            result.wanted.update(_paths(device, made))
+            result.written.update(plan.write)
+            result.removed.update(plan.remove)
+            result.kept.update(plan.kept)
+
+    def _made(self) -> Iterator[tuple[Device, Made]]:
+        """Each device with all its files; one with a target that fails has none at all, and a finding."""
+        from fieldscribe.pipeline import TargetError, outputs
+
+        for device_file, device in self.devices.values():
+            made: Made = {target: {} for target in self.targets}
+            try:
+                for target, path, text in outputs(device, self.targets):
+                    made[target][path] = text.encode()
+            except (TargetError, UnicodeEncodeError) as error:
+                where = f"target {error}" if isinstance(error, TargetError) else "a text"
+                self._report_bug(device_file, where, error.__cause__ or error)
+                continue
+            yield device, made
+
+    def _report_refused(self, plan: Plan) -> None:
+        hint = f"move it away, or replace it with `--force`; nothing of {plan.device} was written"
+        for path, reason in sorted(plan.refused.items()):
+            place = Span(shown(self.out / path), 1, 1)
+            self.report.error("foreign-file", f"a file is in the way: {reason}", place, hint)
+
+    def _report_bug(self, device_file: Path, where: str, error: BaseException) -> None:
+        """An internal error is a finding of its device."""
+        self.debug(error)
+        said = f"{type(error).__name__}: {str(error)[:120]}"
+        message = f"internal error in {where}: {said}; nothing of this device was written"
+        hint = "this is a bug: please report it to the project with the description (FIELDSCRIBE_DEBUG=1 shows where)"
+        self.report.error("internal-error", message, Span(shown(device_file), 1, 1), hint)
+
+
+def _paths(device: Device, made: Made) -> Iterator[str]:
+    from fieldscribe.output.manifests import manifest_path
+
+    yield manifest_path(device.id)
+    for files in made.values():
+        yield from files

@@ -1,0 +1,183 @@
+"""One run at a time writes to an output folder.
+
+The lock is on an empty file in that folder, where all users of it meet whatever their caches are. The system lets go of
+it when a run ends, however it ends; the file itself is removed, by this run or, after one that was killed, by the next.
+Where the system cannot lock files, who creates the file has the lock, and one that is ten minutes old was left behind.
+"""
+
+from __future__ import annotations
+
+import errno
+import os
+import signal
+import time
+from contextlib import contextmanager, suppress
+from typing import TYPE_CHECKING, NoReturn
+
+from fieldscribe.reading import UnfitFileError, kind_of
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+    from pathlib import Path
+    from types import FrameType
+
+NAME = ".fieldscribe-lock"
+PATIENCE = 60.0
+"""Seconds that a run waits for another."""
+
+_PAUSE = 0.05
+_TELL_AFTER = 0.5
+_LEFT_BEHIND = 600.0
+_BUSY = (errno.EACCES, errno.EAGAIN, errno.EDEADLK, getattr(errno, "EDEADLOCK", errno.EDEADLK))
+_FLAGS = os.O_RDWR
+for _name in ("O_NOFOLLOW", "O_NONBLOCK", "O_CLOEXEC", "O_BINARY", "O_NOINHERIT"):
+    _FLAGS |= getattr(os, _name, 0)
+
+
+@contextmanager
+def only_run(out: Path, waiting: Callable[[], None], patience: float = PATIENCE) -> Iterator[None]:
+    """No other run writes to the folder meanwhile. `waiting` is told once if there is one. Raises OSError."""
+    made = not out.is_dir()
+    place = out / NAME
+    handle = _acquired(place, waiting, patience)
+    try:
+        with _ending_in_order():
+            yield
+    finally:
+        _release(place, handle)
+        if made:
+            with suppress(OSError):
+                out.rmdir()  # nothing was written
+
+
+def _acquired(place: Path, waiting: Callable[[], None], patience: float) -> int:
+    start, told = time.monotonic(), False
+    while True:
+        handle = _tried(place)
+        if handle is not None:
+            return handle
+        waited = time.monotonic() - start
+        if waited > patience:
+            message = f"another run has been writing there for {patience:.0f} seconds"
+            raise TimeoutError(errno.ETIMEDOUT, message, str(place.parent))
+        if waited > _TELL_AFTER and not told:
+            waiting()
+            told = True
+        time.sleep(_PAUSE)
+
+
+def _tried(place: Path) -> int | None:
+    """The open file if its lock is ours now."""
+    handle, created = _opened(place)
+    if handle is None:
+        return None
+    try:
+        held = _locked(handle)
+        if held is None:
+            held = created or _left_behind(place, handle)
+        if held and _is_there(place, handle):
+            return handle
+    except BaseException:
+        os.close(handle)
+        raise
+    os.close(handle)
+    return None
+
+
+def _opened(place: Path) -> tuple[int | None, bool]:
+    """The lock file, and whether it was created now; None if it went away meanwhile. What is no lock is refused."""
+    place.parent.mkdir(parents=True, exist_ok=True)
+    try:
+        return os.open(place, _FLAGS | os.O_CREAT | os.O_EXCL, 0o666), True
+    except FileExistsError:
+        return _existing(place), False
+    except FileNotFoundError:
+        return None, False  # another run has removed the folder that it had made
+
+
+def _existing(place: Path) -> int | None:
+    try:
+        status = os.lstat(place)
+        kind = kind_of(status) or ("it is not empty, so it is no lock" if status.st_size else None)
+        if kind is not None:
+            raise UnfitFileError(errno.EEXIST, f"{kind}: move it away", str(place))
+        with suppress(PermissionError):
+            return os.open(place, _FLAGS)
+        return os.open(place, _FLAGS & ~os.O_RDWR)  # another user's, which may be locked all the same
+    except (FileNotFoundError, PermissionError) as error:
+        if isinstance(error, PermissionError) and os.name != "nt":
+            raise
+        return None  # Windows denies to open what is about to be removed
+
+
+def _locked(handle: int) -> bool | None:
+    """Whether the system gave us the lock; None if it has none for this file."""
+    try:
+        import fcntl
+    except ImportError:
+        return _locked_as_on_windows(handle)
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError as error:
+        return False if error.errno in _BUSY else None
+    return True
+
+
+def _locked_as_on_windows(handle: int) -> bool | None:
+    try:
+        import msvcrt
+    except ImportError:
+        return None
+    try:
+        msvcrt.locking(handle, msvcrt.LK_NBLCK, 1)  # type: ignore[attr-defined, unused-ignore]  # Windows only
+    except OSError as error:
+        return False if error.errno in _BUSY else None
+    return True
+
+
+def _left_behind(place: Path, handle: int) -> bool:
+    """Without locks of the system: an old file is taken out of the way, so that the next try creates a new one."""
+    if time.time() - os.fstat(handle).st_mtime > _LEFT_BEHIND:
+        with suppress(OSError):
+            place.unlink()
+    return False
+
+
+def _is_there(place: Path, handle: int) -> bool:
+    """Whether the file that is held is still the one that others would find."""
+    try:
+        return os.path.samestat(os.lstat(place), os.fstat(handle))
+    except OSError:
+        return False
+
+
+def _release(place: Path, handle: int) -> None:
+    try:
+        removed = not _is_there(place, handle)
+        if not removed:
+            place.unlink()
+            removed = True
+    except OSError:
+        removed = False  # Windows removes no open file
+    os.close(handle)
+    if not removed:
+        with suppress(OSError):
+            place.unlink()
+
+
+@contextmanager
+def _ending_in_order() -> Iterator[None]:
+    """SIGTERM ends this run by unwinding, so that it leaves neither its lock nor half a file."""
+    try:
+        before = signal.signal(signal.SIGTERM, _stop)
+    except ValueError:  # not in the main thread
+        yield
+        return
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before if before is not None else signal.SIG_DFL)
+
+
+def _stop(number: int, _frame: FrameType | None) -> NoReturn:
+    raise SystemExit(128 + number)

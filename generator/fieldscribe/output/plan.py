@@ -1,0 +1,177 @@
+"""What writing a device would change in an output folder; nothing is touched here."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass, field
+from hashlib import sha256
+from typing import TYPE_CHECKING
+
+from fieldscribe.output.manifests import manifest_path, manifest_text
+from fieldscribe.reading import kind_of, read_regular, state_of
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+    from pathlib import Path
+
+    from fieldscribe.output.manifests import Manifests, Targets
+    from fieldscribe.reading import State
+
+Made = dict[str, dict[str, bytes]]
+"""The files of each target: path relative to the output folder, and contents."""
+
+_MOST_BYTES = 512 << 20
+_NOT_OURS = "it was edited, or is somebody else's: it has neither our head nor the recorded checksum"
+
+
+class UnsafePathError(Exception):
+    """An output would land outside the output folder."""
+
+
+@dataclass(slots=True)
+class Plan:
+    """What differs between what should be in the output folder and what is there; paths relative to it."""
+
+    device: str
+    targets: Targets
+    """The device's files as the manifest will record them."""
+    pending: bytes
+    """The manifest for the time in which the files are written."""
+    write: dict[str, bytes] = field(default_factory=dict)
+    remove: list[str] = field(default_factory=list)
+    unchanged: dict[str, State] = field(default_factory=dict)
+    refused: dict[str, str] = field(default_factory=dict)
+    """What stands in the way, and why it may not be replaced."""
+    kept: list[str] = field(default_factory=list)
+    """What nobody needs any more, but somebody has changed."""
+
+    @property
+    def digests(self) -> dict[str, str]:
+        """The checksums of the files, and of the manifest."""
+        found = {path: digests[0] for files in self.targets.values() for path, digests in files.items()}
+        text = manifest_text(self.device, self.targets)
+        return {**found, manifest_path(self.device): sha256(text.encode()).hexdigest()}
+
+    @property
+    def stale(self) -> list[str]:
+        """What is missing, differs or should be gone."""
+        return sorted({*self.write, *self.remove, *self.refused})
+
+
+def plan_of(out: Path, manifests: Manifests, device: str, made: Made, *, force: bool = False) -> Plan:
+    """What writing these targets of a device would change; with `force` files of others may be replaced."""
+    before = manifests.of(device)
+    now: Targets = {
+        target: {path: (sha256(data).hexdigest(),) for path, data in files.items()} for target, files in made.items()
+    }
+    plan = Plan(device, {**before, **now}, manifest_text(device, _both(before, now)).encode())
+    planner = _Planner(out, manifests, plan, force)
+    for files in made.values():
+        for path, data in files.items():
+            planner.add(path, data)
+    planner.add_left_over(made)
+    planner.add(manifest_path(device), manifest_text(device, plan.targets).encode())
+    return plan
+
+
+def changed_since(out: Path, states: Mapping[str, State]) -> list[str]:
+    """Which of the files were touched after they were found to be as they should be."""
+    return [path for path, state in states.items() if _state(out / path) != state]
+
+
+def inside(out: Path, path: str) -> Path:
+    """The place of an output. Raises UnsafePathError."""
+    place, root = out / path, os.path.realpath(out)
+    folder = os.path.realpath(place.parent)
+    if place.name == ".." or not f"{folder}{os.sep}".startswith(f"{root.rstrip(os.sep)}{os.sep}"):
+        raise UnsafePathError(f"it leads out of the folder {out}")
+    return place
+
+
+class _Planner:
+    """Compares one output after the other with what is in its place."""
+
+    def __init__(self, out: Path, manifests: Manifests, plan: Plan, force: bool) -> None:
+        self._out = out
+        self._manifests = manifests
+        self._plan = plan
+        self._force = force
+
+    def add(self, path: str, data: bytes) -> None:
+        """This is what should be there."""
+        try:
+            place = inside(self._out, path)
+            state = _same(place, data)
+            reason = None if state else self._in_the_way(path, place)
+        except UnsafePathError as error:
+            self._plan.refused[path] = str(error)
+            return
+        except NotADirectoryError:
+            self._plan.refused[path] = "a folder on its way is none"
+            return
+        if state:
+            self._plan.unchanged[path] = state
+        elif reason is None or (self._force and not place.is_dir()):
+            self._plan.write[path] = data
+        else:
+            self._plan.refused[path] = reason
+
+    def add_left_over(self, made: Made) -> None:
+        """Files that an earlier run wrote for these targets, that nobody wants now and nobody else shares."""
+        device = self._plan.device
+        wanted = {path for files in made.values() for path in files}
+        known = {path for target in made for path in self._manifests.of(device).get(target, ())}
+        for path in sorted(known - wanted):
+            if not self._manifests.is_shared(path, device, made) and os.path.lexists(self._out / path):
+                (self._plan.remove if self._is_ours(path) else self._plan.kept).append(path)
+
+    def _is_ours(self, path: str) -> bool:
+        try:
+            return self._in_the_way(path, inside(self._out, path)) is None
+        except (UnsafePathError, NotADirectoryError):
+            return False
+
+    def _in_the_way(self, path: str, place: Path) -> str | None:
+        """Why what is there may not be replaced; None if it may, or if nothing is there."""
+        try:
+            kind = kind_of(os.lstat(place))
+            if kind is not None:
+                return kind
+            data = read_regular(place, _MOST_BYTES).data
+        except FileNotFoundError:
+            return None
+        except NotADirectoryError:
+            raise
+        except OSError as error:
+            return f"it cannot be read: {error.strerror}"
+        return None if self._manifests.vouch_for(path, self._plan.device, data) else _NOT_OURS
+
+
+def _state(place: Path) -> State | None:
+    try:
+        return state_of(os.stat(place))
+    except OSError:
+        return None
+
+
+def _same(place: Path, data: bytes) -> State | None:
+    """The file's state if it holds just that."""
+    try:
+        if os.stat(place).st_size != len(data):
+            return None
+        content = read_regular(place, len(data))
+    except NotADirectoryError:
+        raise
+    except OSError:
+        return None
+    return content.state if content.data == data else None
+
+
+def _both(before: Targets, now: Targets) -> Targets:
+    """What the files have and what they are about to have."""
+    merged = {target: dict(files) for target, files in before.items()}
+    for target, files in now.items():
+        known = merged.setdefault(target, {})
+        for path, digests in files.items():
+            known[path] = tuple(dict.fromkeys((*known.get(path, ()), *digests)))
+    return merged

@@ -1,0 +1,53 @@
+"""Carries out a plan: each file is replaced in one step, and at every moment a manifest knows which files are ours."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING
+
+from fieldscribe.output.manifests import manifest_path
+from fieldscribe.output.plan import inside
+from fieldscribe.reading import state_of
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from fieldscribe.output.manifests import Manifests
+    from fieldscribe.output.plan import Plan
+    from fieldscribe.reading import State
+
+_NEW = ".fieldscribe-new"
+_FLAGS = os.O_WRONLY | os.O_CREAT | os.O_EXCL
+for _name in ("O_NOFOLLOW", "O_CLOEXEC", "O_BINARY", "O_NOINHERIT"):
+    _FLAGS |= getattr(os, _name, 0)
+
+
+def carry_out(out: Path, manifests: Manifests, plan: Plan) -> dict[str, State]:
+    """Write and remove what the plan says; the state in which each file was left. Raises OSError."""
+    for folder in {(out / path).parent for path in (*plan.unchanged, *plan.write)}:
+        (folder / _NEW).unlink(missing_ok=True)  # of a run that was killed
+    states = dict(plan.unchanged)
+    record = manifest_path(plan.device)
+    if record in plan.write:
+        replace(inside(out, record), plan.pending)
+    for path, data in plan.write.items():  # the manifest is the last one
+        states[path] = replace(inside(out, path), data)
+    for path in plan.remove:
+        inside(out, path).unlink(missing_ok=True)
+    manifests.settle(plan.device, plan.targets)
+    return states
+
+
+def replace(place: Path, data: bytes, by_way_of: str = _NEW) -> State:
+    """Put a file there, whole or not at all, by way of one beside it; its state. Raises OSError."""
+    place.parent.mkdir(parents=True, exist_ok=True)
+    new = place.parent / by_way_of
+    new.unlink(missing_ok=True)
+    try:
+        with open(os.open(new, _FLAGS, 0o666), "wb") as stream:
+            stream.write(data)
+        os.replace(new, place)
+    except BaseException:
+        new.unlink(missing_ok=True)
+        raise
+    return state_of(os.lstat(place))

@@ -1,0 +1,29 @@
+"""What may lie in a file's place on a stranger's disk."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+KINDS = ("lock link", "folder", "pipe", "device", "huge", "unreadable")
+
+
+def put(kind: str, place: Path) -> None:
+    """Put one there."""
+    if kind == "lock link":
+        place.symlink_to("someone@host.4711:1700000000")  # as an editor does
+    elif kind == "folder":
+        place.mkdir()
+    elif kind == "pipe":
+        os.mkfifo(place)
+    elif kind == "device":
+        place.symlink_to("/dev/zero")
+    elif kind == "huge":
+        place.touch()
+        os.truncate(place, 3 << 30)
+    else:
+        place.write_text("x")
+        place.chmod(0)
