@@ -41,7 +41,7 @@ class Script:
         sent, received = self._steps.pop(0)
         if sent != request:
             raise AssertionError(f"sent {request.hex()}, not {sent.hex()}")
-        return received
+        return bytes(received)
 
     def send(self, frame: Any) -> None:
         """One frame to the bus; what answers it comes next."""
@@ -164,7 +164,7 @@ class Runner:
             held = held and self._made(vector, word, flag)
         if vector["truth"] is not None:
             stated = flag.__get__(word(vector["raw"]), word)
-            held = held and bool(stated) == bool(vector["truth"])
+            held = held and int(stated) == vector["truth"]
         return bool(held and flag.number(vector["raw"]) == vector["number"])
 
     def _flag_name(self, vector: Vector) -> bool:
@@ -310,14 +310,8 @@ class Runner:
         return bool([int(receiver.take(self._can_frame(*frame))) for frame in vector["frames"]] == vector["taken"])
 
     def _code(self, vector: Vector) -> bool:
-        profile = self.device.PROFILE
-        number, name = vector["number"], vector["name"]
-        if vector["what"] == "task":
-            return bool(number in profile.tasks)  # only C and Rust have their names
-        if vector["what"] == "response":
-            return True
-        table = getattr(profile, "exceptions" if vector["what"] == "exception" else "errors", None)
-        return table is None or bool(table[number] == name)
+        names = getattr(self.device.PROFILE, "exceptions" if vector["what"] == "exception" else "errors")
+        return bool(names[vector["number"]] == vector["name"])
 
     def _command(self, vector: Vector) -> bool:
         for kind, script in ((self.device, Script), (self.awaited, AsyncScript)):
@@ -451,6 +445,8 @@ def run(folder: Path, device: str, vectors: Path, show: int = 0) -> tuple[Counte
     shown: list[Vector] = []
     file = File(vectors.read_text(encoding="utf-8"))
     for vector in file:
+        if vector["kind"] not in file.counts:
+            continue  # Python has no such thing
         runner.reason = ""
         good = runner.passes(vector)
         (passed if good else failed)[vector["kind"]] += 1

@@ -111,6 +111,10 @@ def spoil(text: str, language: str = "python") -> tuple[str, dict[str, int]]:
             counts[name] = counts.get(name, 0) + 1
             if name == "name" and len(fields) == 1:
                 fields.append("other")  # a number beside one that has no name may have none either
+            if forms[name][len(fields) - 1] == "script" and len(fields) > 1:
+                fields = (
+                    fields[:-2] if fields[-2] == "-" else fields[:-1]
+                )  # what a point needs is asked for in any order
             fields[-1] = _other(forms[name][len(fields) - 1], fields[-1])
         lines.append("\t".join((name, *fields)))
     ran = counts_of(text, language)
@@ -120,7 +124,7 @@ def spoil(text: str, language: str = "python") -> tuple[str, dict[str, int]]:
 def _other(form: str, field: str) -> str:
     """Another field of the form."""
     if form == "int":
-        return str(int(field) + 1)
+        return str(int(field) ^ 1)
     more = {"ints": "0", "names": "x", "pairs": "x=0", "script": "00=00", "frames": "1=00"}
     if form in more:
         return f"{field},{more[form]}"

@@ -612,12 +612,13 @@ static inline bool fieldscribe_fits_uint64_t(const char *field)
 /* ---- What the protocol names ---- */
 
 #define FIELDSCRIBE_CODE_NUMBER(kind, code, constant)                                            \
-    if (fieldscribe_asks_of(v, "code", "what", kind) && fieldscribe_asks_of(v, "code", "name", code)) { \
+    if ((fieldscribe_asks_of(v, "code", "what", kind) || fieldscribe_asks_of(v, "constant", "what", kind)) && \
+        fieldscribe_spells(fieldscribe_field(v, "name"), code)) { \
         fieldscribe_is_number(v, "number", (uint64_t)(constant));                                \
     }
 
 #define FIELDSCRIBE_CODE_NAME(kind, function)                                                    \
-    if (fieldscribe_asks_of(v, "code", "what", kind)) {                                          \
+    if (fieldscribe_asks_of(v, "code", "what", kind) || fieldscribe_asks_of(v, "constant", "what", kind)) { \
         fieldscribe_is_text(v, "name", function((uint16_t)fieldscribe_bits(v, "number")));       \
         fieldscribe_agree(v, function(65535U) == NULL);                                          \
     }
@@ -1480,7 +1481,8 @@ static void fieldscribe_run_vector(fieldscribe_file *file, const char *text)
     v->answered = false;
     v->differs = false;
     v->matched = 0U;
-    if (fieldscribe_asks(v, "code") || fieldscribe_asks(v, "command") || fieldscribe_asks(v, "group")) {
+    if (fieldscribe_asks(v, "code") || fieldscribe_asks(v, "constant") || fieldscribe_asks(v, "command") ||
+        fieldscribe_asks(v, "group")) {
         v->suite->run_code(v);
     } else if (!fieldscribe_run_frame(v)) {
         fieldscribe_run_point(v);

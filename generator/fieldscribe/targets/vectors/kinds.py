@@ -96,6 +96,7 @@ KINDS = _table(
         "group": "only:c.python group:word addresses:ints",
         # numbers of the protocol with names, and named writes
         "code": "what:word number:int name:text",
+        "constant": "only:c.rust what:word number:int name:text",
         "command": "command:word value:int script:script status:word",
         # frames of Modbus, and batched reads
         "build": "status:word bytes:bytes?",

@@ -123,9 +123,9 @@ class UssWire:
 
 def uss(lines: Lines, device: Device) -> None:
     """Everything about the telegrams of a USS device."""
-    numbered = (("task", device.bus.functions), ("response", device.bus.responses), ("error", device.bus.exceptions))
-    for what, numbers in numbered:
-        codes(lines, what, numbers)
+    codes(lines, "constant", "task", device.bus.functions)
+    codes(lines, "constant", "response", device.bus.responses)
+    codes(lines, "code", "error", device.bus.exceptions)
     for link in _links(device.bus):
         dialogue = _Dialogue(lines, device.bus, link)
         _builds(dialogue)

@@ -87,7 +87,7 @@ macro_rules! table {
         )
     };
     ($run:ident $module:ident (sent $constant:ident) $vector:ident) => {
-        runner::frames::command($vector, &device::PROFILE, &device::$module::$constant)
+        runner::frames::command($vector, &device::PROFILE, device::$module::$constant)
     };
     ($run:ident $point:ident (wire) $vector:ident) => {
         runner::frames::$run::<device::points::$point>($vector, &device::PROFILE)
@@ -259,7 +259,7 @@ impl<'a> Vector<'a> {
             "special" => self.text("special"),
             "flag" => self.text("flag"),
             "flag_name" => [self.text("flag"), self.text("name")].join(" "),
-            "code" => return [self.text("what"), self.text("name")].join(" "),
+            "code" | "constant" => return [self.text("what"), self.text("name")].join(" "),
             "command" => return self.text("command"),
             "can_taken" => return self.text("telegram"),
             _ => return self.text("point"),
