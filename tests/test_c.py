@@ -100,7 +100,7 @@ def conforms(folder: Path, device: str, build: Build, out: Path) -> None:
     vectors = folder / "vectors" / f"{device}.txt"
     done = run([program, vectors])
     assert done.returncode == 0, done.stdout + done.stderr
-    counts = counts_of(vectors.read_text("utf-8"))
+    counts = counts_of(vectors.read_text("utf-8"), "c")
     left_out = ("decode", "encode") if build.floats == "no_float" else ()
     assert passed(done.stdout) == {kind: n for kind, n in counts.items() if n and kind not in left_out}
 
@@ -199,7 +199,7 @@ def test_headers_have_no_clang_warning_at_all(
 
 @pytest.mark.parametrize("device", ["sample_drive", "kitchen_can", "kitchen_uss"])
 def test_conformance_catches_each_kind(device: str, folders: dict[str, Path], tmp_path: Path) -> None:
-    text, spoiled = spoil((folders[device] / "vectors" / f"{device}.txt").read_text("utf-8"))
+    text, spoiled = spoil((folders[device] / "vectors" / f"{device}.txt").read_text("utf-8"), "c")
     (tmp_path / "vectors.txt").write_text(text, encoding="utf-8")
     program = compiled("gcc", ["-std=c99"], conformance_source(folders[device], device), tmp_path / "conformance")
     done = run([program, tmp_path / "vectors.txt"])

@@ -43,6 +43,7 @@ FORMS: Mapping[str, tuple[Callable[[str], Any], Any]] = {
     "bytes": (bytes.fromhex, b""),
     "real": (_real, None),
     "ints": (lambda field: [int(number) for number in field.split(",")], []),
+    "names": (lambda field: [_text(part) for part in field.split(",")], []),
     "pairs": (_pairs, {}),
     "frames": (lambda field: [_frame(pair) for pair in field.split(",")], []),
     "script": (lambda field: [_step(pair) for pair in field.split(",")], []),
@@ -53,7 +54,8 @@ FORMS: Mapping[str, tuple[Callable[[str], Any], Any]] = {
 class File:
     """The vectors of a text, line by line; `counts` are what its head says."""
 
-    def __init__(self, text: str) -> None:
+    def __init__(self, text: str, language: str = "python") -> None:
+        self._language = language
         self.counts: dict[str, int] = {}
         self.head: list[str] = []
         self._shapes: dict[str, list[list[str]]] = {}
@@ -81,8 +83,11 @@ class File:
             self._sets.append(fields[0])
             self._shapes[fields[0]] = [field.split(":") for field in fields[1:]]
         elif what == "kind":
-            self.counts[fields[0]] = int(fields[1])
-            self._shapes[fields[0]] = [field.split(":") for field in fields[2:]]
+            shape = [field.split(":") for field in fields[2:]]
+            only = next((form for key, form in shape if key == "only"), "c.python.rust")
+            if self._language in only.split("."):
+                self.counts[fields[0]] = int(fields[1])
+            self._shapes[fields[0]] = [field for field in shape if field[0] != "only"]
 
     def _read(self, name: str, fields: list[str]) -> Vector:
         shape = self._shapes[name]
@@ -93,7 +98,7 @@ class File:
         return {key: FORMS[form][1] if field == "-" else FORMS[form][0](field) for (key, form), field in pairs}
 
 
-def spoil(text: str) -> tuple[str, dict[str, int]]:
+def spoil(text: str, language: str = "python") -> tuple[str, dict[str, int]]:
     """The text with the last field of every vector changed to another of its form, and how many there are of a kind."""
     forms: dict[str, list[str]] = {}
     counts: dict[str, int] = {}
@@ -101,21 +106,26 @@ def spoil(text: str) -> tuple[str, dict[str, int]]:
     for line in text.split("\n"):
         name, *fields = line.split("\t")
         if name == "kind":
-            forms[fields[0]] = [field.split(":")[1] for field in fields[2:]]
+            forms[fields[0]] = [field.split(":")[1] for field in fields[2:] if not field.startswith("only:")]
         elif name in forms and fields:
             counts[name] = counts.get(name, 0) + 1
             if name in ("name", "special_name") and len(fields) == 1:
                 fields.append("other")  # a number beside one that has no name may have none either
+            if forms[name][len(fields) - 1] == "script" and len(fields) > 1:
+                fields = (
+                    fields[:-2] if fields[-2] == "-" else fields[:-1]
+                )  # what a point needs is asked for in any order
             fields[-1] = _other(forms[name][len(fields) - 1], fields[-1])
         lines.append("\t".join((name, *fields)))
-    return "\n".join(lines), counts
+    ran = counts_of(text, language)
+    return "\n".join(lines), {kind: count for kind, count in counts.items() if kind in ran}
 
 
 def _other(form: str, field: str) -> str:
     """Another field of the form."""
     if form == "int":
-        return str(int(field) + 1)
-    more = {"ints": "0", "pairs": "x=0", "script": "00=00", "frames": "1=00"}
+        return str(int(field) ^ 1)
+    more = {"ints": "0", "names": "x", "pairs": "x=0", "script": "00=00", "frames": "1=00"}
     if form in more:
         return f"{field},{more[form]}"
     changed = {"word": "other", "text": "other", "bytes": f"{field}00"}
@@ -134,10 +144,12 @@ _SETS_OF_LINES = ("pkw", "pzd", "single_first", "unit", "framing")
 def plain(vector: Vector) -> Vector:
     """A vector as tests compare it: without what is absent or about other kinds, numbers and bytes in hexadecimal."""
     about_point = not vector["kind"].startswith(
-        ("uss_", "can_build", "can_parse", "block", "build", "reply", "printed")
+        ("uss_", "can_build", "can_parse", "block", "build", "reply", "printed", "co", "can_taken")
     )
     found = {key: part for key, part in vector.items() if part not in (None, [], {}, b"")}
     found = {key: part for key, part in found.items() if about_point or key not in _SETS_OF_POINTS}
+    if about_point and vector["kind"] not in {"read", "write", "store", "command"}:
+        found = {key: part for key, part in found.items() if key not in _SETS_OF_LINES}
     if "with" in found:
         found["with"] = {name: int(raw) for name, raw in found["with"].items()}
     if isinstance(found.get("value"), float):
@@ -145,8 +157,8 @@ def plain(vector: Vector) -> Vector:
     return {key: part.hex() if isinstance(part, bytes) else part for key, part in found.items()}
 
 
-def counts_of(text: str) -> dict[str, int]:
-    """How many vectors of each kind the head of a text announces."""
-    file = File(text)
+def counts_of(text: str, language: str = "python") -> dict[str, int]:
+    """How many vectors of each kind the head of a text announces for a language."""
+    file = File(text, language)
     list(file)
     return file.counts

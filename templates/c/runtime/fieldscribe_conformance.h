@@ -32,6 +32,7 @@ typedef struct fieldscribe_kind {
     const char *keys[FIELDSCRIBE_FIELDS_MOST];
     bool notes[FIELDSCRIBE_FIELDS_MOST]; /* for people alone */
     size_t count;
+    bool elsewhere; /* other languages say this in more than comments */
     unsigned long announced;
     unsigned long passed;
     unsigned long failed;
@@ -639,12 +640,13 @@ static inline bool fieldscribe_fits_uint64_t(const char *field)
 /* ---- What the protocol names ---- */
 
 #define FIELDSCRIBE_CODE_NUMBER(kind, code, constant)                                            \
-    if (fieldscribe_asks_of(v, "code", "what", kind) && fieldscribe_asks_of(v, "code", "name", code)) { \
+    if ((fieldscribe_asks_of(v, "code", "what", kind) || fieldscribe_asks_of(v, "constant", "what", kind)) && \
+        fieldscribe_spells(fieldscribe_field(v, "name"), code)) { \
         fieldscribe_is_number(v, "number", (uint64_t)(constant));                                \
     }
 
 #define FIELDSCRIBE_CODE_NAME(kind, function)                                                    \
-    if (fieldscribe_asks_of(v, "code", "what", kind)) {                                          \
+    if (fieldscribe_asks_of(v, "code", "what", kind) || fieldscribe_asks_of(v, "constant", "what", kind)) { \
         fieldscribe_is_text(v, "name", function((uint16_t)fieldscribe_bits(v, "number")));       \
         fieldscribe_agree(v, function(65535U) == NULL);                                          \
     }
@@ -655,6 +657,12 @@ static inline bool fieldscribe_fits_uint64_t(const char *field)
         const fieldscribe_modbus_request request = function((uint8_t)fieldscribe_bits(v, "unit"), words); \
         fieldscribe_is_number(v, "value", (constant));                                           \
         (void)fieldscribe_exchange(v, 0U, &request, words);                                      \
+    }
+
+#define FIELDSCRIBE_GROUP(group, array, size)                                                    \
+    if (fieldscribe_asks_of(v, "group", "group", group)) {                                       \
+        fieldscribe_agree(v, sizeof array / sizeof array[0] == size);                            \
+        fieldscribe_is_words(v, "addresses", array, size);                                       \
     }
 
 /* ---- Whole exchanges ---- */
@@ -1218,9 +1226,25 @@ static void fieldscribe_run_can_telegram(fieldscribe_vector *v)
     }
 }
 
+static void fieldscribe_run_can_taken(fieldscribe_vector *v)
+{
+    static fieldscribe_can_slot slots[256];
+    const fieldscribe_named_telegram *one = v->suite->cyclic;
+    fieldscribe_can_receiver receiver;
+    while (one->name != NULL && !fieldscribe_spells(fieldscribe_field(v, "telegram"), one->name)) {
+        ++one;
+    }
+    if (one->name != NULL && fieldscribe_can_slots(one->telegram) <= 256U) {
+        receiver = fieldscribe_can_listen(one->telegram, (uint8_t)fieldscribe_at_most(v, "unit", 255U), slots);
+        fieldscribe_feed(v, &receiver);
+    }
+}
+
 static bool fieldscribe_run_frame(fieldscribe_vector *v)
 {
-    if (fieldscribe_asks(v, "can_build")) {
+    if (fieldscribe_asks(v, "can_taken")) {
+        fieldscribe_run_can_taken(v);
+    } else if (fieldscribe_asks(v, "can_build")) {
         fieldscribe_run_can_build(v);
     } else if (fieldscribe_asks(v, "can_parse")) {
         fieldscribe_run_can_parse(v);
@@ -1373,6 +1397,11 @@ static bool fieldscribe_declare(fieldscribe_file *file, fieldscribe_kind *kind, 
     if (count < first || kind->name == NULL) {
         return false;
     }
+    if (count > first && strncmp(parts[first], "only:", 5U) == 0) {
+        kind->elsewhere = strncmp(parts[first] + 5, "c.", 2U) != 0 && strcmp(parts[first] + 5, "c") != 0;
+        --kind->count;
+        ++first;
+    }
     for (at = first; at < count; ++at) {
         const char *const form = strchr(parts[at], ':');
         kind->keys[at - first] = fieldscribe_keep(file, parts[at]);
@@ -1452,10 +1481,9 @@ static bool fieldscribe_take_set(fieldscribe_file *file, const char *text)
 static bool fieldscribe_skips(const fieldscribe_vector *v)
 {
 #if defined(FIELDSCRIBE_NO_FLOAT)
-    return fieldscribe_asks(v, "decode") || fieldscribe_asks(v, "encode");
+    return v->own.kind->elsewhere || fieldscribe_asks(v, "decode") || fieldscribe_asks(v, "encode");
 #else
-    (void)v;
-    return false;
+    return v->own.kind->elsewhere;
 #endif
 }
 
@@ -1481,7 +1509,8 @@ static void fieldscribe_run_vector(fieldscribe_file *file, const char *text)
     v->answered = false;
     v->differs = false;
     v->matched = 0U;
-    if (fieldscribe_asks(v, "code") || fieldscribe_asks(v, "command")) {
+    if (fieldscribe_asks(v, "code") || fieldscribe_asks(v, "constant") || fieldscribe_asks(v, "command") ||
+        fieldscribe_asks(v, "group")) {
         v->suite->run_code(v);
     } else if (!fieldscribe_run_frame(v)) {
         fieldscribe_run_point(v);

@@ -71,10 +71,16 @@ def _protocol(device: Device) -> Iterator[Table]:
     bus, uss = device.bus, device.family == "uss"
     kinds = (("task", "tasks", bus.functions), ("response", "responses", bus.responses)) if uss else ()
     refusals = "error" if uss else "exception"
-    rows = [_code(what, module, code.name, "code") for what, module, codes in kinds for code in codes]
-    rows += [_code(refusals, "exceptions", code.name, "named") for code in bus.exceptions]
-    if rows:
-        yield "code", "code", tuple(rows)
+    constants = [_code(what, module, code.name, "code") for what, module, codes in kinds for code in codes]
+    named = [_code(refusals, "exceptions", code.name, "named") for code in bus.exceptions]
+    for kind, rows in (("constant", constants), ("constant" if device.family == "can" else "code", named)):
+        if rows:
+            yield kind, "code", tuple(rows)
+    carriers = {one.name for one in device.messages if one.words}
+    heard = [one for one in device.telegrams if one.message in carriers] if device.family == "can" else []
+    if heard:
+        names = [f"{rust_string(one.name)} telegrams (telegram {type_name(one.name)})" for one in heard]
+        yield "can_taken", "can_taken", tuple(names)
     if device.commands:
         sent = (f"{rust_string(one.name)} commands (sent {one.name.upper()})" for one in device.commands)
         yield "command", "command", tuple(sent)

@@ -82,7 +82,12 @@ def can(lines: Lines, device: Device) -> None:
         if not any(role.kind == "word" for role in message.roles):
             _builds(lines, device.bus.units, message)
             _parses(lines, device.bus.units, message)
-    codes(lines, "exception", device.bus.exceptions)
+    codes(lines, "constant", "exception", device.bus.exceptions)
+    for group in device.groups:
+        members = (one for one in device.points if one.generated and one.readable and one.group == group.name)
+        addresses = [address for one in members if one.space == "parameter" for address in one.addresses]
+        if addresses and _dialogue(device, writes=False)[0] is not None:
+            lines.add("group", group.name, list(dict.fromkeys(addresses)))
     for telegram in device.telegrams:
         _telegram(lines, device, telegram)
     lines.gather()
@@ -138,17 +143,27 @@ def _telegram(lines: Lines, device: Device, telegram: Telegram) -> None:
     points = [one for one in device.points if one.telegram == telegram.name and one.generated and one.form != "text"]
     for point in points:
         _heard(lines, telegram, message, point, unit)
-    for point in points[:1]:
-        _misheard(_Asking(lines, telegram, message, point, unit))
+    if message.words:
+        _misheard(lines, telegram, message, unit)
 
 
-def _misheard(ask: _Asking) -> None:
-    """Every byte that is no word, wrong; so once a telegram every role of a byte."""
-    good = ask.frame(ask.point.addresses[0] // ask.message.words, 0x1234)
-    for place, role in enumerate(ask.message.roles):
+def _misheard(lines: Lines, telegram: Telegram, message: Message, unit: int) -> None:
+    """Good frames, and one in which each byte that is no word is wrong; so once a telegram every role of a byte."""
+    data = bytearray({"constant": role.number, "unit": unit & 0xFF}.get(role.kind, 0) for role in message.roles)
+    for place, role in enumerate(message.roles):
+        if role.kind == "word":
+            data[place] = 0x35 + 0x11 * place & 0xFF
+    for place, role in enumerate(message.roles):
+        if role.kind == "xor":
+            data[place] = checksum(data, role.number)
+    good = CanFrame(identifier(message, unit), bytes(data))
+    frames = [good, CanFrame(good.id ^ 1, good.data), CanFrame(good.id, good.data[:-1])]
+    for place, role in enumerate(message.roles):
         if role.kind != "word":
-            wrong = bytes((*good.data[:place], good.data[place] ^ 0x80, *good.data[place + 1 :]))
-            ask.answer([CanFrame(good.id, wrong)])
+            frames.append(CanFrame(good.id, bytes((*data[:place], data[place] ^ 0x80, *data[place + 1 :]))))
+    receiver = Receiver(telegram, message, unit)
+    lines.set("telegram", telegram.name, unit)
+    lines.add("can_taken", [(one.id, one.data) for one in frames], [int(receiver.take(one)) for one in frames])
 
 
 def _heard(lines: Lines, telegram: Telegram, message: Message, point: Point, unit: int) -> None:

@@ -107,10 +107,10 @@ class Exchanges:
             self.lines.add(kind, bad, status, None if kind == "read" else number)
 
 
-def codes(lines: Lines, what: str, numbers: Iterable[Code]) -> None:
-    """The numbers of the protocol that have a name."""
+def codes(lines: Lines, kind: str, what: str, numbers: Iterable[Code]) -> None:
+    """The numbers of the protocol that have a name: a `code` that comes, or a `constant` for callers."""
     for code in numbers:
-        lines.add("code", what, code.number, code.name)
+        lines.add(kind, what, code.number, code.name)
 
 
 def writing_place(point: Point) -> Place:

@@ -26,12 +26,16 @@ class Kind:
     fields: tuple[tuple[str, str], ...]
     optional: frozenset[str]
     """Fields that need not be there; they end in a question mark in the table."""
+    only: str = ""
+    """The languages that say this in more than comments, where not all do."""
 
 
 def _kind(row: str) -> Kind:
     pairs = [part.partition(":")[::2] for part in row.split()]
+    only = next((form for name, form in pairs if name == "only"), "")
+    pairs = [pair for pair in pairs if pair[0] != "only"]
     optional = frozenset(name for name, form in pairs if form.endswith("?"))
-    return Kind(tuple((name, form.removesuffix("?")) for name, form in pairs), optional)
+    return Kind(tuple((name, form.removesuffix("?")) for name, form in pairs), optional, only)
 
 
 def _table(rows: Mapping[str, str]) -> dict[str, Kind]:
@@ -86,9 +90,14 @@ KINDS = _table(
         "read": _EXCHANGE,
         "write": _EXCHANGE,
         "store": _EXCHANGE,
-        # numbers of the protocol with names, named writes, and what Python says of a point beside (C and Rust only in
-        # comments, which have no conformance)
+        # what Python alone says of a point beside: C and Rust do so in comments, which no program can hold
+        "facts": "only:python group:word name:word symbol:text? default:real? changes:word? changes_with:names? "
+        "variant:text? write_space:word? write_addresses:ints?",
+        # the words that bring a group where each is asked for by itself: Rust reads the points themselves
+        "group": "only:c.python group:word addresses:ints",
+        # numbers of the protocol with names, and named writes
         "code": "what:word number:int name:text",
+        "constant": "only:c.rust what:word number:int name:text",
         "command": "command:word value:int script:script status:word",
         # frames of Modbus, and batched reads
         "build": "status:word bytes:bytes?",
@@ -99,6 +108,7 @@ KINDS = _table(
         # frames of a maker's own CAN protocol
         "can_build": "unit:int address:int raw:int status:word id:int? bytes:bytes?",
         "can_parse": "unit:int id:int bytes:bytes? status:word address:int? raw:int?",
+        "can_taken": "frames:frames taken:ints",
         "can_telegram": "frames:frames? taken:ints? status:word raw:int?",
         # telegrams of USS
         "uss_build": "status:word bytes:bytes?",
@@ -155,6 +165,12 @@ def _ints(value: object) -> str:
     return ",".join(map(_int, value))
 
 
+def _names(value: object) -> str:
+    if not isinstance(value, tuple):
+        raise TypeError(f"{value!r} is no list")
+    return ",".join(map(text, value))
+
+
 def _pairs(value: object) -> str:
     if not isinstance(value, dict):
         raise TypeError(f"{value!r} is no map")
@@ -181,6 +197,7 @@ FORMS: dict[str, Callable[[object], str]] = {
     "bytes": _bytes,
     "real": _real,
     "ints": _ints,
+    "names": _names,
     "pairs": _pairs,
     "frames": _frames,
     "script": _script,

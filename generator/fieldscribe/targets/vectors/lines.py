@@ -70,4 +70,5 @@ class Lines:
         for name, kind in KINDS.items():
             if self.counts[name]:
                 fields = (f"{key}:{form}" for key, form in kind.fields)
-                yield "\t".join(("kind", name, str(self.counts[name]), *fields))
+                only = (f"only:{kind.only}",) if kind.only else ()
+                yield "\t".join(("kind", name, str(self.counts[name]), *only, *fields))

@@ -111,7 +111,7 @@ def answer_with(request: Request, words: tuple[int, ...]) -> bytes:
 
 def modbus(lines: Lines, device: Device) -> None:
     """Everything about Modbus frames."""
-    codes(lines, "exception", device.bus.exceptions)
+    codes(lines, "code", "exception", device.bus.exceptions)
     commands(lines, device)
     builds(lines, device.bus)
     replies(lines, device.bus)

@@ -33,6 +33,24 @@ def address(lines: Lines, point: Point) -> None:
         lines.add("place", point.addresses, point.index, point.telegram)
 
 
+def facts(lines: Lines, point: Point) -> None:
+    """What a point belongs to, and what it has beside its numbers."""
+    other = next((place for place in point.places if place.purpose == "write"), None)
+    apart = other is not None and other is not point.places[0]
+    lines.add(
+        "facts",
+        point.group,
+        point.name,
+        point.unit.symbol or None,
+        None if point.default is None else float(point.default),
+        None if point.changes == "always" else point.changes,
+        point.changes_with,
+        point.variant,
+        other.space if other is not None and apart else None,
+        other.addresses if other is not None and apart else None,
+    )
+
+
 def words(lines: Lines, point: Point) -> None:
     """Patterns of a point of several words, or of a signed word, in ascending order of the addresses."""
     if (

@@ -37,13 +37,13 @@ _EEPROM = {(1, False): 14, (2, False): 13, (1, True): 12, (2, True): 11}
 
 
 class UssWire:
-    """Exchanges over the link that carries the most."""
+    """Exchanges over the link that carries the most that every variant takes."""
 
     def __init__(self, device: Device) -> None:
         self.bus = device.bus
         self.unit = device.bus.units[0]
         pkw = next((one for one in (VARIABLE, 4, 3) if one in device.bus.pkw), 0)
-        self.link = Link(pkw, device.bus.pzd[1])
+        self.link = Link(pkw, min(device.bus.pzd[1], *(most for _, most in device.bus.variant_pzd), 255))
         self.directions = {one.name: one.direction for one in device.telegrams}
         self.tasks = {code.number: code.answers for code in device.bus.functions}
 
@@ -123,9 +123,9 @@ class UssWire:
 
 def uss(lines: Lines, device: Device) -> None:
     """Everything about the telegrams of a USS device."""
-    numbered = (("task", device.bus.functions), ("response", device.bus.responses), ("error", device.bus.exceptions))
-    for what, numbers in numbered:
-        codes(lines, what, numbers)
+    codes(lines, "constant", "task", device.bus.functions)
+    codes(lines, "constant", "response", device.bus.responses)
+    codes(lines, "code", "error", device.bus.exceptions)
     for link in _links(device.bus):
         dialogue = _Dialogue(lines, device.bus, link)
         _builds(dialogue)

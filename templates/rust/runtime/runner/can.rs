@@ -205,6 +205,18 @@ pub fn parse(vector: &Vector, messages: &[&Message]) -> Outcome {
     same(vector.count("raw"), content.raw)
 }
 
+/// Frames that a receiver of a telegram takes, or does not.
+pub fn can_taken<T: Telegram>(vector: &Vector) -> Outcome {
+    let mut receiver = Receiver::<T>::new(unit(vector));
+    let frames = vector.pairs("frames");
+    let taken = frames.iter().map(|(id, data)| {
+        let id = id.parse().unwrap_or(u32::MAX);
+        u8::from(receiver.take(&Frame::new(id, &bytes(data))))
+    });
+    let taken: Vec<u8> = taken.collect();
+    same(vector.numbers("taken"), taken)
+}
+
 /// Frames of a telegram, and a point of it.
 pub fn can_telegram<P>(vector: &Vector) -> Outcome
 where

@@ -162,10 +162,12 @@ where
 }
 
 /// A command.
-pub fn command(vector: &Vector, profile: &'static Profile, command: &Command) -> Outcome {
+pub fn command(vector: &Vector, profile: &'static Profile, command: Command) -> Outcome {
     let unit = vector.raw("unit");
     let mut client = Client::new(Script::new(vector), profile, framing(vector), unit);
-    let found = client.exchange(Request::command(unit, command)).map(|_| ());
+    let found = client
+        .exchange(Request::command(unit, &command))
+        .map(|_| ());
     exchanged(vector, found, name, &client.into_transport())?;
     same(vector.raw("value"), command.value.unwrap_or(1))
 }
