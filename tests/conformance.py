@@ -291,7 +291,7 @@ class Runner:
         raw = _raw_of(point, vector)
         for script, handle in self._handles(vector):
             self._ran(script, vector, handle.write_raw, raw, **more)
-        if hasattr(point, "decode"):
+        if hasattr(point, "decode") and getattr(point._form, "encodes", True):
             value = point.decode(raw, _with(vector))
             for script, handle in self._handles(vector):
                 self._ran(script, vector, handle.write, value, **more)

@@ -72,7 +72,7 @@ def failure(device: Device, point: Point, error: CodecError) -> tuple[str, str]:
     return {
         "zero_factor": (f"{blamed} is zero or no quantity, and nothing can be computed with that", ""),
         "no_case": (f"the manual gives no scale for what {blamed} holds", ""),
-        "overflow": (f"the exponent {blamed} is too large to compute with", ""),
+        "overflow": (f"the exponent {blamed} is outside the range that it has", ""),
         "special": ("this raw number is a special code and no quantity", ""),
         "not_a_number": ("the bit pattern is no number", ""),
     }.get(error.status, (error.status, ""))

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.names import upper
 from fieldscribe.targets.c.limits import any_of, interval_test
-from fieldscribe.targets.c.literals import bare, hexadecimal, outer_limits, raw_bounds, raw_type, signed, unsigned
+from fieldscribe.targets.c.literals import bare, hexadecimal, raw_bounds, raw_type, signed, unsigned
 from fieldscribe.targets.c.views import CodesView, SpecialView
 from fieldscribe.text import c_comment, c_string
 
@@ -56,7 +56,7 @@ def special_defines(special: Special, macro: str, point: Point) -> tuple[Define,
 
 def encoded_limits(point: Point) -> tuple[int, int]:
     """Between which raw numbers values are looked at: what may be written, and the codes, which values never are."""
-    low, high = outer_limits(point)
+    low, high = point.outer
     return min(low, *(one.low for one in point.specials)), max(high, *(one.high for one in point.specials))
 
 

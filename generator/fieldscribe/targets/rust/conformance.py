@@ -35,16 +35,18 @@ def conformance_tables(scope: Scope, device: Device) -> tuple[Table, ...]:
     plain = [one for one in whole if one.carried == one.raw and not one.point.specials]
     coded = [one for one in whole if one.carried == one.raw and one.point.specials]
     mixed = [one for one in whole if one.carried != one.raw]
+    counted = [one for one in scaled if one.point.decimals is not None]
+    encoding = [one for one in scaled if one.point.encodes_values]
     read_scaled, write_scaled = tuple(_reads(scaled)), tuple(_writes(scaled))
     write_plain, write_coded, write_mixed = tuple(_writes(plain)), tuple(_writes(coded)), tuple(_writes(mixed))
     return (
         ("decode", "decode", (*read_scaled, *_reads(floats))),
-        ("encode", "encode", (*write_scaled, *_writes(floats))),
-        ("decode_count", "decode_count", read_scaled),
+        ("encode", "encode", (*_writes(encoding), *_writes(floats))),
+        ("decode_count", "decode_count", tuple(_reads(counted))),
         ("decode_plain", "decode_plain", tuple(_reads(plain))),
         ("decode_coded", "decode_coded", tuple(_reads(coded))),
         ("decode_mixed", "decode_count", tuple(_reads(mixed))),
-        ("encode_count", "encode_count", write_scaled),
+        ("encode_count", "encode_count", tuple(_writes(counted))),
         ("encode_plain", "encode_plain", write_plain),
         ("encode_coded", "encode_coded", write_coded),
         ("encode_mixed", "encode_count", write_mixed),
@@ -157,7 +159,7 @@ def _change(subject: Subject, change: str, update: str, text: str) -> tuple[str,
     point = subject.point
     if point.bits:
         return update, ()
-    if not point.readable:
+    if not point.readable or not point.encodes_values:
         return f"{change}_only", ()
     return f"{change}{text}", () if text else (_of_scale(subject), _of_all(subject))
 

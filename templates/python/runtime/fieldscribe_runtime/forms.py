@@ -82,7 +82,7 @@ class Form(Decodes[R_co], Encodes[W_contra], ABC, Generic[R_co, W_contra]):
 
     wire: Type
     needs: tuple[str, ...] = ()
-    decimals: int = 0
+    decimals: int | None = 0
     codes: Codes = NO_CODES
     names: type[enum.IntEnum | enum.IntFlag] | None = None
     refused: type[CodecError] = RangeError

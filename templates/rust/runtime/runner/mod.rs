@@ -13,8 +13,8 @@ use std::sync::Arc;
 use std::task::{Context, Poll, Wake, Waker};
 
 use fieldscribe_runtime::{
-    BitGroup, Code, Coded, CountReadable, CountWritable, Decoded, Error, Point, Raw, Readable,
-    Reading, Text, Whole, Writable,
+    BitGroup, Code, Coded, CountReadable, CountWritable, Decoded, Encodable, Error, Point, Raw,
+    Readable, Reading, Text, Whole, Writable,
 };
 
 /// Nothing, or what differs.
@@ -472,7 +472,7 @@ where
 /// A value to a raw number.
 pub fn encode<P>(vector: &Vector, with: P::With) -> Outcome
 where
-    P: Writable<Raw: Number, Value: Meaning<f64>>,
+    P: Encodable<Raw: Number, Value: Meaning<f64>>,
 {
     let found = P::encode_with(P::Value::of(vector.float()), with);
     vector.expect(found, "raw")
@@ -516,7 +516,7 @@ where
 /// A count to a raw number, and the value that has that number.
 pub fn encode_plain<P>(vector: &Vector, with: P::With) -> Outcome
 where
-    P: CountWritable<Raw: Number, Count: Counted, Value: From<P::Raw>>,
+    P: CountWritable<Raw: Number, Count: Counted> + Encodable<Value: From<P::Raw>>,
 {
     if let Some(raw) = vector.number("count").and_then(P::Raw::from_number) {
         let found = P::encode_with(P::Value::from(raw), with);
@@ -541,7 +541,7 @@ where
 /// As `encode_plain`, for a point that has special codes.
 pub fn encode_coded<P>(vector: &Vector, with: P::With) -> Outcome
 where
-    P: CountWritable<Raw: Number, Count: Counted, Value: OfRaw<P::Raw>>,
+    P: CountWritable<Raw: Number, Count: Counted> + Encodable<Value: OfRaw<P::Raw>>,
 {
     if let Some(raw) = vector.number("count").and_then(P::Raw::from_number) {
         let found = P::encode_with(P::Value::of_raw(raw), with);
@@ -691,7 +691,7 @@ where
 /// A text to words.
 pub fn text_encode<P, const N: usize, const W: usize>(vector: &Vector) -> Outcome
 where
-    P: Writable<Raw = [u16; W], Value = Text<N>, With = ()> + Whole,
+    P: Encodable<Raw = [u16; W], Value = Text<N>, With = ()> + Whole,
 {
     let bytes = vector.bytes("text");
     let latin: String = bytes.iter().copied().map(char::from).collect();
@@ -737,7 +737,7 @@ where
 /// Digits to a number.
 pub fn digits_encode<P, E, C, const N: usize>(vector: &Vector) -> Outcome
 where
-    P: Writable<Raw: Number, Value = [E; N], With = ()>,
+    P: Encodable<Raw: Number, Value = [E; N], With = ()>,
     E: From<C> + Copy,
     C: Number,
 {
@@ -750,7 +750,7 @@ where
 /// As `digits_encode`, for a point that has special codes.
 pub fn digits_encode_coded<P, E, C, const N: usize>(vector: &Vector) -> Outcome
 where
-    P: Writable<Raw: Number, Value = Reading<[E; N], <P as Point>::Raw>, With = ()>,
+    P: Encodable<Raw: Number, Value = Reading<[E; N], <P as Point>::Raw>, With = ()>,
     E: From<C> + Copy,
     C: Number,
 {
