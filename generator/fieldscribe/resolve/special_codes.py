@@ -188,7 +188,7 @@ def _levels(scope: Scope, draft: Draft, kind: str, bits: tuple[int, int] | None)
     for layer in draft.layers:
         if layer.get("special"):
             yield _Level(str(draft.get("format")) if layer is shared else "", layer["special"])
-    unsettled = draft.layer("type") is not None and draft.get("type") is None
+    unsettled = (draft.layer("type") is not None and draft.get("type") is None) or draft.get("untyped") is not None
     if bits is not None or kind == "bit" or unsettled or draft.failed & {"type", "bits"}:
         return
     for holder, label in ((draft.group, str(draft.group["group"])), (scope.header, kind)):
