@@ -86,10 +86,10 @@ def rare_points() -> tuple[Point, ...]:
     lost = Special(0x7F00, 0x7FFF, "lost", titles("Lost"), True)
     nothing = Special(0xFFFF, 0xFFFF, "nothing", titles("Nothing"), True)
     tens = Limit(linear(3, 0, value_of("exponent", ten_to=True)), (), 0, 60000)
-    share = Limit(linear("100000", "1/2", value_of("divisor", -1)), (("divisor", (7, 9)),), 10, 50000)
+    share = Limit(linear("100000", "1/2", value_of("divisor", -1)), (("divisor", ((7, 7), (9, 9))),), 10, 50000)
     signed_share = Limit(linear(1000, 0, value_of("signed_factor", -1)), (), -500, 500)
-    lifted = Limit(linear(2, 0, value_of("divisor")), (("exponent", (1, 3)), ("divisor", (9,))), 0, 900)
-    floor = Limit(linear(5), (("signed_factor", (-1, 0)),), -300, 20)
+    lifted = Limit(linear(2, 0, value_of("divisor")), (("exponent", ((1, 1), (3, 3))), ("divisor", ((9, 12),))), 0, 900)
+    floor = Limit(linear(5), (("signed_factor", ((-1, 0),)),), -300, 20)
     wide = Limit(linear(65536, 3, value_of("divisor")), (), 0, 4_000_000_000)
     product = linear("1/3", "5/2", value_of("divisor", slope=2, intercept=-10), value_of("signed_factor", -1))
     huge = linear(1, 0, value_of("big", 1), value_of("big_too", 1))
@@ -149,7 +149,7 @@ def floating_factors() -> tuple[Point, ...]:
         ScaleCase("exponent", 3, linear(-4, 9, value_of("exponent", ten_to=True), gain)),
     )
     top = Limit(linear(2500, 0, over_gain), (), 0, 60000)
-    bottom = Limit(linear(-1000, "1/2", over_gain), (("divisor", (3,)),), -20000, 100)
+    bottom = Limit(linear(-1000, "1/2", over_gain), (("divisor", ((3, 3),)),), -20000, 100)
     return (
         point("gain", 60, "f32", allowed=units("-1000", "1000")),
         point("gain_too", 62, "f32"),

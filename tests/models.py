@@ -222,10 +222,10 @@ STATUS_FLAGS = (
 def dependent_points() -> tuple[Point, ...]:
     """Points whose scale or range needs others, variants, and points that are only documented."""
     frequency: dict[str, Any] = {"unit": HERTZ, "scale": scaled(10), "decimals": 1}
-    inactive = (Special(0, 0, "inactive", titles("Inactive"), False),)
-    lowest = Limit(linear(1, 0, value_of("lower_limit")), (("lower_limit", (0,)),), 0, 4000)
+    inactive = (Special(0, 0, "inactive", titles("Inactive"), False, writable=True),)
+    lowest = Limit(linear(1, 0, value_of("lower_limit")), (("lower_limit", ((0, 0),)),), 0, 4000)
     start = Limit(linear(1, 0, value_of("start_frequency")), (), 5, 99)
-    highest = Limit(linear(1, 0, value_of("upper_limit")), (("upper_limit", (0,)),), 0, 4000)
+    highest = Limit(linear(1, 0, value_of("upper_limit")), (("upper_limit", ((0, 0),)),), 0, 4000)
     exponent = value_of("power_exponent", -1, ten_to=True)
     by_mode = (
         ScaleCase("unit_mode", 0, linear(16384, 0, value_of("reference_frequency", -1))),
@@ -241,8 +241,8 @@ def dependent_points() -> tuple[Point, ...]:
         point("setpoint", 0x200C, "s16", unit=HERTZ, scale=by_mode, decimals=4, allowed=allowed((-20000, 20000))),
         point("reference_frequency", 0x200D, unit=HERTZ, allowed=allowed((1, 650))),
         point("start_frequency", 0x10D0, code="b082", allowed=allowed((5, 99)), **frequency),
-        point("upper_limit", 0x1059, specials=inactive, allowed=allowed((0, 0), (lowest, 4000)), **frequency),
-        point("lower_limit", 0x105A, specials=inactive, allowed=allowed((0, 0), (start, highest)), **frequency),
+        point("upper_limit", 0x1059, specials=inactive, allowed=allowed((lowest, 4000)), **frequency),
+        point("lower_limit", 0x105A, specials=inactive, allowed=allowed((start, highest)), **frequency),
         point("dc_level", 0x10F5, variant=VARIANTS[0], allowed=allowed((330, 390)), **volts),
         point("dc_level", 0x10F5, variant=VARIANTS[1], allowed=allowed((660, 780)), **volts),
         point("setpoint_display", None, code="F001", errata=("f001_address",), **frequency),

@@ -89,7 +89,7 @@ def odd_points() -> tuple[Point, ...]:
         Flag(10, 1, LONG, titles("L"), 0, ()),
         Flag(11, 2, f"{LONG}_too", titles("L"), 1, (entry(3, LONG),)),
     )
-    highest = Limit(linear(2, 0, value_of("type")), (("type", (0, 5)), (LONG, (1,))), 0, 900)
+    highest = Limit(linear(2, 0, value_of("type")), (("type", ((0, 0), (5, 9))), (LONG, ((1, 1),))), 0, 900)
     by_long = (
         ScaleCase(LONG, 1, linear(3, "1/2", value_of("self"))),
         ScaleCase(None, None, linear("-1/7", 0, value_of("self", -1, slope=3, intercept=-6))),

@@ -140,14 +140,14 @@ def test_hours_are_not_hexadecimal() -> None:
 def test_dependent_limits() -> None:
     assert _encode("upper_limit", "50", lower_limit=100) == 500
     assert _encode("upper_limit", "5", lower_limit=0) == 50
-    with pytest.raises(RefusedError, match=r"what is allowed here, inactive or 10\.\.400 Hz") as caught:
+    with pytest.raises(RefusedError, match=r"what is allowed here, 10\.\.400 Hz") as caught:
         _encode("upper_limit", "5", lower_limit=100)
     assert caught.value.hint == "the nearest allowed value is 10 Hz"
 
 
 def test_limits_that_leave_nothing() -> None:
     nothing = replace(_point("upper_limit"), allowed=replace(_point("upper_limit").allowed))
-    nothing = replace(nothing, allowed=allowed((nothing.allowed.intervals[1].low, 10)), specials=())
+    nothing = replace(nothing, allowed=allowed((nothing.allowed.intervals[0].low, 10)), specials=())
     with pytest.raises(RefusedError, match="nothing"):
         encode_point(DEVICE, nothing, "50", {"lower_limit": 4000})
 

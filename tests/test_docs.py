@@ -42,8 +42,9 @@ def _row(page: str, item: str) -> list[str]:
     return [one.strip() for one in _cells(found)]
 
 
-def test_two_files_and_the_same_bytes_each_time() -> None:
-    assert list(_written()) == ["docs/sample_drive.md", "docs/sample_drive.csv"]
+def test_three_files_and_the_same_bytes_each_time() -> None:
+    names = ["docs/sample_drive.md", "docs/sample_drive.csv", "docs/sample_drive_special_codes.csv"]
+    assert list(_written()) == names
     assert dict(outputs(sample_device(), render)) == _written()
 
 

@@ -98,7 +98,7 @@ def test_a_scaled_point() -> None:
         "unit": "Hz",
         "default": 500,
         "step": None,
-        "special": {},
+        "special": [],
         "fixed": {},
         "changes": None,
         "together": None,
@@ -139,8 +139,11 @@ def test_words_enums_flags_and_specials() -> None:
             },
         },
     ]
-    assert _point("temperature")["special"] == {"32767": "no value: no_sensor"}
-    assert _point("upper_limit")["special"] == {"0": "inactive"}
+    no_sensor = {"raw": [32767, 32767], "name": "no_sensor", "no_value": True, "writable": False}
+    assert _point("temperature")["special"] == [no_sensor]
+    assert _point("upper_limit")["special"] == [
+        {"raw": [0, 0], "name": "inactive", "no_value": False, "writable": True}
+    ]
     assert _point("acceleration_time")["step"] == [{"from": 1, "step": 1}, {"from": 10000, "step": 10}]
 
 
@@ -148,7 +151,11 @@ def test_no_value_and_a_span_of_special_codes() -> None:
     no_value = Special(0x8000, 0x8000, "no_value", titles("No value"), True)
     errors = Special(0xFF00, 0xFFFF, "error", titles("Error"), False)
     exported: Any = export_model(sample_device((point("level", 1, specials=(no_value, errors)),)))
-    assert exported["points"][0]["special"] == {"32768": "no value", "65280..65535": "error"}
+    assert exported["points"][0]["special"] == [
+        {"raw": [32768, 32768], "name": "no_value", "no_value": True, "writable": False},
+        {"raw": [65280, 65535], "name": "error", "no_value": False, "writable": False},
+    ]
+    assert exported["format"] == 2
     assert not list(Draft202012Validator(SCHEMA).iter_errors(exported))
 
 
@@ -173,8 +180,8 @@ def test_scales_with_offset_factors_and_cases() -> None:
 
 def test_ranges_in_units_and_computed_ends() -> None:
     assert _point("float_setpoint")["raw"] == {"ranges": [["0", "650"]], "values": None}
-    assert _point("upper_limit")["raw"]["ranges"] == [[0, 0], ["0 if lower_limit.raw == 0 else lower_limit.raw", 4000]]
-    assert _point("lower_limit")["raw"]["ranges"][1] == [
+    assert _point("upper_limit")["raw"]["ranges"] == [["0 if lower_limit.raw == 0 else lower_limit.raw", 4000]]
+    assert _point("lower_limit")["raw"]["ranges"][0] == [
         "max(5, start_frequency.raw)",
         "4000 if upper_limit.raw == 0 else min(4000, upper_limit.raw)",
     ]

@@ -180,7 +180,7 @@ def test_a_cut_decimal_is_a_warning_that_can_be_followed(tmp_path: Path, facts: 
         ("scale: [{when: mode == 0, rule: 0.1}]", "wrong-type", "`rule: value = raw * 0.1`"),
         ("scale: [{when: mode == 0, rule: x 0.1}]", "bad-formula", "`rule: value = raw * 0.1`"),
         ("scale: [{if: mode == 0, then: value = raw}]", "unknown-key", "did you mean `when`?"),
-        ("no_value: true", "wrong-type", "`no_value: [7FFFh]`"),
+        ("no_value: [7FFFh]", "unknown-key", "`special: {7FFFh: {name: not_available, no_value: yes}}`"),
         ("size: 2", "unknown-key", "the `type` says how wide a number is"),
         ("byte_order: little", "unknown-key", "`words: low first`"),
         ("multiplier: 0.1", "unknown-key", "`scale: value = raw * 0.1`"),

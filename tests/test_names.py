@@ -39,8 +39,10 @@ def known(device: Device) -> set[str]:
     for point in device.points:
         for item in (point.item, *(old + point.item[len(point.name) :] for old in point.was)):
             names.update(f"{item}_{tail}" for tail in (*C_TAILS, *point.references))
-            for special in point.specials:
-                names.update(f"{item}_{special.name}{end}" for end in ("", "_first", "_last"))
+            for holder in (item, point.shared_codes or item):
+                names.update(f"{holder}_{tail}" for tail in ("is_special", "special_name", "is_no_value"))
+                for special in point.specials:
+                    names.update(f"{holder}_{special.name}{end}" for end in ("", "_first", "_last"))
             for flag in point.flags:
                 ends = ("", "_mask", "_shift", *(f"_{value.name}" for value in flag.values))
                 names.update(f"{item}_{flag.name}{end}" for end in ends)

@@ -101,7 +101,7 @@ def test_every_raw_survives_every_kind_of_rule(trips: Any, item: str) -> None:
             {},
             ("unknown_value", "A001 frequency_source: 7 is none of 0 keypad, 1 terminal, 10 logic"),
         ),
-        ("upper_limit", 5.0, {"lower_limit": 60}, ("out_of_range", "upper_limit: 5 Hz is outside 0 or 6..400 Hz")),
+        ("upper_limit", 5.0, {"lower_limit": 60}, ("out_of_range", "upper_limit: 5 Hz is outside 6..400 Hz")),
         (
             "upper_limit",
             5.0,
@@ -165,8 +165,8 @@ def test_unknown_numbers_survive(package: Any) -> None:
     assert drive.frequency_source.decode(77) == 77
     assert drive.status_word.decode(0xFF00) == 0xFF00
     assert drive.running.decode(1) is True
-    assert drive.temperature.decode(0x7FFF) is None
-    assert status(drive.temperature.decode_count, 0x7FFF)[0] == "no_value"
+    assert str(drive.temperature.decode(0x7FFF)) == "no_sensor"
+    assert status(drive.temperature.decode_count, 0x7FFF)[0] == "special"
     assert drive.frequency_source.name_of(1) == "terminal"
     assert drive.frequency_source.name_of(77) is None
 
@@ -477,7 +477,7 @@ def test_generated_code_is_formatted(folder: Path) -> None:
 MISUSE = """
 from sample_drive import FrequencySource, SampleDrive, SampleDriveAsync
 from typing import assert_type
-from fieldscribe_runtime import Field, ReadOnly, Transport
+from fieldscribe_runtime import Field, ReadOnly, Special, Transport
 from sample_drive import StatusWord, StatusWordMode
 
 def words() -> None:
@@ -493,7 +493,13 @@ def use(transport: Transport) -> None:
     frequency: float = drive.base_frequency.read()
     drive.base_frequency.write(frequency)
     source: FrequencySource | int = drive.frequency_source.read()
-    temperature: float | None = drive.temperature.read()
+    temperature: float | Special = drive.temperature.read()
+    if isinstance(temperature, Special):
+        reason: str = temperature.name
+    else:
+        frequency = temperature
+    drive.upper_limit.write(drive.upper_limit.special.inactive)
+    drive.temperature.write(drive.temperature.special.no_sensor)  # E: arg-type
     level: int = drive.dc_level.read()
     mode: int = drive.status_word.read().mode
     ready: bool = SampleDrive.status_word.decode(1).ready

@@ -65,10 +65,10 @@ def test_ranges(item: str, in_units: str, in_raw: str) -> None:
 
 def test_a_limit_of_another_point_is_said_with_what_lifts_it() -> None:
     upper, lower = named(DEVICE, "upper_limit"), named(DEVICE, "lower_limit")
-    assert wording.range_text(upper, POINTS) == "inactive or lower_limit..400 Hz; while lower_limit.raw is 0: from 0"
-    assert wording.raw_range_text(upper) == "0 or lower_limit.raw..4000; while lower_limit.raw is 0: from 0"
+    assert wording.range_text(upper, POINTS) == "lower_limit..400 Hz; while lower_limit.raw is 0: from 0"
+    assert wording.raw_range_text(upper) == "lower_limit.raw..4000; while lower_limit.raw is 0: from 0"
     assert wording.range_text(lower, POINTS) == (
-        "inactive or max(0.5, start_frequency)..min(400, upper_limit) Hz; while upper_limit.raw is 0: to 400"
+        "max(0.5, start_frequency)..min(400, upper_limit) Hz; while upper_limit.raw is 0: to 400"
     )
     assert "start_frequency.raw x 0.1" in wording.range_text(lower)
 

@@ -101,11 +101,12 @@ class ScaleCase:
 class Limit:
     """A raw limit that other points set: the rule applied to 1, rounded half away from zero.
 
-    It does not apply while a point holds one of the raw numbers in `unless`; `least` and `greatest` bound it always.
+    It does not apply while a point holds a raw number in one of the bands (low, high) of `unless`; `least` and
+    `greatest` bound it always.
     """
 
     rule: Linear
-    unless: tuple[tuple[str, tuple[int, ...]], ...]
+    unless: tuple[tuple[str, tuple[tuple[int, int], ...]], ...]
     least: int
     greatest: int
 
@@ -156,13 +157,24 @@ class Enum:
 
 @dataclass(frozen=True, slots=True)
 class Special:
-    """Raw numbers low..high that are no quantity: a named state, or `no_value`."""
+    """A special code: raw numbers low..high that are no quantity; with `no_value` they say that there is none.
+
+    It is written only if `writable`; `hexadecimal` says that the manual writes it so. `own` is False for a code that a
+    type, a group or a format gives to many points.
+    """
 
     low: int
     high: int
     name: str
     title: Titles
     no_value: bool
+    writable: bool = False
+    hexadecimal: bool = False
+    own: bool = True
+
+    def holds(self, raw: int) -> bool:
+        """Whether a raw number is this code."""
+        return self.low <= raw <= self.high
 
 
 @dataclass(frozen=True, slots=True)
@@ -212,7 +224,8 @@ class Point:
     manual prints no address. `scale` is None where the raw number is the value. `decimals` k fixes the unit of the
     integer path, 10^-k units; it is None where no 64-bit integer holds the counts, and there are none then.
     `encodes_values` is False where raw numbers exceed 53 bits: values are decoded only. `specials` are never computed
-    with. `steps` gives (from raw, step in raw). `generated` is False for what is only documented; `reason` says why.
+    with; `specials_of` names what gives those that are not the point's own to many points (a type, a group, a format).
+    `steps` gives (from raw, step in raw). `generated` is False for what is only documented; `reason` says why.
     """
 
     name: str
@@ -256,6 +269,7 @@ class Point:
     digits: Digits | None = None
     fixed: Fixed | None = None
     changes_with: tuple[str, ...] = ()
+    specials_of: str = ""
     encodes_values: bool = True
     untyped: str | None = None
     """What stands in place of a type: the manual's words for what no type says; empty where it does not settle it."""
@@ -320,6 +334,15 @@ class Point:
     def writable(self) -> bool:
         """Whether the device takes the point."""
         return "w" in self.access
+
+    def special(self, raw: int) -> Special | None:
+        """The special code that a raw number is, if it is one."""
+        return next((one for one in self.specials if one.low <= raw <= one.high), None)
+
+    @property
+    def shared_codes(self) -> str:
+        """What gives all special codes of the point to many points; empty where some are its own."""
+        return "" if any(one.own for one in self.specials) else self.specials_of
 
     @property
     def form(self) -> str:

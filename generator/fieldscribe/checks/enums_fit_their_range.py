@@ -1,4 +1,4 @@
-"""Named numbers can occur: enum entries lie inside the range and the type, special codes and steps inside the type."""
+"""Named numbers can occur: enum entries lie inside the range and the type and are no special codes."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 def check(subject: Subject) -> None:
-    """Entries and special codes that the range or the type excludes, and steps outside the type."""
+    """Entries that the range or the type excludes or that are special codes too, and steps outside the type."""
     for resolved in subject.resolved:
         if resolved.draft.failed & {"type", "bits"}:
             continue
@@ -35,17 +35,16 @@ def _held(point: Point) -> str:
 
 
 def _specials(subject: Subject, resolved: Resolved) -> None:
+    """One number is a name of the enum or a special code, not both."""
     point, draft = resolved.point, resolved.draft
-    for special in point.specials:
-        if point.least <= special.low and special.high <= point.greatest:
-            continue
-        key = "no_value" if special.no_value else "special"
-        message = f"the code {special.low} lies outside the type, which holds {_held(point)}"
-        hint = "correct the code or the `type`"
-        turned = special.low - (1 << point.width)
-        if point.least <= turned < 0:
-            hint = f"{special.low:X}h of a signed number is {turned}: write that, or correct the `type`"
-        subject.report.error("range-outside-type", message, draft.span(key), hint)
+    for entry in point.enum.entries if point.enum is not None else ():
+        special = point.special(entry.raw)
+        if special is not None:
+            place = draft.span("special") if draft.layer("special") is not None else None
+            related = [(place, "the special codes")] if place is not None else []
+            message = f"{entry.raw} is `{entry.name}` of the enum and the special code `{special.name}`"
+            hint = "remove one of them; `special: {code: ~}` takes an inherited code away"
+            subject.report.error("special-twice", message, _place(resolved, entry.raw), hint, related)
 
 
 def _entries(subject: Subject, resolved: Resolved) -> None:
@@ -56,7 +55,7 @@ def _entries(subject: Subject, resolved: Resolved) -> None:
             message = f"`{entry.name}` is {entry.raw}, outside the type, which holds {_held(point)}"
             hint = "correct the number or the `type`"
             subject.report.error("enum-outside-range", message, _place(resolved, entry.raw), hint)
-        elif ranged and not inside(entry.raw, point.allowed):
+        elif ranged and point.special(entry.raw) is None and not inside(entry.raw, point.allowed):
             related = [(draft.span("range"), "the range")]
             message = f"`{entry.name}` is {entry.raw}, which the range does not allow"
             hint = "correct the number or the range; a code beside the numbers goes under `special`"

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 RUST_CONSTANTS = frozenset(
     {"name", "code", "space", "address", "words", "unit", "raw_min", "raw_max", "shift", "mask"}
     | {"decimals", "read_function", "write_function", "write_address"}
-    | {"telegram", "index", "addresses", "numbers", "fixed_bits", "fixed_mask", "floating"}
+    | {"telegram", "index", "addresses", "codes", "numbers", "fixed_bits", "fixed_mask", "floating"}
 )
 """Associated constants of the Rust point traits, which a special code of the same name would hide."""
 

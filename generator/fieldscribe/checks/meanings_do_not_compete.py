@@ -10,6 +10,7 @@ if TYPE_CHECKING:
 
 _OF_INTEGERS = ("enum", "flags", "scale", "decimals", "steps", "digits", "fixed")
 _OF_NUMBERS = ("enum", "flags", "scale", "decimals", "steps", "digits", "fixed", "range", "range_in_units", "default")
+_OF_TEXTS = (*_OF_NUMBERS, "special")
 _RIVALS = (
     ("enum", "flags", "name the numbers of several bits under `values` of one flag"),
     ("enum", "scale", "codes beside the numbers go under `special`"),
@@ -35,8 +36,11 @@ def check(subject: Subject) -> None:
             )
             continue
         if draft.text:
-            _alien(subject, draft, _OF_NUMBERS, "text", "its characters are all that it means")
+            _alien(subject, draft, _OF_TEXTS, "text", "its characters are all that it means")
             continue
+        if resolved.point.type == "bit" and draft.get("special") is not None and "type" not in draft.failed:
+            message = f"`{draft.name}` is a single bit, which has no room for a special code"
+            subject.report.error("two-meanings", message, draft.span("special"), "name its two states by an `enum`")
         if draft.get("fixed") is not None and not resolved.point.writable:
             message = f"`fixed` says what is written, and `{draft.name}` is only read"
             subject.report.error("two-meanings", message, draft.span("fixed"), "leave it out, or correct `access`")
@@ -54,5 +58,5 @@ def _alien(subject: Subject, draft: Draft, keys: tuple[str, ...], what: str, why
     rule = "text-fact" if draft.text else "float-fact"
     for key in keys:
         if draft.get(key) is not None and draft.layer(key) is not draft.group:
-            message = f"`{key}` is for whole numbers, and `{draft.name}` is a {what}"
+            message = f"`{key}` is for {'' if draft.text else 'whole '}numbers, and `{draft.name}` is a {what}"
             subject.report.error(rule, message, draft.span(key), f"{why}: leave it out")

@@ -28,7 +28,7 @@ HEADER = frozenset(
         "zero_factor",
         "no_case",
         "overflow",
-        "no_value",
+        "special",
         "h",
     }
     | {"modbus_h", "description_version", "description_digest", "status", "real", "rule", "signed", "signed32"}
@@ -59,7 +59,10 @@ _FUNCTIONS = frozenset(
 )
 _BITS = frozenset({"shift", "mask"})
 
+_OF_CODES = ("is_special", "special_name", "is_no_value")
+
 _SOMETIMES: Mapping[str, Callable[[Point], bool]] = {
+    **dict.fromkeys(_OF_CODES, lambda point: bool(point.specials)),
     "index": lambda point: point.index is not None,
     "characters": lambda point: point.text is not None,
     "digits": lambda point: point.digits is not None,
@@ -150,10 +153,13 @@ def _of_device(subject: Subject) -> Iterator[str]:
 
 def _named(item: str, point: Point) -> Iterator[tuple[str, str, str, str]]:
     """Prefix, tail, what it is, and the key under which it stands."""
+    holder = point.shared_codes or item
     for special in point.specials:
         ends = ("",) if special.low == special.high else ("_first", "_last")
         for end in ends:
-            yield item, special.name + end, f"the code `{special.name}` of `{item}`", "special"
+            yield holder, special.name + end, f"the code `{special.name}` of `{holder}`", "special"
+    for tail in _OF_CODES if point.shared_codes else ():
+        yield holder, tail, f"the special codes of `{holder}`", "special"
     for flag in point.flags:
         more = ("_shift", *(f"_{value.name}" for value in flag.values)) if flag.width > 1 else ()
         for end in ("", "_mask", *more):

@@ -12,6 +12,7 @@ from fieldscribe.language.nodes import Map, Seq
 from fieldscribe.language.numbers import NumberError, parse_number
 from fieldscribe.resolve.bounds import as_text, constant_range, round_half_away
 from fieldscribe.resolve.numbering import WIRE
+from fieldscribe.resolve.special_codes import without_codes
 from fieldscribe.resolve.values import integer, number
 from fieldscribe.wording.exact import fixed_rule, number_text
 
@@ -123,7 +124,7 @@ def _range(subject: Subject, resolved: Resolved, key: str, value: Any, span: Spa
 
     def agrees(given: Any) -> bool | None:
         found = subject.ranges.intervals(resolved.draft, given, span, in_units, printed=True)
-        return None if found is None else _same_range(point.allowed, found)
+        return None if found is None else _same_range(point.allowed, without_codes(found, point.specials))
 
     if agrees(value) is not False:
         return

@@ -16,6 +16,7 @@ EXAMPLE = """examples:
   fieldscribe encode hitachi_l200 A020 "50 Hz"
   fieldscribe encode hitachi_l200 A020 50 --unit 5 --frame
   fieldscribe encode hitachi_l200 A061 50 --with A062=10 --with A004=60
+  fieldscribe encode hitachi_l200 A061 inactive
   fieldscribe encode woodward_mpu2s fault_text_terminal_62 "OIL PRESSURE" --frame
   fieldscribe encode woodward_mpu2s power_measurement_phases three_phase --with-word 0400h --frame
   fieldscribe encode siemens_mm4 P1082 40 --unit 3 --pkw 4 --keep --frame
@@ -33,7 +34,9 @@ def add_arguments(parser: ArgumentParser) -> None:
     from fieldscribe.cli.link import add_framing, add_uss, add_with
 
     add_device(parser)
-    parser.add_argument("point", metavar="POINT", help="its code, name or address")
+    parser.add_argument(
+        "point", metavar="POINT", help="its code, name or address; with .raw behind it VALUE is a raw number"
+    )
     parser.add_argument(
         "value",
         metavar="VALUE",
@@ -67,8 +70,9 @@ def run(arguments: Namespace) -> int:
     options = options_of(device, arguments)
     settings = settings_of(device, arguments.given)
     try:
-        point = choose_point(device, arguments.point, index=options.index)
-        encoded = encode_point(device, point, arguments.value, settings)
+        name = arguments.point.removesuffix(".raw")
+        point = choose_point(device, name, index=options.index)
+        encoded = encode_point(device, point, arguments.value, settings, as_raw=name != arguments.point)
         framed = arguments.frame or asks_for_frames(options)
         sent = dialogue_of(device).frames_for(device, point, encoded.raw, settings, options) if framed else None
     except UnclearError as error:

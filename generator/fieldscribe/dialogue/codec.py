@@ -13,7 +13,7 @@ from math import isfinite, isnan
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from fieldscribe.model import Bound, Factor, Interval, Limit, Linear, Point
+    from fieldscribe.model import Bound, Factor, Interval, Limit, Linear, Point, Special
 
 Settings = Mapping[str, int | Fraction]
 """What rules take of other points, by name: raw numbers; of f32 and f64 points the value, see `setting_of`."""
@@ -28,13 +28,23 @@ class CodecError(Exception):
     """Why there is no value or no raw number.
 
     `status` is the one that generated code gives (`out_of_range`, `zero_factor`, ...) or `missing`; `missing` names the
-    points whose raw numbers are needed and not given, or the point that is to blame.
+    points whose raw numbers are needed and not given, or the point that is to blame. `special` is the special code in
+    the place of a quantity.
     """
 
-    def __init__(self, status: str, missing: Iterable[str] = ()) -> None:
+    def __init__(self, status: str, missing: Iterable[str] = (), special: Special | None = None) -> None:
         super().__init__(status)
         self.status = status
         self.missing = tuple(dict.fromkeys(missing))
+        self.special = special
+
+
+class _NoQuantity(Fraction):
+    """What a floating-point point holds while that is a special code: known to rules and limits as none."""
+
+
+class _Code(int):
+    """The same of a point of whole numbers: the raw number."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,8 +58,11 @@ class Window:
 
 def setting_of(point: Point, raw: int) -> int | Fraction:
     """What rules take of a point that holds a raw number; 0 for a bit pattern that is no number."""
+    coded = point.special(raw) is not None
     if not point.info.floating:
-        return raw
+        return _Code(raw) if coded else raw
+    if coded:
+        return _NoQuantity(0)
     number = float_of(point, raw)
     return Fraction(number) if isfinite(number) else Fraction(0)
 
@@ -72,15 +85,22 @@ def rule_in_force(point: Point, settings: Settings) -> tuple[Fraction, Fraction]
 
 def decode(point: Point, raw: int, settings: Settings) -> Fraction:
     """The exact value of a raw number (of a bit pattern that is no number: `not_a_number`). Raises CodecError."""
+    quantity(point, raw)
     if point.info.floating:
         number = float_of(point, raw)
         if not isfinite(number):
             raise CodecError("not_a_number")
         return Fraction(number)
-    if any(special.no_value and special.low <= raw <= special.high for special in point.specials):
-        raise CodecError("no_value")
     ratio, offset = rule_in_force(point, settings)
     return (raw - offset) / ratio
+
+
+def quantity(point: Point, raw: int) -> int:
+    """The raw number itself, if it is a quantity. Raises CodecError: `special`."""
+    special = point.special(raw)
+    if special is not None:
+        raise CodecError("special", special=special)
+    return raw
 
 
 def encode(point: Point, value: Fraction, settings: Settings) -> int:
@@ -100,18 +120,18 @@ def with_fixed(point: Point, raw: int) -> int:
 
 
 def encode_checked(point: Point, value: Fraction, settings: Settings) -> int:
-    """The raw number to write for a value. Raises CodecError."""
-    if point.info.floating:
-        pattern = _pattern_of(point, value)
-        _check_units(point, pattern)
-        return pattern
-    raw = with_fixed(point, encode(point, value, settings))
+    """The raw number to write for a value, which no special code is. Raises CodecError."""
+    raw = quantity(point, with_fixed(point, encode(point, value, settings)))
     check(point, raw, settings)
     return raw
 
 
 def check(point: Point, raw: int, settings: Settings) -> None:
-    """Whether a raw number may be written. Raises CodecError: `out_of_range`, `unknown_value`, `missing`, ..."""
+    """Whether a raw number may be written. Raises CodecError: `special`, `out_of_range`, `unknown_value`, ..."""
+    special = point.special(raw)
+    if special is not None and special.writable:
+        return
+    quantity(point, raw)
     if point.info.floating:
         _check_units(point, raw)
         return
@@ -152,9 +172,8 @@ def windows(point: Point, settings: Settings) -> tuple[Window, ...]:
 
 def nearest_allowed(point: Point, raw: int, settings: Settings) -> int | None:
     """The quantity (no special code) closest to `raw` that may surely be written; None where nobody knows."""
-    codes = {(special.low, special.high) for special in point.specials}
     known = [one for one in windows(point, settings) if not one.missing and one.low <= one.high]
-    ends = [min(max(raw, one.low), one.high) for one in known if (one.low, one.high) not in codes]
+    ends = [end for one in known if point.special(end := min(max(raw, one.low), one.high)) is None]
     return min(ends, key=lambda end: (abs(end - raw), end), default=None)
 
 
@@ -176,6 +195,9 @@ def _with_factors(rule: Linear, settings: Settings) -> Fraction:
     if missing:
         raise CodecError("missing", missing)
     ratio = rule.ratio
+    coded = [factor.point for factor in rule.factors if isinstance(settings[factor.point], (_NoQuantity, _Code))]
+    if coded:
+        raise CodecError("zero_factor", coded)
     for factor in _powers_last(rule):
         number = _factor(factor, settings)
         if number == 0:
@@ -210,7 +232,7 @@ def _bound(bound: Bound, settings: Settings, *, lower: bool) -> tuple[int, tuple
     if isinstance(bound, int):
         return bound, ()
     outermost = bound.least if lower else bound.greatest
-    if any(settings.get(name) in codes for name, codes in bound.unless):
+    if any(_is_code(settings.get(name), codes) for name, codes in bound.unless):
         return outermost, ()
     needed = [*(factor.point for factor in bound.rule.factors), *(name for name, _ in bound.unless)]
     missing = tuple(name for name in dict.fromkeys(needed) if name not in settings)
@@ -218,6 +240,13 @@ def _bound(bound: Bound, settings: Settings, *, lower: bool) -> tuple[int, tuple
         return outermost, missing
     number = _limit(bound, settings)
     return (max(outermost, number) if lower else min(outermost, number)), ()
+
+
+def _is_code(held: int | Fraction | None, codes: tuple[tuple[int, int], ...]) -> bool:
+    """Whether what a point holds is one of its special codes."""
+    if isinstance(held, int):
+        return any(low <= held <= high for low, high in codes)
+    return isinstance(held, _NoQuantity)
 
 
 def _limit(limit: Limit, settings: Settings) -> int:

@@ -41,10 +41,10 @@ class Encoded:
         }
 
 
-def encode_point(device: Device, point: Point, value: str, settings: Settings) -> Encoded:
-    """The raw number that writes a typed value."""
+def encode_point(device: Device, point: Point, value: str, settings: Settings, *, as_raw: bool = False) -> Encoded:
+    """The raw number that writes a typed value, or that raw number if it may be written."""
     _refuse_unwritable(point)
-    typed = read_value(point, value)
+    typed = read_value(point, value, as_raw=as_raw)
     raw = encode_typed(device, point, typed, settings)
     notes = () if typed.value is None else tuple(rounding_remarks(point, typed.value, raw, settings))
     meaning = meaning_of(device, point, raw, settings)

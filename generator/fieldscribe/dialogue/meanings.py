@@ -44,7 +44,7 @@ def meaning_of(device: Device, point: Point, raw: int, settings: Settings) -> Me
 
 def _named(point: Point, raw: int) -> str | None:
     """The words of a raw number that is no quantity."""
-    special = next((one for one in point.specials if one.low <= raw <= one.high), None)
+    special = point.special(raw)
     if special is not None:
         remark = ", no value" if special.no_value else ""
         return line(f"{special.name} ({wording.title_text(special.title)}){remark}")
@@ -68,8 +68,12 @@ def rounding_remarks(point: Point, asked: Fraction, raw: int, settings: Settings
         yield f"{amount_with_unit(point, asked)} is between two raw numbers; rounded to {amount_with_unit(point, got)}"
     coarse = next((step for start, step in reversed(point.steps) if raw >= start), 1)
     if raw % coarse:
-        kept = codec.decode(point, raw - raw % coarse, settings)
-        back = amount_with_unit(point, kept)
+        kept = point.special(raw - raw % coarse)
+        back = (
+            kept.name
+            if kept is not None
+            else amount_with_unit(point, codec.decode(point, raw - raw % coarse, settings))
+        )
         yield f"here the device keeps only raw numbers divisible by {coarse}; expect {back} back"
 
 

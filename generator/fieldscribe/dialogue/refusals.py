@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
     from fractions import Fraction
 
-    from fieldscribe.model import Device, Point
+    from fieldscribe.model import Device, Point, Special
 
 _MOST_DIGITS = 12
 _MOST_NAMES = 30
@@ -40,8 +40,26 @@ def refusal(device: Device, point: Point, value: Fraction | None, raw: int, why:
     error, settings = why
     if error.status in ("out_of_range", "unknown_value"):
         return _outside(device, point, value, raw, settings)
+    if error.special is not None:
+        return _code(point, value, raw, error.special)
     message, hint = failure(device, point, error)
     return RefusedError(error.status, f"{label(point)}: {message}", hint)
+
+
+def _code(point: Point, value: Fraction | None, raw: int, special: Special) -> RefusedError:
+    """A special code where a quantity belongs, or one that is only read."""
+    title = f"`{special.name}` ({wording.title_text(special.title)})"
+    if value is not None:
+        code = wording.special_numbers(special, point.width)
+        message = f"{label(point)}: {amount_with_unit(point, value)} would be {code}, the special code {title}"
+    else:
+        shown = wording.code_text(raw, point.width, hexadecimal=special.hexadecimal)
+        message = f"{label(point)}: {shown} is the special code {title}, which is only read"
+    hint = "the code is no quantity, and is only read"
+    if special.writable:
+        hint = f"write `{special.name}` if that is meant"
+        hint = hint if special.low == special.high else f"if that is meant, give {point.name}.raw a raw number"
+    return RefusedError("special", line(message), hint if value is not None else "give a quantity")
 
 
 def failure(device: Device, point: Point, error: CodecError) -> tuple[str, str]:
@@ -52,10 +70,10 @@ def failure(device: Device, point: Point, error: CodecError) -> tuple[str, str]:
         part = "its scale" if set(error.missing) <= set(point.scale_arguments) else "its range"
         return f"{part} depends on {blamed}", hint
     return {
-        "zero_factor": (f"{blamed} is zero, and nothing can be computed with that", ""),
+        "zero_factor": (f"{blamed} is zero or no quantity, and nothing can be computed with that", ""),
         "no_case": (f"the manual gives no scale for what {blamed} holds", ""),
         "overflow": (f"the exponent {blamed} is outside the range that it has", ""),
-        "no_value": ("this raw number says that there is no value", ""),
+        "special": ("this raw number is a special code and no quantity", ""),
         "not_a_number": ("the bit pattern is no number", ""),
     }.get(error.status, (error.status, ""))
 
@@ -125,9 +143,6 @@ def _range_now(point: Point, settings: Settings) -> str:
 
 
 def _span(point: Point, low: int, high: int, settings: Settings) -> str:
-    named = next((one.name for one in point.specials if one.low == low and one.high == high), None)
-    if named:
-        return named
     ends = sorted(codec.decode(point, raw, settings) for raw in (low, high))
     if low == high:
         return amount_with_unit(point, ends[0])

@@ -8,6 +8,7 @@ from difflib import get_close_matches
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
+from fieldscribe import wording
 from fieldscribe.dialogue import codec
 from fieldscribe.dialogue.codec import CodecError, Settings
 from fieldscribe.dialogue.refusals import refusal
@@ -34,12 +35,15 @@ class Typed:
     raw: int
 
 
-def read_value(point: Point, text: str) -> Typed:
+def read_value(point: Point, text: str, *, as_raw: bool = False) -> Typed:
     """What the text means for the point. Raises UnclearError; RefusedError for characters that cannot be sent."""
+    if as_raw and point.text is None:
+        return Typed(None, _whole(text))
     if point.text is not None:
         return Typed(None, pattern_of_text(point, text))
     text = text.strip()
-    raw = _flags(point, text) if point.flags else _digits(point, text) if point.digits else _named(point, text)
+    raw = _flags(point, text) if point.flags else _digits(point, text) if point.digits else None
+    raw = _named(point, text) if raw is None else raw
     if raw is not None:
         return Typed(None, raw)
     try:
@@ -88,9 +92,9 @@ def _raw_of(device: Device, point: Point, text: str, settings: Settings, *, as_r
     """The raw number that another point holds; only the bits limit it: a device may hold what nobody may write."""
     if point.text is not None:
         raise UnclearError(f"{label(point)} is a text, and no rule takes one", "")
-    typed = Typed(None, _whole(text)) if as_raw else read_value(point, text)
+    typed = read_value(point, text, as_raw=as_raw)
     try:
-        raw = typed.raw if typed.value is None else codec.encode(point, typed.value, settings)
+        raw = typed.raw if typed.value is None else codec.quantity(point, codec.encode(point, typed.value, settings))
         if not point.least <= raw <= point.greatest:
             raise CodecError("out_of_range")
     except CodecError as error:
@@ -153,7 +157,7 @@ def _is_unit(point: Point, typed: str) -> bool:
 def _names(point: Point) -> Iterator[tuple[str, int]]:
     """Everything that names a raw number of the point, the plain names first."""
     entries = point.enum.entries if point.enum else ()
-    yield from ((special.name, special.low) for special in point.specials)
+    yield from ((special.name, special.low) for special in point.specials if special.low == special.high)
     yield from ((entry.name, entry.raw) for entry in entries)
     for entry in entries:
         yield from ((title, entry.raw) for title in entry.title.values())
@@ -165,6 +169,10 @@ def _named(point: Point, text: str) -> int | None:
     for name, raw in _names(point):
         if " ".join(name.casefold().split()) == wanted:
             return raw
+    band = next((one for one in point.specials if one.name == wanted), None)
+    if band is not None:
+        numbers = wording.special_numbers(band, point.width)
+        raise UnclearError(f"`{band.name}` is all of {numbers}", f"say which one: {point.name}.raw, and the raw number")
     return _SWITCH.get(wanted) if point.width == 1 else None
 
 
@@ -199,6 +207,8 @@ def _flags(point: Point, text: str) -> int | None:
     if len(wanted) == 1 and wanted[0][:1].isdigit():
         return None
     raw = sum(1 << flag.low for flag in point.flags if flag.width == 1 and flag.active == 0)
+    if len(wanted) == 1 and any(special.name == wanted[0] for special in point.specials):
+        return None
     for part in wanted:
         if part in ("none", ""):
             continue

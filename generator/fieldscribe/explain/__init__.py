@@ -10,7 +10,7 @@ from fieldscribe.explain.lookup import Match, find, near
 from fieldscribe.explain.requests import read_text, write_text
 from fieldscribe.families import FAMILIES
 from fieldscribe.text import line
-from fieldscribe.wording.exact import hex_text, number_text
+from fieldscribe.wording.exact import hex_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -128,8 +128,7 @@ def _meaning_rows(device: Device, point: Point) -> Iterator[Row]:
     yield "Widths", "; ".join(wording.width_texts(point))
     yield "Range", "" if point.flags else wording.range_text(point, by_name)
     yield "Raw range", wording.raw_range_text(point)
-    if point.default is not None:
-        yield "Default", wording.with_unit(number_text(point.default), point)
+    yield "Default", wording.default_text(point)
     yield "Steps", wording.steps_text(point)
     yield "Fixed bits", wording.fixed_text(point)
     scale, limits = point.scale_arguments, [one for one in point.limit_arguments if one not in point.scale_arguments]
@@ -150,7 +149,7 @@ def _names_rows(point: Point) -> Iterator[Row]:
         for entry in point.digits.enum.entries:
             yield f"Digit {entry.raw}", wording.entry_text(entry).partition(" = ")[2]
     for special in point.specials:
-        numbers, _, meaning = wording.special_text(special).partition(" = ")
+        numbers, _, meaning = wording.special_text(special, point.width).partition(" = ")
         yield f"Raw {numbers}", meaning
     for flag in point.flags:
         label = f"Bit{'s' if flag.width > 1 else ''} {wording.flag_bits(flag, point)}"

@@ -25,7 +25,8 @@ def sample_raw(point: Point) -> int | None:
     rule = fixed_rule(point)
     if rule is not None and point.default is not None:
         raw = (point.default * rule[2] - rule[1]) / rule[0]
-        if raw.denominator == 1:
+        special = point.special(int(raw))
+        if raw.denominator == 1 and (special is None or special.writable):
             return _with_fixed(point, int(raw))
     ends = [end for one in point.allowed.intervals for end in (one.low, one.high) if isinstance(end, int)]
     return _with_fixed(point, min(ends, key=abs)) if ends else None

@@ -15,6 +15,9 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Device, Flag, Point
 
+_MOST_CODES = 32
+"""A band of more special codes is said in the comment alone: a database names single numbers."""
+
 _HALVES = ("high", "low")
 
 
@@ -83,11 +86,11 @@ def decimal(number: Fraction) -> str:
 
 
 def _names(point: Point) -> Iterator[tuple[int, str]]:
-    seen = set()
-    for one in point.specials:
-        if one.low == one.high and one.low not in seen:
-            seen.add(one.low)
-            yield one.low, one.name
+    seen: set[int] = set()
+    for one in point.specials if not point.info.floating else ():
+        if one.high - one.low < _MOST_CODES:
+            seen.update(range(one.low, one.high + 1))
+            yield from ((raw, one.name) for raw in range(one.low, one.high + 1))
     for entry in point.enum.entries if point.enum is not None else ():
         if entry.raw not in seen:
             yield entry.raw, entry.name
@@ -111,6 +114,9 @@ def _comment(device: Device, point: Point) -> str:
         parts.append(f"Raw: the value is {wording.scale_text(point, by_name)}")
     if point.flags:
         parts += [_flag_text(flag, point) for flag in point.flags]
+    for one in point.specials:
+        if point.info.floating or one.high - one.low >= _MOST_CODES or len(point.addresses) > 1:
+            parts.append(f"No quantity: {wording.special_numbers(one, point.width)} {one.name}")
     printed = ", ".join(f"{key} {number}" for key, number in point.references.items())
     if printed:
         parts.append(f"In the manual: {printed}")

@@ -49,7 +49,7 @@ def export_point(
         "unit": point.unit.symbol,
         "default": _default(point),
         "step": [{"from": start, "step": step} for start, step in point.steps] or None,
-        "special": dict(map(_special, point.specials)),
+        "special": [_special(one) for one in point.specials],
         "fixed": {} if point.fixed is None else {"mask": point.fixed.mask, "bits": point.fixed.bits},
         "changes": point.changes,
         "together": None,
@@ -100,11 +100,13 @@ def _place(place: Place) -> dict[str, object]:
     return {"for": place.purpose, "space": place.space, "address": address, "function": place.function}
 
 
-def _special(special: Special) -> tuple[str, str]:
-    number = str(special.low) if special.low == special.high else f"{special.low}..{special.high}"
-    if not special.no_value:
-        return number, special.name
-    return number, "no value" if special.name == "no_value" else f"no value: {special.name}"
+def _special(special: Special) -> dict[str, object]:
+    return {
+        "raw": [special.low, special.high],
+        "name": special.name,
+        "no_value": special.no_value,
+        "writable": special.writable,
+    }
 
 
 def _raw(point: Point) -> dict[str, object]:

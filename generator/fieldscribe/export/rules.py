@@ -103,7 +103,7 @@ def _use(factor: Factor, part: str, kind: str, sign: int) -> dict[str, object]:
 
 def _unsayable(factor: Factor) -> ExportError:
     said = f"{factor.point}.raw * {factor.slope} + {factor.intercept}"
-    return ExportError(f"format 1 has no way to say the factor {'10 ** ' if factor.ten_to else ''}({said})")
+    return ExportError(f"the export has no way to say the factor {'10 ** ' if factor.ten_to else ''}({said})")
 
 
 def _limit(rule: Linear) -> str:
@@ -135,5 +135,9 @@ def _factor(factor: Factor) -> str:
 
 def _lifted(limit: Limit) -> str:
     """When the limit does not apply."""
-    cases = (f"{name}.raw == {number}" for name, numbers in limit.unless for number in numbers)
+    cases = (_is_code(f"{name}.raw", *band) for name, codes in limit.unless for band in codes)
     return " or ".join(cases)
+
+
+def _is_code(raw: str, low: int, high: int) -> str:
+    return f"{raw} == {low}" if low == high else f"{low} <= {raw} <= {high}"

@@ -25,7 +25,10 @@ _TITLES = {
     "digits": "Decimal digits, under `digits`",
     "record": "A record, under `records`",
     "scale_case": "A case of a scale",
-    "entry": "An entry of an enum, or a special code",
+    "entry": "An entry of an enum",
+    "special_code": "A special code, under `special`",
+    "types": "Types, under `types` of a group or the device",
+    "of_type": "What holds for all points of a type",
     "flag": "A flag",
     "printed": "What is printed twice, under `printed`",
     "source": "A source",
@@ -90,7 +93,7 @@ def _rows(node: Mapping[str, Any], definitions: Mapping[str, Any], prefix: str =
 
 def _type(node: Mapping[str, Any]) -> str:
     if "enum" in node:
-        return ", ".join("`~`" if one is None else f"`{one}`" for one in node["enum"])
+        return ", ".join(f"`{shown(one)}`" for one in node["enum"])
     types = node.get("type", [])
     named = [_TYPES.get(one, one) for one in ([types] if isinstance(types, str) else types)]
     return ", ".join(one for one in named if one != "whole number" or "number" not in named)

@@ -117,10 +117,6 @@ def _rule(_: str, value: Any) -> str | None:
     return None if hint is None else hint.replace("`scale: ", "`rule: ")
 
 
-def _no_value(key: str, value: Any) -> str | None:
-    return f"list the codes that mean so: `{key}: [7FFFh]`" if isinstance(value, bool) else None
-
-
 def _scale(_: str, value: Any) -> str | None:
     """A bare factor, or an offset and a factor."""
     if isinstance(value, bool) or not isinstance(value, int | Decimal | Map):
@@ -282,7 +278,6 @@ _MAKERS: Mapping[str, Callable[[str, Any], str | None]] = {
     "special": _special,
     "scale": _scale,
     "rule": _rule,
-    "no_value": _no_value,
     **dict.fromkeys(("enum", "flags"), _names),
     "values": _values,
     "steps": _steps,

@@ -43,7 +43,11 @@ _MEANT: Mapping[str, tuple[str, str]] = {
         ("space", _SPACE, "function function_code fc read_function"),
         ("keeps", "", "persistent persistence storage eeprom nonvolatile"),
         ("was", "", "alias aliases old_name former"),
-        ("no_value", "", "invalid nan missing na_value"),
+        (
+            "special",
+            "write `special: {7FFFh: {name: not_available, no_value: yes}}`",
+            "no_value invalid nan missing na_value special_codes",
+        ),
         ("active", "write `active: 0`", "inverted invert negated active_low low_active"),
         ("units", "", "slave slave_id unit_id slave_address address_range node_id"),
         (

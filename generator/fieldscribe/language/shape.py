@@ -117,7 +117,7 @@ class _Compiler:
             item = self.compile(node["items"]) if "items" in node else any_value
             return array(item, node.get("minItems", 0))
         if name == "string":
-            choices = [one for one in node["enum"] if one is not None] if "enum" in node else None
+            choices = [one for one in node["enum"] if isinstance(one, str)] if "enum" in node else None
             return string(choices, node.get("pattern"), node.get("maxLength", 0))
         if name in ("integer", "number"):
             return number(node.get("enum"), node.get("minimum"), node.get("maximum"))

@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from fieldscribe.diagnostics import Span
     from fieldscribe.resolve.drafts import Draft
 
-_MOST_CODES = 4096
 _ONE_SIDED = tuple("<>\u2264\u2265")
 _DECIMAL_END = re.compile(r"(?:^|\.\.|[|,])\s*([-+]?[0-9]+\.[0-9]+)\s*(?=$|\.\.|[|,])")
 
@@ -159,17 +158,13 @@ class Ranges:
             self.report.error("range-outside-type", message, span, "check the factor in the formula")
             raise UnknownError
         names = dict.fromkeys(factor.point for factor in rule.factors)
-        unless = ((name, self._codes(name, span)) for name in names)
+        unless = ((name, self._codes(name)) for name in names)
         return Limit(rule, tuple((name, codes) for name, codes in unless if codes), least, greatest)
 
-    def _codes(self, name: str, span: Span) -> tuple[int, ...]:
+    def _codes(self, name: str) -> tuple[tuple[int, int], ...]:
         """The special codes of a point that limits another: while it holds one of them, the limit does not apply."""
         specials = self.bounds.specials[self.bounds.scales.index.by_item(name)]
-        if sum(one.high - one.low + 1 for one in specials) > _MOST_CODES:
-            message = f"`{name}` has more than {_MOST_CODES} special codes and cannot limit another point"
-            self.report.error("bad-formula", message, span, "write the widest range, or name fewer codes")
-            raise UnknownError
-        return tuple(code for one in specials for code in range(one.low, one.high + 1))
+        return tuple(sorted((one.low, one.high) for one in specials))
 
     def _units(self, draft: Draft) -> tuple[tuple[Fraction, Fraction], ...]:
         """The range of a floating-point point, in its unit."""

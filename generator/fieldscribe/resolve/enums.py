@@ -1,4 +1,4 @@
-"""Names for numbers: shared and inline enums, flags and special codes of a point."""
+"""Names for numbers: shared and inline enums, and flags of a point."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 from fieldscribe.language.meant import interval_meant
 from fieldscribe.language.numbers import parse_integer
-from fieldscribe.model import Entry, Enum, Flag, Special
+from fieldscribe.model import Entry, Enum, Flag
 from fieldscribe.resolve.drafts import Draft, humanised
 from fieldscribe.resolve.scope import Scope, titles
-from fieldscribe.resolve.values import bits_named, integer, interval
+from fieldscribe.resolve.values import bits_named, integer
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -71,15 +71,16 @@ def _entry(scope: Scope, raw: Map, key: str, value: Any) -> Entry | None:
     number = integer(key, raw.key_span(key), scope.report)
     if number is None:
         return None
-    name = _name(value)
-    return Entry(number, name, _entry_titles(value, name), None if isinstance(value, str) else value.get("quantity"))
+    name = name_of(value)
+    return Entry(number, name, entry_titles(value, name), None if isinstance(value, str) else value.get("quantity"))
 
 
-def _name(value: Map | str) -> str:
+def name_of(value: Map | str) -> str:
+    """The name that an entry says, alone or among other facts."""
     return value if isinstance(value, str) else str(value["name"])
 
 
-def _entry_titles(value: Map | str, name: str) -> Mapping[str, str]:
+def entry_titles(value: Map | str, name: str) -> Mapping[str, str]:
     """The titles of an entry: what it says by language, else its name."""
     texts = {} if isinstance(value, str) else {key: str(text) for key, text in value.items() if len(key) == 2}
     return {"en": humanised(name), **texts}
@@ -113,27 +114,6 @@ class _Taken:
         return True
 
 
-def specials_of(scope: Scope, draft: Draft) -> tuple[Special, ...]:
-    """Raw numbers that are no quantity: `special` by name, then the codes of `no_value`."""
-    raw, codes = draft.get("special"), draft.get("no_value")
-    if raw is None and codes is None:
-        return ()
-    taken = _Taken(scope, "code", "duplicate-enum-value")
-    result = []
-    for key, value in raw.items() if raw is not None else ():
-        found = interval(key, raw.key_span(key), scope.report)
-        name = _name(value)
-        if found is not None and taken.takes(found, name, raw.key_span(key), raw.span(key)):
-            result.append(Special(*found, name, _entry_titles(value, name), False))
-    for index, value in enumerate(codes if codes is not None else ()):
-        span = codes.span(index)
-        number = integer(value, span, scope.report)
-        name = "no_value" if index == 0 else f"no_value_{index + 1}"
-        if number is not None and taken.takes((number, number), name, span, span):
-            result.append(Special(number, number, name, {"en": "No value"}, True))
-    return tuple(result)
-
-
 def flags_of(scope: Scope, draft: Draft, bits: tuple[int, int] | None, width: int) -> tuple[Flag, ...]:
     """The bits that the word's description names, in its numbers; bits outside the point or taken twice are findings.
 
@@ -148,7 +128,7 @@ def flags_of(scope: Scope, draft: Draft, bits: tuple[int, int] | None, width: in
     last, first = bits or (width - 1, 0)
     for key, value in raw.items():
         high, low = bits_named(key)
-        span, name = raw.key_span(key), _name(value)
+        span, name = raw.key_span(key), name_of(value)
         if high < low:
             hint = f"the higher bit stands first: {low}..{high}"
             scope.report.error("range-reversed", f"bits `{key}` run upwards", span, hint)
@@ -186,7 +166,7 @@ def _flag_values(scope: Scope, value: Map) -> tuple[Entry, ...]:
 
 def _flag(scope: Scope, raw: Map, key: str, low: int, width: int) -> Flag:
     value: Map | str = raw[key]
-    name = _name(value)
+    name = name_of(value)
     if isinstance(value, str):
         return Flag(low, width, name, {"en": humanised(name)}, 1, ())
     named = _flag_values(scope, value)

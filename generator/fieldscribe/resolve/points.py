@@ -7,16 +7,17 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from fieldscribe.language.units import unit_hint
-from fieldscribe.model import TYPES, Allowed, Enum, Place, Point, ScaleCase, Special, Unit
+from fieldscribe.model import TYPES, Allowed, Enum, Linear, Place, Point, ScaleCase, Special, Unit
 from fieldscribe.resolve.addresses import Places
 from fieldscribe.resolve.allowed import Ranges
 from fieldscribe.resolve.bounds import Bounds
-from fieldscribe.resolve.enums import enum_of, flags_of, specials_of
+from fieldscribe.resolve.enums import enum_of, flags_of
 from fieldscribe.resolve.existence import existence_of
 from fieldscribe.resolve.integer_path import paths_of
 from fieldscribe.resolve.names import Index, bits_of, space_of, type_of
 from fieldscribe.resolve.rules import Scales
 from fieldscribe.resolve.scope import PLAIN, Scope, source_of, titles
+from fieldscribe.resolve.special_codes import SpecialCodes, quantities
 from fieldscribe.resolve.telegrams import SPACE
 from fieldscribe.resolve.values import integer, number
 from fieldscribe.resolve.word_facts import allowed_digits, digits_of, fixed_of, text_of
@@ -46,6 +47,7 @@ class Shape:
     type: str
     bits: tuple[int, int] | None
     specials: tuple[Special, ...]
+    specials_of: str
 
     @property
     def width(self) -> int:
@@ -63,7 +65,9 @@ def resolve_points(
     scope: Scope, drafts: list[Draft], index: Index, telegrams: Telegrams
 ) -> tuple[list[Resolved], Ranges, Places]:
     """All points of the device, computed; what is wrong with one is a finding and falls back to what is plain."""
-    shapes = {draft: _shape(scope, draft) for draft in drafts}
+    codes = SpecialCodes(scope)
+    codes.check_types()
+    shapes = {draft: _shape(scope, draft, codes) for draft in drafts}
     bounds = Bounds(
         Scales(scope, index),
         {draft: shape.holds for draft, shape in shapes.items()},
@@ -75,10 +79,11 @@ def resolve_points(
     return found, ranges, places
 
 
-def _shape(scope: Scope, draft: Draft) -> Shape:
+def _shape(scope: Scope, draft: Draft, codes: SpecialCodes) -> Shape:
     space = space_of(scope, draft)
     bits = bits_of(scope, draft, space)
-    return Shape(space, type_of(scope, draft, space, bits), bits, specials_of(scope, draft))
+    kind = type_of(scope, draft, space, bits)
+    return Shape(space, kind, bits, *codes.of(draft, kind, bits))
 
 
 def _point(scope: Scope, draft: Draft, shape: Shape, places: Places, ranges: Ranges) -> Point:
@@ -91,6 +96,8 @@ def _point(scope: Scope, draft: Draft, shape: Shape, places: Places, ranges: Ran
     allowed = ranges.allowed(draft, enum)
     if digits is not None and not ranged:
         allowed = allowed_digits(scope, draft, digits, shape.holds[1])
+    if shape.specials:
+        allowed = quantities(scope, draft, allowed, shape.specials)
     if enum is not None and not said_open and _all_named(allowed, enum):
         enum = enum_of(scope, draft, closed=True)
     cases = _cases(draft, ranges.bounds)
@@ -116,11 +123,12 @@ def _point(scope: Scope, draft: Draft, shape: Shape, places: Places, ranges: Ran
         decimals=paths.decimals,
         encodes_values=paths.encodes_values,
         allowed=allowed,
-        default=None if draft.text else _default(scope, draft, enum),
+        default=None if draft.text else _default(scope, draft, enum, shape, cases),
         steps=_steps(scope, draft),
         enum=enum,
         flags=flags_of(scope, draft, shape.bits, shape.width),
         specials=shape.specials,
+        specials_of=shape.specials_of,
         record=draft.record,
         set=draft.set_number,
         changes=get("changes"),
@@ -192,12 +200,18 @@ def _unit(scope: Scope, draft: Draft) -> Unit:
     return found or PLAIN
 
 
-def _default(scope: Scope, draft: Draft, enum: Enum | None) -> Fraction | None:
-    """The factory setting in the unit; of an enum also by name."""
+def _default(
+    scope: Scope, draft: Draft, enum: Enum | None, shape: Shape, cases: tuple[ScaleCase, ...] | None
+) -> Fraction | None:
+    """The factory setting in the unit; of an enum, and of special codes under a fixed scale, also by name."""
     raw = draft.get("default")
     for entry in enum.entries if enum is not None else ():
         if entry.name == raw:
             return Fraction(entry.raw)
+    rule = cases[0].rule if cases is not None else Linear(Fraction(1), Fraction(0), ())
+    for special in shape.specials if not rule.factors and len(cases or ()) < 2 and not draft.floating else ():
+        if special.name == raw and special.low == special.high:
+            return (special.low - rule.offset) / rule.ratio
     if isinstance(raw, str) and enum is not None and raw.isidentifier():
         hint = f"write a number, or one of {', '.join(entry.name for entry in enum.entries[:_MOST_NAMES])}"
         scope.report.error("bad-number", f"`{raw}` is no name of this enum", draft.span("default"), hint)

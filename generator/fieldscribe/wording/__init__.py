@@ -92,9 +92,9 @@ def value_text(point: Point, raw: int) -> str:
 
 def meaning_text(point: Point, raw: int) -> str:
     """What a raw number means: the name of a special code or of an enum, else value and unit; empty for itself."""
-    for special in point.specials:
-        if special.low <= raw <= special.high:
-            return special.name
+    special = point.special(raw)
+    if special is not None:
+        return special.name
     if point.enum is not None:
         return next((one.name for one in point.enum.entries if one.raw == raw), "")
     return "" if point.scale is None and not point.unit.symbol else with_unit(value_text(point, raw), point)
@@ -183,10 +183,41 @@ def entry_text(entry: Entry) -> str:
     return f"{entry.raw} = {entry.name} ({title}{quantity})"
 
 
-def special_text(special: Special) -> str:
-    """A raw number beside the quantities: `32767 = no_sensor (No sensor), no value`."""
-    numbers = str(special.low) if special.low == special.high else f"{special.low}..{special.high}"
-    return f"{numbers} = {special.name} ({title_text(special.title)})" + (", no value" if special.no_value else "")
+def special_text(special: Special, width: int) -> str:
+    """A special code of a point of `width` bits: `7FFFh = no_sensor (No sensor), no value`."""
+    remarks = special_remarks(special)
+    numbers = special_numbers(special, width)
+    return f"{numbers} = {special.name} ({title_text(special.title)})" + (f", {remarks}" if remarks else "")
+
+
+def special_remarks(special: Special) -> str:
+    """What else a special code says: `no value, may be written`; may be empty."""
+    remarks = (("no value", special.no_value), ("may be written", special.writable))
+    return ", ".join(text for text, holds in remarks if holds)
+
+
+def special_numbers(special: Special, width: int) -> str:
+    """A special code, or a band of them, as the manual writes it: `FFFCh`, `4100..4103`."""
+    low, high = (code_text(end, width, hexadecimal=special.hexadecimal) for end in (special.low, special.high))
+    return low if special.low == special.high else f"{low}..{high}"
+
+
+def code_text(raw: int, width: int, *, hexadecimal: bool) -> str:
+    """A raw number of `width` bits in decimal, or the pattern of its bits in hexadecimal."""
+    return hex_text(raw & (1 << width) - 1, width + 3 >> 2) if hexadecimal else str(raw)
+
+
+def default_text(point: Point) -> str:
+    """The factory setting in the unit, or the name of the special code that it is; empty where there is none."""
+    if point.default is None:
+        return ""
+    rule = fixed_rule(point)
+    if point.specials and rule is not None and not point.info.floating:
+        raw = (point.default * rule[2] - rule[1]) / rule[0]
+        special = point.special(raw.numerator) if raw.denominator == 1 else None
+        if special is not None:
+            return special.name
+    return with_unit(number_text(point.default), point)
 
 
 def flag_bits(flag: Flag, point: Point | None = None) -> str:

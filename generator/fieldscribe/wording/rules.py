@@ -46,15 +46,13 @@ def ranges_text(point: Point, rule: Rule, points: Points | None, unit: str) -> s
     """All intervals in one wording, the unit behind the last number; what lifts a limit is said at the end."""
     intervals, listed = point.allowed.intervals, point.allowed.listed
     falling = rule[0] < 0
-    parts, remarks, last = [], [], -1
-    for place, one in enumerate(intervals):
-        named = _special_name(point, one) if point.specials and rule is not RAW else ""
-        last = last if named else place
+    parts, remarks = [], []
+    for one in intervals:
         ends = [_bound_text(one.low, True, point, rule, points), _bound_text(one.high, False, point, rule, points)]
-        parts.append(named or _span_text(one, ends, falling, listed))
+        parts.append(_span_text(one, ends, falling, listed))
         remarks += [_lifted_text(end, side, rule) for side, end in (("low", one.low), ("high", one.high))]
-    if unit and last >= 0:
-        parts[last] = f"{parts[last]} {unit}"
+    if unit and parts:
+        parts[-1] = f"{parts[-1]} {unit}"
     return (", " if listed else " or ").join(parts) + "".join(remarks)
 
 
@@ -85,12 +83,6 @@ def _test_text(name: str, test: str, than: list[str]) -> str:
     return f"{name} in ({', '.join(than)})" if test == "in" else f"{name} {test} {than[0]}"
 
 
-def _special_name(point: Point, interval: Interval) -> str:
-    """The name of a special code that is an interval of its own."""
-    fitting = (one.name for one in point.specials if one.low == interval.low and one.high == interval.high)
-    return next(fitting, "")
-
-
 def _span_text(interval: Interval, ends: list[str], falling: bool, listed: bool) -> str:
     low, high = interval.low, interval.high
     if low == high:
@@ -115,9 +107,13 @@ def _lifted_text(bound: Bound, side: str, rule: Rule) -> str:
     """While which numbers of other points a limit does not apply, and which one stands instead."""
     if isinstance(bound, int) or not bound.unless:
         return ""
-    cases = [f"{name}.raw is {' or '.join(map(str, numbers))}" for name, numbers in bound.unless]
+    cases = [f"{name}.raw is {' or '.join(map(_band_text, codes))}" for name, codes in bound.unless]
     fixed = bound.least if side == "low" else bound.greatest
     return f"; while {' or '.join(cases)}: {'from' if side == 'low' else 'to'} {shown(fixed, rule)}"
+
+
+def _band_text(band: tuple[int, int]) -> str:
+    return str(band[0]) if band[0] == band[1] else f"{band[0]}..{band[1]}"
 
 
 def _limit_text(limit: Limit, rule: Rule, points: Points | None) -> str:

@@ -6,28 +6,24 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.names import upper
-from fieldscribe.targets.c.defines import special_defines
 from fieldscribe.targets.c.literals import raw_type
 from fieldscribe.targets.c.points import named_numbers, value_type
+from fieldscribe.targets.c.special_codes import owner, special_defines
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterable, Iterator, Mapping
 
-    from fieldscribe.model import Device, Point, Special
+    from fieldscribe.model import Code, Device, Point
     from fieldscribe.targets.c.scope import Scope
     from fieldscribe.targets.c.views import DeviceView, PointView
 
 
 @dataclass(frozen=True, slots=True)
 class AdapterView:
-    """One point: `cases` are the macros that answer a kind; flags, names of their numbers and specials go by name."""
+    """One point: `cases` are the macros that answer a kind."""
 
     item: str
-    arguments: tuple[str, ...]
     cases: tuple[str, ...]
-    flags: tuple[tuple[str, str], ...]
-    flag_names: tuple[tuple[str, str, str], ...]
-    specials: tuple[tuple[str, str, str], ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,14 +35,21 @@ class SuiteView:
     statuses: tuple[tuple[str, str], ...]
     family: str
     groups: tuple[tuple[str, str, str], ...]
+    codes: tuple[tuple[str, str, str], ...]
+    names: tuple[str, ...]
+    """The kinds of codes that a function names."""
+    commands: tuple[tuple[str, str, str], ...]
     telegrams: tuple[str, ...]
 
 
-_STATUSES = ("ok", "out_of_range", "not_a_number", "unknown_value", "zero_factor", "no_case", "overflow", "no_value")
+_STATUSES = ("ok", "out_of_range", "not_a_number", "unknown_value", "zero_factor", "no_case", "overflow", "special")
 
 
-def conformance_view(device: Device, view: DeviceView, scope: Scope, extra: Mapping[str, str]) -> SuiteView:
-    """The view of `<device>_conformance.c`; `extra` are further macros that answer for points, by their function."""
+def conformance_view(device: Device, view: DeviceView, scope: Scope, more: Iterable[tuple[str, str]]) -> SuiteView:
+    """The view of `<device>_conformance.c`; `more` are further macros that answer for points, with their functions."""
+    extra: dict[str, list[str]] = {}
+    for function, case in more:
+        extra.setdefault(function, []).append(case)
     views = {entry.item: entry for group in view.groups for entry, _ in group.entries if entry is not None}
     points = [point for point in device.points if point.generated]
     groups = (
@@ -60,27 +63,57 @@ def conformance_view(device: Device, view: DeviceView, scope: Scope, extra: Mapp
         statuses=tuple((f"{scope.upper}_{upper(status)}", status) for status in _STATUSES),
         family=device.family,
         groups=tuple(groups),
+        codes=tuple(_codes(device, scope)),
+        names=tuple(kind for kind, codes in _code_kinds(device) if codes and device.family == "uss"),
+        commands=tuple(
+            (one.name, f"{scope.prefix}_command_{one.name}_request", f"{scope.upper}_COMMAND_{upper(one.name)}_VALUE")
+            for one in device.commands
+        ),
         telegrams=tuple(one.name for one in device.telegrams),
     )
 
 
-def _adapter(point: Point, view: PointView, scope: Scope, extra: Mapping[str, str]) -> AdapterView:
+def _code_kinds(device: Device) -> tuple[tuple[str, tuple[Code, ...]], ...]:
+    bus = device.bus
+    if device.family == "uss":
+        return ("task", bus.functions), ("response", bus.responses), ("error", bus.exceptions)
+    return (("exception", bus.exceptions),)
+
+
+def _codes(device: Device, scope: Scope) -> Iterator[tuple[str, str, str]]:
+    """The kind, name and enumerator of each number of the protocol that has one."""
+    for kind, codes in _code_kinds(device):
+        for code in codes:
+            yield kind, code.name, f"{scope.upper}_{upper(kind)}_{upper(code.name)}"
+
+
+def _adapter(point: Point, view: PointView, scope: Scope, extra: Mapping[str, list[str]]) -> AdapterView:
     cases = _cases(point, view, scope)
-    if view.function in extra:
-        cases.append(extra[view.function])
+    cases += extra.get(view.function, [])
     return AdapterView(
         view.item,
-        point.arguments if view.declare_all else (),
-        tuple(f"FIELDSCRIBE_{case}" for case in cases),
-        tuple((flag.name, _flag(point, view, flag.name, flag.width)) for flag in point.flags),
-        tuple(
-            (flag.name, entry.name, f"{view.macro}_{upper(flag.name)}_{upper(entry.name)}")
-            for flag in point.flags
-            if flag.width > 1
-            for entry in flag.values
-        ),
-        tuple(_special(special, view) for special in point.specials),
+        tuple(f"FIELDSCRIBE_{case}" for case in (*cases, *_parts(point, view), *_specials(point, view, scope))),
     )
+
+
+def _parts(point: Point, view: PointView) -> Iterator[str]:
+    """What goes by the name of a part: flags, the named numbers of wide ones, special codes."""
+    for flag in point.flags:
+        truth = _truth(point, view, flag.name) if flag.width == 1 else ""
+        kind = "TRUTH" if truth else "FLAG"
+        yield f'{kind}("{flag.name}", {_flag(point, view, flag.name, flag.width)}{truth})'
+        for entry in flag.values if flag.width > 1 else ():
+            constant = f"{view.macro}_{upper(flag.name)}_{upper(entry.name)}"
+            yield f'FLAG_NAME("{flag.name}", "{entry.name}", {constant})'
+
+
+def _specials(point: Point, view: PointView, scope: Scope) -> Iterator[str]:
+    """What goes by the special codes of a point."""
+    for special in point.specials:
+        (first, _), (last, _) = special_defines(special, f"{scope.upper}_{upper(owner(point))}", point)
+        yield f'SPECIAL("{special.name}", {first}, {last})'
+    if point.specials:
+        yield f"SPECIAL_NAME({view.function}, {view.raw_type})"
 
 
 def _cases(point: Point, view: PointView, scope: Scope) -> list[str]:
@@ -88,7 +121,7 @@ def _cases(point: Point, view: PointView, scope: Scope) -> list[str]:
     function, kind = view.function, view.raw_type
     cases = [f"ADDRESS({view.macro}, {_constants(point, view)})"] if point.address is not None else []
     if view.writable and view.shape != "text":
-        cases.append(f"CHECK({function}_check, {kind}, {_with(point, view.limit_arguments, scope)})")
+        cases.append(f"CHECK({function}_check, {kind}, {_with(view.limit_arguments, scope)})")
     cases += _conversions(point, view, scope)
     enum = named_numbers(point)
     if enum is not None:
@@ -139,19 +172,14 @@ def _constants(point: Point, view: PointView) -> str:
     return " ".join(f"FIELDSCRIBE_{call}" for call in calls)
 
 
-def _special(special: Special, view: PointView) -> tuple[str, str, str]:
-    (first, _), (last, _) = special_defines(special, view.macro)
-    return special.name, first, last
-
-
 def _conversions(point: Point, view: PointView, scope: Scope) -> list[str]:
     function, kind, form = view.function, view.raw_type, view.shape
     if form in ("text", "digits"):
         return _of_parts(point, view)
     arguments = point.arguments if view.declare_all else ()
-    everything = _with(point, arguments, scope)
-    scale = _with(point, view.scale_arguments, scope)
-    attempt = "TRY_" if view.no_value or form == "ruled" else ""
+    everything = _with(arguments, scope)
+    scale = _with(view.scale_arguments, scope)
+    attempt = "TRY_" if view.special is not None or form == "ruled" else ""
     counted = "" if form == "plain" else "_count"
     number = getattr(view.codec, "count_type", "int64_t") if form != "plain" else value_type(point)
     if form == "plain" and kind == "bool" and not attempt:
@@ -183,22 +211,29 @@ def _of_parts(point: Point, view: PointView) -> list[str]:
         return cases
     kind = getattr(view.codec, "digit_type", "uint8_t")
     if view.readable:
-        cases.append(f"DIGITS({view.function}, {kind}, {view.macro})")
+        attempt = "TRY_" if view.special is not None else ""
+        cases.append(f"{attempt}DIGITS({view.function}, {kind}, {view.macro})")
     if view.writable:
         cases.append(f"DIGITS_ENCODE({view.function}, {kind}, {view.macro})")
     return cases
 
 
-def _with(point: Point, names: tuple[str, ...], scope: Scope) -> str:
+def _with(names: tuple[str, ...], scope: Scope) -> str:
     if not names:
         return "FIELDSCRIBE_ALONE"
-    order = point.arguments
-    parts = [f"FIELDSCRIBE_WITH({order.index(name)}, {raw_type(scope.points[name])})" for name in names]
-    return " ".join(parts)
+    return " ".join(f'FIELDSCRIBE_WITH("{name}", {raw_type(scope.points[name])})' for name in names)
+
+
+def _truth(point: Point, view: PointView, name: str) -> str:
+    """Whether the bit of a flag says that it is true, by the constants that a user has."""
+    low = any(flag.width == 1 and not flag.active for flag in point.flags)
+    turned = f" ^ {view.macro}_ACTIVE_LOW_MASK" if low else ""
+    raw = f'({view.raw_type})fieldscribe_bits(v, "raw")'
+    return f", ((({raw}){turned}) & {view.macro}_{upper(name)}_MASK) != 0U"
 
 
 def _flag(point: Point, view: PointView, name: str, width: int) -> str:
-    raw = f"(({view.raw_type})v->raw.bits)"
+    raw = f'(({view.raw_type})fieldscribe_bits(v, "raw"))'
     if width > 1:
         return f"{view.function}_{name}{raw}"
     return f"({raw} & {view.macro}_{upper(name)}_MASK) != 0U"

@@ -6,12 +6,13 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.names import upper
 from fieldscribe.targets.c.literals import hexadecimal, signed, unsigned
+from fieldscribe.targets.c.special_codes import code_defines
 from fieldscribe.text import c_string
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from fieldscribe.model import Flag, Point, Special
+    from fieldscribe.model import Flag, Point
     from fieldscribe.targets.c.scope import Scope
     from fieldscribe.targets.c.views import Define
 
@@ -22,8 +23,8 @@ def defines(point: Point, macro: str, scope: Scope, outer: tuple[int, int]) -> I
     yield f"{macro}_WORDS", f"{point.words}U"
     yield from _raw_number(point, macro, outer)
     yield from _bits(point, macro)
-    for special in point.specials:
-        yield from dict.fromkeys(special_defines(special, macro))
+    if not point.shared_codes:
+        yield from code_defines(point, macro)
     active_low = sum(1 << flag.low for flag in point.flags if _active_low(flag))
     if active_low:
         yield f"{macro}_ACTIVE_LOW_MASK", hexadecimal(active_low, point.info.bits // 4)
@@ -41,14 +42,6 @@ def place_defines(point: Point, macro: str, scope: Scope) -> Iterator[Define]:
     for key, number in point.references.items():
         literal = c_string(number) if isinstance(number, str) else (unsigned if number >= 0 else signed)(number)
         yield f"{macro}_{upper(key)}", literal
-
-
-def special_defines(special: Special, macro: str) -> tuple[Define, Define]:
-    """The macros of the first and the last raw number of a special; the same one twice for a single number."""
-    name = f"{macro}_{upper(special.name)}"
-    if special.low == special.high:
-        return (name, signed(special.low)), (name, signed(special.low))
-    return (f"{name}_FIRST", signed(special.low)), (f"{name}_LAST", signed(special.high))
 
 
 def _places(point: Point, macro: str, scope: Scope) -> Iterator[Define]:

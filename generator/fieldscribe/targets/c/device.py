@@ -9,6 +9,7 @@ from fieldscribe.names import upper
 from fieldscribe.targets.c.defines import place_defines
 from fieldscribe.targets.c.points import comment_lines, point_view
 from fieldscribe.targets.c.scope import Scope, scope_of
+from fieldscribe.targets.c.special_codes import FUNCTIONS
 from fieldscribe.targets.c.views import DeviceView, GroupView, Needs, PointView, RemarkView, TelegramView
 from fieldscribe.text import c_comment
 
@@ -77,12 +78,13 @@ def head_lines(device: Device) -> tuple[str, ...]:
 def function_names(view: PointView) -> list[str]:
     """Every function that the header defines for a point, but for the names of its enum."""
     counted = view.shape in ("scaled", "ruled") and view.counts
+    codes = [] if view.special is None else [view.function + tail for tail in FUNCTIONS]
     if view.shape in ("text", "digits"):
         tails = ["_encode"] if view.writable else []
         tails += ["_decode"] if view.readable else []
         tails += ["_check"] if view.shape == "digits" and view.writable else []
         tails += ["_addresses"] if view.shape == "text" else []
-        return [view.function + tail for tail in tails]
+        return [*(view.function + tail for tail in tails), *codes]
     tails = ["_encode"] if view.writable and view.encodes else []
     tails += ["_encode_count"] if view.writable and counted else []
     tails += ["_decode", "_decode_count"][: 1 + counted] if view.readable else []
@@ -90,7 +92,7 @@ def function_names(view: PointView) -> list[str]:
     tails += ["_rule"] if view.shape == "ruled" else []
     tails += ["_to_words", "_from_words"] if view.words else []
     tails += ["_extract", "_insert"] if view.bits else []
-    return [view.function + tail for tail in tails] + [flag.function for flag in view.flags]
+    return [*(view.function + tail for tail in tails), *(flag.function for flag in view.flags), *codes]
 
 
 def _aliases(view: PointView, function: str, macro: str) -> list[tuple[str, str]]:

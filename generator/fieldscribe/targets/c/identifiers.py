@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.targets.c.device import device_view, function_names
 from fieldscribe.targets.c.families import FAMILIES
+from fieldscribe.targets.c.special_codes import FUNCTIONS
 from fieldscribe.targets.identifiers import Identifier, Owner
 
 if TYPE_CHECKING:
@@ -64,7 +65,7 @@ _MACROS = (
     "ZERO_FACTOR",
     "NO_CASE",
     "OVERFLOW",
-    "NO_VALUE",
+    "SPECIAL",
     "H",
     "MODBUS_H",
     "CAN_H",
@@ -98,6 +99,11 @@ def _of_points(view: DeviceView) -> Iterator[tuple[str, Owner]]:
             yield from ((name, Owner("point", remark.item)) for name, _ in remark.defines)
             if point is None:
                 continue
+            if point.special is not None and point.special.codes is not None:
+                codes = point.special.codes
+                holder = Owner("target", f"the special codes `{codes.name}`")
+                yield from ((codes.name + tail, holder) for tail in FUNCTIONS if codes.comment)
+                yield from ((name, holder) for name, _ in codes.defines)
             if point.enum is not None:
                 owner = Owner("enum", point.enum.function.removeprefix(f"{view.prefix}_").removesuffix("_name"))
                 yield point.enum.function, owner

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.names import upper
 from fieldscribe.targets.c.defines import defines
-from fieldscribe.targets.c.limits import any_of, check_view, interval_test
+from fieldscribe.targets.c.limits import any_of, check_view
 from fieldscribe.targets.c.literals import (
     VALUE_BOUNDS,
     bare,
@@ -15,13 +15,14 @@ from fieldscribe.targets.c.literals import (
     raw_bounds,
     raw_type,
     signed,
-    unsigned,
 )
 from fieldscribe.targets.c.parts import digits_view, text_view
 from fieldscribe.targets.c.places import bits_view, fixed_number, fixes, words_view
 from fieldscribe.targets.c.rules import ruled_view
 from fieldscribe.targets.c.scales import scaled_view
+from fieldscribe.targets.c.special_codes import encoded_limits, special_view
 from fieldscribe.targets.c.views import (
+    CheckView,
     Codec,
     EnumView,
     FlagView,
@@ -30,8 +31,14 @@ from fieldscribe.targets.c.views import (
     PointView,
 )
 from fieldscribe.text import c_comment, c_string
-from fieldscribe.wording import access_text, range_text, raw_range_text, resolution_text, width_texts, with_unit
-from fieldscribe.wording.exact import number_text
+from fieldscribe.wording import (
+    access_text,
+    default_text,
+    range_text,
+    raw_range_text,
+    resolution_text,
+    width_texts,
+)
 
 if TYPE_CHECKING:
     from fieldscribe.model import Enum, Flag, Point
@@ -45,7 +52,8 @@ def point_view(point: Point, scope: Scope) -> PointView:
     macro = f"{scope.upper}_{upper(point.item)}"
     low, high = (0, 0) if point.info.floating else point.outer
     scale, limits = point.scale_arguments, point.limit_arguments
-    shape, codec = _codec(point, macro, scope, (low, high), scale)
+    reach = encoded_limits(point) if point.specials and not point.info.floating else (low, high)
+    shape, codec = _codec(point, macro, scope, reach, scale)
     checked = point.writable and shape in ("plain", "scaled", "ruled")
     check = check_view(point, macro, scope, limits) if checked else None
     enum = named_numbers(point)
@@ -68,8 +76,10 @@ def point_view(point: Point, scope: Scope) -> PointView:
         readable=point.readable,
         writable=point.writable,
         check=check,
-        recheck=check is not None and (len(point.allowed.intervals) > 1 or bool(check.limits) or fixes(point)),
-        no_value=_no_value(point) if point.specials else "",
+        recheck=check is not None and _is_rechecked(point, check),
+        special=special_view(point, scope),
+        encode_min=signed(reach[0]) if reach[0] < low else f"{macro}_RAW_MIN",
+        encode_max=signed(reach[1]) if reach[1] > high else f"{macro}_RAW_MAX",
         scale_arguments=scale,
         limit_arguments=limits,
         declare_all=scope.declare(point.arguments) if scale and limits else declare_scale or declare_limits,
@@ -84,6 +94,11 @@ def point_view(point: Point, scope: Scope) -> PointView:
     )
 
 
+def _is_rechecked(point: Point, check: CheckView) -> bool:
+    """Whether a number between the outer limits may still not be written."""
+    return len(point.allowed.intervals) > 1 or bool(check.limits) or fixes(point) or bool(point.specials)
+
+
 def value_type(point: Point) -> str:
     """The C type in which the value of an integer point is passed: wide enough to be out of range."""
     if point.info.bits <= 16:
@@ -96,7 +111,7 @@ def comment_lines(point: Point, scope: Scope) -> tuple[str, ...]:
     head = f"{point.code}: {point.title['en']}" if point.code else point.title["en"]
     facts = ["" if point.untyped is not None else _range(point), access_text(point.access)]
     if point.default is not None:
-        facts.append(f"default {with_unit(number_text(point.default), point)}")
+        facts.append(f"default {default_text(point)}")
     lines = [*_wrapped(head), *_wrapped("; ".join(fact for fact in facts if fact) + ".")]
     lines += [f"{text[0].upper()}{text[1:]}." for text in width_texts(point)]
     for flag in point.flags:
@@ -151,8 +166,9 @@ def _codec(
         tests = [f"value < {bare(low)}"] if low > least else []
         tests += [f"value > {bare(high)}"] if high < greatest else []
         return "plain", PlainView(kind, " || ".join(tests), fixed_number(point, macro, scope, "value"))
-    tests = [f"value < {macro}_RAW_MIN"] if outer[0] > least else []
-    tests += [f"value > {macro}_RAW_MAX"] if outer[1] < greatest else []
+    low_end, high_end = (bare(outer[0]), bare(outer[1])) if point.specials else (f"{macro}_RAW_MIN", f"{macro}_RAW_MAX")
+    tests = [f"value < {low_end}"] if outer[0] > least else []
+    tests += [f"value > {high_end}"] if outer[1] < greatest else []
     return "plain", PlainView(kind, " || ".join(tests), "")
 
 
@@ -200,9 +216,3 @@ def _flag_view(flag: Flag, point: Point, macro: str, scope: Scope) -> FlagView:
     return FlagView(
         f"{scope.prefix}_{point.item}_{flag.name}", kind, f"({kind})(({number} & {name}_MASK) >> {name}_SHIFT)"
     )
-
-
-def _no_value(point: Point) -> str:
-    literal = bare if point.info.signed else unsigned
-    codes = [special for special in point.specials if special.no_value]
-    return any_of([interval_test("raw", code.low, code.high, raw_bounds(point), literal) for code in codes])

@@ -30,7 +30,7 @@ def ruled_view(point: Point, scope: Scope) -> RuledView:
 def limit_view(limit: Limit, name: str, is_low: bool, scope: Scope) -> LimitView:
     """The statements' parts that compute one limit into the variable `name`."""
     start = limit.least if is_low else limit.greatest
-    tests = [f"{point}_raw != {bare(raw)}" for point, raws in limit.unless for raw in raws]
+    tests = [_is_no_code(f"{point}_raw", *band) for point, codes in limit.unless for band in codes]
     applies, clamp = " && ".join(tests), f"{name} {'<' if is_low else '>'} {bare(start)}"
     simple = _simple(limit.rule, scope)
     if simple is None:
@@ -40,6 +40,10 @@ def limit_view(limit: Limit, name: str, is_low: bool, scope: Scope) -> LimitView
     if is_low and start <= 0 and _never_negative(limit.rule, scope):
         clamp = ""
     return LimitView(name, signed(start), applies, simple[1], simple[0], clamp, None)
+
+
+def _is_no_code(raw: str, low: int, high: int) -> str:
+    return f"{raw} != {bare(low)}" if low == high else f"({raw} < {bare(low)} || {raw} > {bare(high)})"
 
 
 def limit_is_wide(limit: Limit, scope: Scope) -> bool:
@@ -85,7 +89,19 @@ def _rule(rule: Linear, scope: Scope, test: str = "", *, of_limit: bool = False)
         (*steps, *tens),
         scope.shifts,
         scope.lifts,
+        "" if of_limit else _codes(rule, scope),
     )
+
+
+def _codes(rule: Linear, scope: Scope) -> str:
+    """Whether what is no quantity stands for a factor."""
+    names = dict.fromkeys(factor.point for factor in rule.factors)
+    codes = [(name, one) for name in names for one in scope.points[name].specials]
+    return " || ".join(f"({_is_code(f'{name}_raw', one.low, one.high)})" for name, one in codes)
+
+
+def _is_code(raw: str, low: int, high: int) -> str:
+    return f"{raw} == {bare(low)}" if low == high else f"{raw} >= {bare(low)} && {raw} <= {bare(high)}"
 
 
 def _floats(factor: Factor, scope: Scope) -> bool:

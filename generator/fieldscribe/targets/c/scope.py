@@ -20,7 +20,7 @@ class Scope:
     """The namespace of one device.
 
     `shifts` says that some rule has a factor of type f32, `lifts` that one with factors has an offset. `used` collects
-    the names of shared helpers, `enums` the enums already placed, `scales` what points share.
+    the names of shared helpers, `enums` and `codes` those already placed, `scales` what points share.
     """
 
     prefix: str
@@ -31,6 +31,7 @@ class Scope:
     lifts: bool
     used: set[str] = field(default_factory=set)
     enums: set[str] = field(default_factory=set)
+    codes: set[str] = field(default_factory=set)
     scales: dict[tuple[object, ...], ScaledView] = field(default_factory=dict)
 
     def helper(self, name: str) -> str:

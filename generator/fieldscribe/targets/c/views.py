@@ -38,7 +38,10 @@ class Step:
 
 @dataclass(frozen=True, slots=True)
 class RuleCase:
-    """A linear rule whose factors are known at run time; `test` is empty when it always holds."""
+    """A linear rule whose factors are known at run time; `test` is empty when it always holds.
+
+    `codes` tests whether a factor's point holds a special code, or is empty.
+    """
 
     test: str
     num: str
@@ -48,6 +51,7 @@ class RuleCase:
     steps: tuple[Step, ...]
     shifts: bool
     lifts: bool
+    codes: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -175,6 +179,33 @@ class FlagView:
 
 
 @dataclass(frozen=True, slots=True)
+class CodesView:
+    """A set of special codes: their macros where several points share them, tests of `raw`, and (test, name)."""
+
+    comment: str
+    defines: tuple[Define, ...]
+    name: str
+    raw_type: str
+    special: str
+    no_value: str
+    names: tuple[tuple[str, str], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class SpecialView:
+    """The special codes of a point.
+
+    `codes` is None where they are shared and stand before; `test` is the function that knows them, `written` a test of
+    `raw` for those that may be written. `aliases` call the functions of shared codes by the point's name.
+    """
+
+    codes: CodesView | None
+    test: str
+    written: str
+    aliases: tuple[Define, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class PointView:
     """One generated point."""
 
@@ -195,7 +226,9 @@ class PointView:
     writable: bool
     check: CheckView | None
     recheck: bool
-    no_value: str
+    special: SpecialView | None
+    encode_min: str
+    encode_max: str
     scale_arguments: tuple[str, ...]
     limit_arguments: tuple[str, ...]
     declare_all: str

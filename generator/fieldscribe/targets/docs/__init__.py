@@ -1,4 +1,4 @@
-"""The documentation target: one Markdown reference and one table (CSV) per device."""
+"""The documentation target: one Markdown reference and one table (CSV) per device, and one of its special codes."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.targets.docs.page import page_of
 from fieldscribe.targets.docs.sheet import sheet_of
+from fieldscribe.targets.docs.special_codes import sheet_of_codes
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -18,6 +19,8 @@ def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     """The files for one device: path relative to the output folder, and text."""
     yield f"docs/{device.id}.md", render("docs/device.md.j2", {"page": page_of(device)}).rstrip("\n") + "\n"
     yield f"docs/{device.id}.csv", render("docs/device.csv.j2", {"rows": sheet_of(device)})
+    if codes := sheet_of_codes(device):
+        yield f"docs/{device.id}_special_codes.csv", render("docs/device.csv.j2", {"rows": codes})
 
 
 def runtime(device: Device) -> Iterable[tuple[str, str]]:

@@ -10,6 +10,7 @@ from fieldscribe import wording
 from fieldscribe.targets.docs.bus import BusView, bus_view
 from fieldscribe.targets.docs.cells import Table, anchor, by_rows, cell, code, link, paragraph, source_text, target
 from fieldscribe.targets.docs.points import GroupView, group_views, reference_heads
+from fieldscribe.targets.docs.special_codes import CodesView, code_views
 from fieldscribe.wording.exact import hex_text
 
 if TYPE_CHECKING:
@@ -52,6 +53,7 @@ class PageView:
     numberings: tuple[str, ...]
     bus: BusView
     groups: tuple[GroupView, ...]
+    codes: tuple[CodesView, ...]
     enums: tuple[EnumView, ...]
     frames: Table | None
     errata: Table | None
@@ -73,6 +75,7 @@ def page_of(device: Device) -> PageView:
         numberings=tuple(f"{cell(key.capitalize())}: {_numbering(key)}." for key in numberings),
         bus=bus_view(device),
         groups=tuple(group_views(device)),
+        codes=tuple(code_views(device)),
         enums=tuple(_enum_views(device)),
         frames=_frames(device),
         errata=_errata(device),

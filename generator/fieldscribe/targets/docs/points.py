@@ -18,7 +18,7 @@ from fieldscribe.targets.docs.cells import (
     table,
     target,
 )
-from fieldscribe.wording.exact import fixed_rule, number_text
+from fieldscribe.wording.exact import fixed_rule
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
@@ -134,7 +134,7 @@ def _range_cell(point: Point, by_name: Mapping[str, Point]) -> str:
 
 
 def _default_cell(point: Point) -> str:
-    return "" if point.default is None else cell(wording.with_unit(number_text(point.default), point))
+    return cell(wording.default_text(point))
 
 
 def _remarks(device: Device, point: Point, by_name: Mapping[str, Point]) -> Iterator[str]:
@@ -143,7 +143,9 @@ def _remarks(device: Device, point: Point, by_name: Mapping[str, Point]) -> Iter
         yield cell(f"only {point.variant}")
     yield from _repeated(point)
     yield from _names(point)
-    yield from (cell(wording.special_text(special)) for special in point.specials)
+    yield from (cell(wording.special_text(special, point.width)) for special in point.specials if special.own)
+    if point.specials_of:
+        yield f"special codes of {link('codes', point.specials_of)}"
     if point.steps:
         yield cell("steps: " + wording.steps_text(point))
     yield from (cell(f"{one.purpose}: {one.space} {_words(one.addresses)}") for one in point.places[1:])

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe import text, wording
 from fieldscribe.targets.docs.points import reference_heads
-from fieldscribe.wording.exact import hex_text, number_text
+from fieldscribe.wording.exact import hex_text
 
 if TYPE_CHECKING:
     from fieldscribe.model import Device, Point
@@ -73,16 +73,23 @@ def _meaning(point: Point, by_name: dict[str, Point]) -> tuple[str, ...]:
         _cell(point.unit.symbol),
         _cell(wording.scale_text(point, by_name)),
         _cell(wording.resolution_text(point)),
-        "" if point.default is None else number_text(point.default),
+        _default(point),
         _cell(wording.steps_text(point)),
     )
+
+
+def _default(point: Point) -> str:
+    """The factory setting without its unit, which has a column."""
+    text = wording.default_text(point)
+    return _cell(text.removesuffix(f" {point.unit.symbol}") if point.unit.symbol else text)
 
 
 def _names(point: Point) -> tuple[str, ...]:
     enum = point.enum or (point.digits and point.digits.enum)
     names = "; ".join(map(wording.entry_text, enum.entries)) if enum else ""
     flags = "; ".join(wording.flag_text(flag, point) for flag in point.flags)
-    specials = "; ".join(map(wording.special_text, point.specials))
+    codes = [wording.special_text(special, point.width) for special in point.specials if special.own]
+    specials = "; ".join((*codes, f"those of {point.specials_of}") if point.specials_of else codes)
     return _cell(names), _cell(flags), _cell(specials), _cell(wording.fixed_text(point))
 
 

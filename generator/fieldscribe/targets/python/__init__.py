@@ -42,6 +42,7 @@ _MODULES = (
     "quantities",
     "rules",
     "session",
+    "special",
     "texts",
     "uss/__init__",
     "uss/descriptors",

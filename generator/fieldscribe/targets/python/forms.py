@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.model import Bound, Factor, Interval, Limit, Linear, Place, Point, ScaleCase, Special
-from fieldscribe.targets.python.layout import Group, Node, call
+from fieldscribe.targets.python.layout import Group, Node, assigned, call
 from fieldscribe.text import python_string
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterator
     from fractions import Fraction
 
     from fieldscribe.targets.python.scope import Scope
@@ -23,11 +23,38 @@ NUMBERED = frozenset({"parameter", "telegram"})
 def form(point: Point, scope: Scope) -> Node:
     """The form of a point, as `Scaled(U16, Rule(num=10), decimals=1)`."""
     inner = _plain_form(point, scope)
-    codes = [special for special in point.specials if special.no_value]
-    if not codes:
+    if not point.specials:
         return inner
-    scope.used.add("OrNone")
-    return call("OrNone", (inner, spans("{", codes)))
+    around = "WithWritableCodes" if any(one.writable for one in point.specials) and point.writable else "WithCodes"
+    scope.used.add(around)
+    return call(around, (inner, _codes(point, scope)))
+
+
+def _codes(point: Point, scope: Scope) -> Node:
+    """The special codes of a point; those that many share have a name of their own."""
+    scope.used.add("Codes")
+    if not point.shared_codes:
+        return call("Codes", _code_arguments(point))
+    name = f"{point.shared_codes.upper()}_CODES"
+    scope.codes.setdefault(name, assigned(name, call("Codes", _code_arguments(point))))
+    return name
+
+
+def _code_arguments(point: Point) -> Iterator[Node]:
+    numbers = [(one, tuple(_code_number(end, one) for end in (one.low, one.high))) for one in point.specials]
+    texts = [
+        f"{python_string(one.name)}: {low if one.low == one.high else f'({low}, {high})'}"
+        for one, (low, high) in numbers
+    ]
+    yield Group("{", tuple(texts), "}")
+    for key in ("no_value", "writable"):
+        names = [python_string(one.name) for one in point.specials if getattr(one, key)]
+        if names:
+            yield Group(f"{key}=(", tuple(names))
+
+
+def _code_number(raw: int, special: Special) -> str:
+    return f"0x{raw:04X}" if special.hexadecimal and raw >= 0 else str(raw)
 
 
 def _plain_form(point: Point, scope: Scope) -> Node:
@@ -110,17 +137,24 @@ def _only_named(point: Point) -> bool:
 
 def _scale(cases: tuple[ScaleCase, ...], scope: Scope) -> Node:
     if len(cases) == 1 and cases[0].point is None:
-        return rule(cases[0].rule, scope)
+        return rule(cases[0].rule, scope, of_scale=True)
     scope.used.add("Case")
     made = [
-        call("Case", ("None" if one.point is None else python_string(one.point), str(one.raw), rule(one.rule, scope)))
+        call(
+            "Case",
+            (
+                "None" if one.point is None else python_string(one.point),
+                str(one.raw),
+                rule(one.rule, scope, of_scale=True),
+            ),
+        )
         for one in cases
     ]
     return Group("(", tuple(made))
 
 
-def rule(linear: Linear, scope: Scope) -> Node:
-    """A linear rule as integers."""
+def rule(linear: Linear, scope: Scope, *, of_scale: bool = False) -> Node:
+    """A linear rule as integers; special codes of a scale's factors are named with them."""
     ratio, offset = linear.ratio, linear.offset
     arguments: list[Node] = []
     if ratio.numerator != 1:
@@ -131,12 +165,12 @@ def rule(linear: Linear, scope: Scope) -> Node:
         arguments.append(f"offset=({offset.numerator}, {offset.denominator})")
     if linear.factors:
         scope.used.add("Factor")
-        arguments.append(Group("factors=(", tuple(_factor(one, scope) for one in linear.factors)))
+        arguments.append(Group("factors=(", tuple(_factor(one, scope, of_scale) for one in linear.factors)))
     return call("Rule", arguments)
 
 
-def _factor(factor: Factor, scope: Scope) -> Node:
-    arguments = [python_string(factor.point)]
+def _factor(factor: Factor, scope: Scope, of_scale: bool) -> Node:
+    arguments: list[Node] = [python_string(factor.point)]
     if factor.slope != 1:
         arguments.append(f"slope={factor.slope}")
     if factor.intercept:
@@ -148,6 +182,8 @@ def _factor(factor: Factor, scope: Scope) -> Node:
         arguments.append("f32=True")
     if factor.ten_to:
         arguments.append("ten_to=({}, {})".format(*(factor.exponents or scope.points[factor.point].outer)))
+    if of_scale and source is not None and source.specials:
+        arguments.append(Group("codes=(", tuple([f"({one.low}, {one.high})" for one in source.specials])))
     return call("Factor", arguments)
 
 
@@ -166,7 +202,7 @@ def _bound(bound: Bound, scope: Scope) -> Node:
         return str(bound)
     scope.used.update(("Limit", "Rule"))
     unless = [
-        Group(f"{python_string(name)}: (", tuple([str(code) for code in codes]))
+        Group(f"{python_string(name)}: (", tuple([f"({low}, {high})" for low, high in codes]))
         for name, codes in bound.unless
         if codes
     ]
@@ -196,11 +232,6 @@ def place(keyword: str, where: Place, scope: Scope, point: Point | None = None) 
         return call(f"{keyword}={maker}", (*addresses, *function, *index))
     scope.used.add("Place")
     return call(f"{keyword}=Place", (python_string(where.space), Group("(", tuple(addresses)), *function, *index))
-
-
-def spans(head: str, specials: Iterable[Special]) -> Group:
-    """Raw numbers by name, first and last."""
-    return Group(head, tuple(f"{python_string(one.name)}: ({one.low}, {one.high})" for one in specials), "}")
 
 
 def number(value: Fraction, binary: bool = False) -> str:

@@ -10,7 +10,7 @@ from fieldscribe.targets.python.commands import commands, variants
 from fieldscribe.targets.python.existence import only_for
 from fieldscribe.targets.python.families import FAMILIES
 from fieldscribe.targets.python.families.family import RUNTIME, Family
-from fieldscribe.targets.python.forms import NUMBERED, allowed, form, number, place, spans
+from fieldscribe.targets.python.forms import NUMBERED, allowed, form, number, place
 from fieldscribe.targets.python.identifiers import Identifiers, attribute, sorted_imports
 from fieldscribe.targets.python.layout import WIDTH, Group, Node, assigned, call, comment, laid_out
 from fieldscribe.targets.python.scope import Scope
@@ -51,7 +51,7 @@ class PointsView:
     """The points module.
 
     `imports` are modules of the runtime with the names taken from each, `open_points` the lines that say where those
-    points are that the manual does not settle.
+    points are that the manual does not settle, `codes` the special codes that several points share.
     """
 
     imports: list[tuple[str, list[str]]]
@@ -63,6 +63,7 @@ class PointsView:
     documented: str
     groups: list[GroupView]
     commands: tuple[PointView, ...]
+    codes: tuple[str, ...]
 
 
 def points_view(device: Device, names: Identifiers) -> PointsView:
@@ -95,6 +96,7 @@ def points_view(device: Device, names: Identifiers) -> PointsView:
         documented=laid_out(assigned("DOCUMENTED: ClassVar", Group("{", documented, "}")), 4) if documented else "",
         groups=[group for group in groups.values() if group.points or group.left_out],
         commands=made,
+        codes=tuple(laid_out(one, 0) for one in scope.codes.values()),
     )
 
 
@@ -131,8 +133,6 @@ def _arguments(point: Point, scope: Scope) -> list[Node]:
         arguments.append(limits)
     if point.default is not None:
         arguments.append(f"default={number(point.default)}")
-    if specials := [one for one in point.specials if not one.no_value]:
-        arguments.append(spans("specials={", specials))
     if point.fixed is not None:
         arguments.append(f"fixed=(0x{point.fixed.mask:04X}, 0x{point.fixed.bits:04X})")
     if point.changes in ("never", "rarely"):

@@ -10,13 +10,15 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Point
     from fieldscribe.targets.python.identifiers import Identifiers
+    from fieldscribe.targets.python.layout import Node
 
 
 @dataclass(frozen=True, slots=True)
 class Scope:
-    """Final names, points by name, variants, and (filled on the way) the names of the runtime that expressions use."""
+    """Final names, points by name, variants; filled on the way: names of the runtime in use, codes that are shared."""
 
     names: Identifiers
     points: Mapping[str, Point]
     variants: Mapping[str, tuple[str, ...]]
     used: set[str] = field(default_factory=set)
+    codes: dict[str, Node] = field(default_factory=dict)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.targets.rust.conformance import conformance_tables
+from fieldscribe.targets.rust.conformance import arms, conformance_tables
 from fieldscribe.targets.rust.device import device_context
 from fieldscribe.targets.rust.identifiers import identifiers
 from fieldscribe.targets.rust.subjects import scope_of
@@ -39,6 +39,7 @@ _RUNTIME = (
     "src/point.rs",
     "src/raw.rs",
     "src/rule.rs",
+    "src/special.rs",
     "src/text.rs",
     "src/uss/client.rs",
     "src/uss/error.rs",
@@ -55,10 +56,10 @@ def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     context = device_context(device, scope)
     folder = f"rust/{device.id}"
     yield f"{folder}/Cargo.toml", render("rust/Cargo.toml.j2", context)
-    for name in _SOURCES:
+    for name in (*_SOURCES, *(("special",) if context["codes"] else ())):
         yield f"{folder}/src/{name}.rs", render(f"rust/{name}.rs.j2", context)
-    tables = conformance_tables(scope)
-    suite = {**context, "tables": tables, "kinds": {kind for kind, _, _ in tables}}
+    tables = conformance_tables(scope, device)
+    suite = {**context, "tables": tables, "kinds": {kind for kind, _, _ in tables}, "arms": tuple(arms(tables))}
     yield f"{folder}/tests/conformance.rs", render("rust/conformance.rs.j2", suite)
 
 

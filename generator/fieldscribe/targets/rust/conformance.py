@@ -12,45 +12,84 @@ from fieldscribe.text import rust_string
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-    from fieldscribe.model import Point
+    from fieldscribe.model import Device, Point
     from fieldscribe.targets.rust.subjects import Scope, Subject
+
+Needs = tuple[tuple[str, tuple[str, ...]], ...]
+"""Structs and their fields."""
+
+_CHAIN = 60
+"""As long as a chain of calls may be in one line."""
 
 Table = tuple[str, str, tuple[str, ...]]
 """The function that a table becomes, the runner's function behind it, and its rows."""
 
 
-def conformance_tables(scope: Scope) -> tuple[Table, ...]:
+def conformance_tables(scope: Scope, device: Device) -> tuple[Table, ...]:
     """The tables by kind; rows are tokens that the runner's macro reads."""
     scaled = [one for one in scope.subjects if one.form == "scaled"]
     floats = [one for one in scope.subjects if one.form == "float"]
     texts = [one for one in scope.subjects if one.form == "text"]
     digits = [one for one in scope.subjects if one.form == "digits"]
     whole = [one for one in scope.subjects if one.form not in ("scaled", "float", "text", "digits")]
-    plain = [one for one in whole if one.carried == one.raw]
+    plain = [one for one in whole if one.carried == one.raw and not one.point.specials]
+    coded = [one for one in whole if one.carried == one.raw and one.point.specials]
     mixed = [one for one in whole if one.carried != one.raw]
     counted = [one for one in scaled if one.point.decimals is not None]
     encoding = [one for one in scaled if one.point.encodes_values]
     read_scaled, write_scaled = tuple(_reads(scaled)), tuple(_writes(scaled))
-    write_plain, write_mixed = tuple(_writes(plain)), tuple(_writes(mixed))
+    write_plain, write_coded, write_mixed = tuple(_writes(plain)), tuple(_writes(coded)), tuple(_writes(mixed))
     return (
         ("decode", "decode", (*read_scaled, *_reads(floats))),
         ("encode", "encode", (*_writes(encoding), *_writes(floats))),
         ("decode_count", "decode_count", tuple(_reads(counted))),
         ("decode_plain", "decode_plain", tuple(_reads(plain))),
+        ("decode_coded", "decode_coded", tuple(_reads(coded))),
         ("decode_mixed", "decode_count", tuple(_reads(mixed))),
         ("encode_count", "encode_count", tuple(_writes(counted))),
         ("encode_plain", "encode_plain", write_plain),
+        ("encode_coded", "encode_coded", write_coded),
         ("encode_mixed", "encode_count", write_mixed),
-        ("check", "check", (*write_scaled, *write_plain, *write_mixed, *_writes(floats), *_writes(digits))),
-        ("name", "name", tuple(_names(whole))),
-        ("special", "special", tuple(_specials(scope.subjects))),
+        (
+            "check",
+            "check",
+            (*write_scaled, *write_plain, *write_coded, *write_mixed, *_writes(floats), *_writes(digits)),
+        ),
+        ("name", "name", tuple(_names((*whole, *digits)))),
+        ("special", "special", tuple(_row(one, "alone") for one in scope.subjects if one.point.specials)),
+        ("special_name", "special_name", tuple(_row(one, "alone") for one in scope.subjects if one.point.specials)),
         ("flag", "flag", tuple(_flags(whole))),
         ("flag_name", "flag_name", tuple(_flag_names(whole))),
         ("bits", "bits", tuple(_row(one, "alone") for one in scope.subjects if one.point.bits)),
         ("words", "words", tuple(_row(one, "alone") for one in scope.subjects if _has_words(one.point))),
         ("address", "address", tuple(_row(one, _references(one.point)) for one in scope.subjects)),
         *_newer(scope, texts, digits),
+        *_protocol(device),
     )
+
+
+def _protocol(device: Device) -> Iterator[Table]:
+    """The tables of the numbers of the protocol, and of commands."""
+    bus, uss = device.bus, device.family == "uss"
+    kinds = (("task", "tasks", bus.functions), ("response", "responses", bus.responses)) if uss else ()
+    refusals = "error" if uss else "exception"
+    constants = [_code(what, module, code.name, "code") for what, module, codes in kinds for code in codes]
+    named = [_code(refusals, "exceptions", code.name, "named") for code in bus.exceptions]
+    for kind, rows in (("constant", constants), ("constant" if device.family == "can" else "code", named)):
+        if rows:
+            yield kind, "code", tuple(rows)
+    carriers = {one.name for one in device.messages if one.words}
+    heard = [one for one in device.telegrams if one.message in carriers] if device.family == "can" else []
+    if heard:
+        names = [f"{rust_string(one.name)} telegrams (telegram {type_name(one.name)})" for one in heard]
+        yield "can_taken", "can_taken", tuple(names)
+    if device.commands:
+        sent = (f"{rust_string(one.name)} commands (sent {one.name.upper()})" for one in device.commands)
+        yield "command", "command", tuple(sent)
+
+
+def _code(what: str, module: str, name: str, how: str) -> str:
+    return f"{rust_string(f'{what} {name}')} {module} ({how} {name.upper()})"
 
 
 def _newer(scope: Scope, texts: list[Subject], digits: list[Subject]) -> Iterator[Table]:
@@ -63,12 +102,90 @@ def _newer(scope: Scope, texts: list[Subject], digits: list[Subject]) -> Iterato
         ("fixed", tuple(_row(one, "alone") for one in fixed)),
         ("text_decode", tuple(_row(one, _sizes(one.point)) for one in texts if one.point.readable)),
         ("text_encode", tuple(_row(one, _sizes(one.point)) for one in texts if one.point.writable)),
-        ("digits", tuple(_row(one, _counted(one)) for one in digits if one.point.readable)),
-        ("digits_encode", tuple(_row(one, _counted(one)) for one in digits if one.point.writable)),
+        ("digits", tuple(_digits(digits, "r", coded=False))),
+        ("digits_coded", tuple(_digits(digits, "r", coded=True))),
+        ("digits_encode", tuple(_digits(digits, "w", coded=False))),
+        ("digits_encode_coded", tuple(_digits(digits, "w", coded=True))),
         ("can_telegram", tuple(_row(one, "frames") for one in heard)),
     ):
         if rows:
             yield kind, kind, rows
+    ways: dict[tuple[str, str], list[str]] = {}
+    for kind, run, row in _exchanges(scope):
+        ways.setdefault((kind, run), []).append(row)
+    for (kind, run), found in ways.items():
+        yield f"{kind}_by_{run}", run, tuple(found)
+
+
+def _exchanges(scope: Scope) -> Iterator[tuple[str, str, str]]:
+    """The kind, the runner's function and the row of each point that travels."""
+    for one in scope.subjects:
+        if not one.point.places:
+            continue
+        for kind, run, needs in _ways(one, scope):
+            given = "".join(f" ({_arguments(*pair)})" for pair in needs)
+            yield kind, run, _row(one, f"wire{given}")
+
+
+def _ways(subject: Subject, scope: Scope) -> Iterator[tuple[str, str, Needs]]:
+    """How a point is read and written in its family: kind, function, and the structs of what that needs."""
+    point = subject.point
+    if point.telegram is not None:
+        if scope.family == "uss" and subject.form != "text" and not point.bits:
+            yield from _process_ways(subject, scope)
+        return
+    text = "_text" if subject.form == "text" else ""
+    if point.readable:
+        yield "read", f"read{text}", ()
+    if point.writable:
+        yield "write", *_change(subject, "write", "update", text)
+    if point.writable and scope.family == "uss" and point.keeps != "no":
+        yield "store", *_change(subject, "store", "store_update", text)
+
+
+def _process_ways(subject: Subject, scope: Scope) -> Iterator[tuple[str, str, Needs]]:
+    """Words of process data, which go one way."""
+    point = subject.point
+    telegram, _ = scope.telegrams[point.telegram or ""]
+    if telegram.direction == "response" and point.readable:
+        yield "read", "receive", (_of_scale(subject),)
+    elif telegram.direction == "request" and point.writable:
+        needs = (_of_scale(subject), _of_all(subject))
+        yield ("write", "send", needs) if point.readable else ("write", "send_only", ())
+
+
+def _change(subject: Subject, change: str, update: str, text: str) -> tuple[str, Needs]:
+    """The function that writes a point, and what it needs: the value of a raw number, where there is one to read."""
+    point = subject.point
+    if point.bits:
+        return update, ()
+    if not point.readable or not point.encodes_values:
+        return f"{change}_only", ()
+    return f"{change}{text}", () if text else (_of_scale(subject), _of_all(subject))
+
+
+def _of_scale(subject: Subject) -> tuple[str, tuple[str, ...]]:
+    return subject.factors_type, subject.factors
+
+
+def _of_all(subject: Subject) -> tuple[str, tuple[str, ...]]:
+    return subject.with_type, subject.arguments
+
+
+def arms(tables: Iterable[Table]) -> Iterator[str]:
+    """The lines that hand vectors of whole exchanges to the tables of their kind, laid out as rustfmt does."""
+    names = [name for name, _, _ in tables]
+    for kind in ("read", "write", "store"):
+        calls = [f"{name}(vector)" for name in names if name.startswith(f"{kind}_by_")]
+        chain = [*calls[:1], *(f".or_else(|| {call})" for call in calls[1:])]
+        if len(chain) == 2 or len("".join(chain)) <= _CHAIN:
+            lines = ["".join(chain)] if chain else []
+        else:
+            lines = [chain[0], *(f"    {link}" for link in chain[1:])]
+        if lines:
+            whole = [f'"{kind}" => {lines[0]}', *lines[1:]]
+            yield from whole[:-1]
+            yield f"{whole[-1]},"
 
 
 def _row(subject: Subject, how: str) -> str:
@@ -82,6 +199,12 @@ def _is_heard(subject: Subject, scope: Scope) -> bool:
 
 def _sizes(point: Point) -> str:
     return f"sizes {point.text.characters if point.text is not None else 0} {point.words}"
+
+
+def _digits(subjects: Iterable[Subject], access: str, *, coded: bool) -> Iterator[str]:
+    for one in subjects:
+        if access in one.point.access and bool(one.point.specials) == coded:
+            yield _row(one, _counted(one))
 
 
 def _counted(subject: Subject) -> str:
@@ -127,13 +250,6 @@ def _names(subjects: Iterable[Subject]) -> Iterator[str]:
     for one in subjects:
         if one.enum is not None:
             yield f"{rust_string(one.point.item)} {type_name(one.enum.name)} (enum {one.carried})"
-
-
-def _specials(subjects: Iterable[Subject]) -> Iterator[str]:
-    for one in subjects:
-        for special in one.point.specials:
-            kind = "one" if special.low == special.high else "several"
-            yield f"{rust_string(f'{one.point.item} {special.name}')} {one.name} ({kind} {special.name.upper()})"
 
 
 def _flags(subjects: Iterable[Subject]) -> Iterator[str]:

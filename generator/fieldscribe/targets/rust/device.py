@@ -11,6 +11,7 @@ from fieldscribe.targets.rust.documentation import left_out
 from fieldscribe.targets.rust.families import family_context
 from fieldscribe.targets.rust.families.spaces import space
 from fieldscribe.targets.rust.points import point_view
+from fieldscribe.targets.rust.special_codes import shared_views
 from fieldscribe.targets.rust.words import arguments_views, enum_views, flags_views, is_long
 from fieldscribe.text import line, rust_code, rust_string
 
@@ -51,6 +52,7 @@ def device_context(device: Device, scope: Scope) -> dict[str, object]:
         "left_out": left_out(device),
         "raw_only": tuple(map(_raw_only, (point for point in device.points if point.raw_only))),
         "enums": enums,
+        "codes": tuple(shared_views(scope)),
         "long_enums": any(map(is_long, enums)),
         "words": words,
         "structs": structs,

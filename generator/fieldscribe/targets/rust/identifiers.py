@@ -58,8 +58,11 @@ def _of_point(subject: Subject) -> Iterator[Identifier]:
         yield Identifier(own, name.upper(), Owner("target", f"the constant `{name.upper()}` of every point"))
     for key in point.references:
         yield Identifier(own, key.upper(), owner._replace(part=f"numbering {key}"))
+    holder = f"Rust, special::{point.shared_codes}" if point.shared_codes else own
+    codes = Owner("target", f"the special codes of {point.shared_codes}") if point.shared_codes else owner
     for special in point.specials:
-        yield Identifier(own, special.name.upper(), owner._replace(part=f"code {special.name}"))
+        for end in ("",) if special.low == special.high else ("", "_LAST"):
+            yield Identifier(holder, special.name.upper() + end, codes._replace(part=f"code {special.name}"))
     if subject.arguments:
         yield Identifier("Rust, with", subject.name, owner)
     if subject.factors and subject.factors != subject.arguments:

@@ -10,7 +10,8 @@ from fieldscribe.targets.rust.families import family_traits, space
 from fieldscribe.targets.rust.layout import binding, short_array
 from fieldscribe.targets.rust.literals import integer, mask, raw_literal, type_name, type_range
 from fieldscribe.targets.rust.reading import read_view
-from fieldscribe.targets.rust.rules import run_time_rules
+from fieldscribe.targets.rust.rules import encoded_bounds, run_time_rules
+from fieldscribe.targets.rust.special_codes import code_constants, coded_trait
 from fieldscribe.targets.rust.views import BitsView, ConstantView, OrderView, PointView
 from fieldscribe.targets.rust.writing import write_view
 from fieldscribe.text import rust_string
@@ -29,26 +30,28 @@ def point_view(subject: Subject, scope: Scope) -> PointView:
     """All that the templates need of a point."""
     point = subject.point
     low, high = point.outer
+    reach = encoded_bounds(point, low, high)
     rules = run_time_rules(point, scope.points) if subject.form == "scaled" and subject.rule is None else ()
-    code = point.code
+    code, coded = point.code, bool(point.specials)
     return PointView(
         doc=point_doc(point),
         alias=rust_string(code) if code and code != subject.name and _ALIAS.fullmatch(code) else "",
         name=subject.name,
         raw=subject.raw,
-        value=_value_type(subject),
+        value=f"runtime::Reading<{_value_type(subject)}, {subject.raw}>" if coded else _value_type(subject),
         constants=_constants(subject, low, high),
         order=None if point.text is not None else _order(point),
         scattered=point.text is not None and list(point.addresses) != sorted(point.addresses),
         bits=_bits(point),
-        traits=(*_digits(subject), *family_traits(subject, scope)),
+        traits=(*([coded_trait(subject)] if coded else ()), *_digits(subject), *family_traits(subject, scope)),
         rules=rules,
         factors=subject.factors_type,
         last_rule_holds=bool(rules) and not rules[-1].held,
         read=read_view(subject, low, high) if "r" in point.access else None,
-        write=write_view(subject, low, high, scope) if "w" in point.access else None,
-        own_constants=(*_references(point), *_specials(subject)) if point.specials or point.references else (),
+        write=write_view(subject, *reach, scope) if "w" in point.access else None,
+        own_constants=(*_references(point), *(code_constants(subject) if coded and not point.shared_codes else ())),
         was=tuple(binding(0, f"pub type {type_name(old)}", subject.name) for old in point.was),
+        coded=coded,
     )
 
 
@@ -147,12 +150,3 @@ def _references(point: Point) -> Iterator[ConstantView]:
             type_, literal = "u32" if 0 <= number < 1 << 32 else "i64", integer(number)
         doc = sentence(f"the number in the numbering {key}")
         yield ConstantView(doc, binding(4, f"pub const {key.upper()}: {type_}", literal))
-
-
-def _specials(subject: Subject) -> Iterator[ConstantView]:
-    raw = subject.raw
-    for one in subject.point.specials:
-        single = one.low == one.high
-        literal = raw_literal(one.low, raw) if single else f"{raw_literal(one.low, raw)}..={raw_literal(one.high, raw)}"
-        type_ = raw if single else f"core::ops::RangeInclusive<{raw}>"
-        yield ConstantView(sentence(one.name), binding(4, f"pub const {one.name.upper()}: {type_}", literal))

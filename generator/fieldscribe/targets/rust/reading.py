@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.targets.rust.literals import integer, type_name
-from fieldscribe.targets.rust.rules import count_path, decode_float, patterns
+from fieldscribe.targets.rust.rules import count_path, decode_float
 from fieldscribe.targets.rust.views import ReadView
 
 if TYPE_CHECKING:
@@ -28,7 +28,6 @@ def parameter(type_: str, name: str, *, used: bool) -> str:
 def read_view(subject: Subject, low: int, high: int) -> ReadView:
     """Decoding of a point whose raw numbers are written within `low..=high`."""
     point, raw, form, rule = subject.point, subject.raw, subject.form, subject.rule
-    unreal = [(one.low, one.high) for one in point.specials if one.no_value]
     failing = narrows = False
     count_type, scaled, count = "", "", ""
     if form == "float":
@@ -53,11 +52,10 @@ def read_view(subject: Subject, low: int, high: int) -> ReadView:
     return ReadView(
         factors=factors,
         parameter=parameter(factors, "Factors", used=bool(factors)),
-        failing=failing or bool(unreal),
+        failing=failing,
         narrows=narrows,
-        no_value=patterns(unreal, raw) if unreal else (),
         value=value,
-        count_type=count_type,
+        count_type=f"runtime::Reading<{count_type}, {raw}>" if point.specials and count_type else count_type,
         scaled=scaled,
         count=count,
         function="" if function in (None, _FUNCTIONS.get(point.places[0].space)) else str(function),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from math import gcd
 from typing import TYPE_CHECKING
@@ -91,6 +91,12 @@ def count_path(rule: Linear, decimals: int, raw: str, low: int, high: int) -> Co
     )
 
 
+def encoded_bounds(point: Point, low: int, high: int) -> tuple[int, int]:
+    """The same for what values are looked at: with the special codes, which no value may become."""
+    lows, highs = [one.low for one in point.specials], [one.high for one in point.specials]
+    return min([low, *lows]), max([high, *highs])
+
+
 def run_time_rules(point: Point, points: Mapping[str, Point]) -> tuple[RuleView, ...]:
     """The cases of a scale that needs other points, in their order, up to one that always holds."""
     found: list[RuleView] = []
@@ -160,7 +166,9 @@ def outer(bound: Bound, *, lower: bool) -> int:
 
 def _limit(local: str, limit: Limit, points: Mapping[str, Point]) -> LimitView:
     lower = local.startswith("low")
-    unless = tuple((_raw_of(name), " | ".join(map(integer, codes))) for name, codes in limit.unless if codes)
+    unless = tuple(
+        (_raw_of(name), " | ".join(interval(*band) for band in codes)) for name, codes in limit.unless if codes
+    )
     rule = _rule(limit.rule, "", "", _factors(limit.rule, points, limit=True))
     bound = integer(outer(limit, lower=lower))
     return LimitView(local, unless, bound, rule, f"max({bound})" if lower else f"min({bound})")
@@ -175,7 +183,17 @@ def _rule(rule: Linear, held: str, code: str, factors: list[FactorView]) -> Rule
 def _factors(rule: Linear, points: Mapping[str, Point], *, limit: bool) -> list[FactorView]:
     """Exponents last: a zero factor is reported before an exponent that is out of its bounds."""
     factors = sorted(rule.factors, key=lambda factor: factor.ten_to)
-    return [_factor(one, points, limit=limit) for one in factors]
+    found = [_factor(one, points, limit=limit) for one in factors]
+    return found if limit else [_with_codes(view, one, points) for view, one in zip(found, factors, strict=True)]
+
+
+def _with_codes(view: FactorView, factor: Factor, points: Mapping[str, Point]) -> FactorView:
+    """The factor with the conditions under which its point holds a special code."""
+    source = points.get(factor.point)
+    if source is None or not source.specials:
+        return view
+    conditions = patterns([(one.low, one.high) for one in source.specials], "held")
+    return replace(view, codes=tuple(one.replace("matches!(raw,", "matches!(held,") for one in conditions))
 
 
 def _factor(factor: Factor, points: Mapping[str, Point], *, limit: bool) -> FactorView:

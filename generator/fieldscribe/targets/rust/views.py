@@ -10,6 +10,7 @@ class FactorView:
     """One factor of a rule: the raw number it takes, the line and the bounds of an exponent (or empty), the method.
 
     `pattern` says that the raw number is the pattern of a floating-point number, which the method takes as it is.
+    `codes` are conditions of which one holds while what is `held` is a special code.
     """
 
     raw: str
@@ -17,6 +18,7 @@ class FactorView:
     bounds: str
     line: str
     method: str
+    codes: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,7 +69,6 @@ class ReadView:
     parameter: str
     failing: bool
     narrows: bool
-    no_value: tuple[str, ...]
     value: str
     count_type: str
     scaled: str
@@ -128,7 +129,11 @@ class OrderView:
 
 @dataclass(frozen=True, slots=True)
 class PointView:
-    """One point. `scattered`: the words of a text do not come first to last; `traits`: what else it implements."""
+    """One point.
+
+    `scattered`: the words of a text do not come first to last; `traits`: what else it implements; `coded`: it has
+    special codes.
+    """
 
     doc: tuple[str, ...]
     alias: str
@@ -147,6 +152,7 @@ class PointView:
     write: WriteView | None
     own_constants: tuple[ConstantView, ...]
     was: tuple[tuple[str, ...], ...]
+    coded: bool
 
 
 @dataclass(frozen=True, slots=True)

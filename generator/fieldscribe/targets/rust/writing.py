@@ -48,7 +48,7 @@ def write_view(subject: Subject, low: int, high: int, scope: Scope) -> WriteView
         kind, value, count_type = "plain", _plain_raw(subject), plain_count(raw)
         fixed = _fixed(subject)[0]
         count = "arithmetic::bit(count)?" if raw == "bool" else _held("count", closed=subject.closed)
-    bounded = not subject.limits and len(merged(_numbers(point))) == 1
+    bounded = not subject.limits and not point.specials and len(merged(_numbers(point))) == 1
     function, address = _place(point, scope)
     with_type = subject.with_type
     return WriteView(
@@ -60,7 +60,7 @@ def write_view(subject: Subject, low: int, high: int, scope: Scope) -> WriteView
         encodes=point.encodes_values,
         bounded=bounded,
         value=value,
-        count_type=count_type,
+        count_type=f"runtime::Reading<{count_type}, {raw}>" if point.specials and count_type else count_type,
         count_parameter=parameter(with_type, "With", used=kind != "scaled" or not bounded),
         within=within,
         scaled=scaled,
@@ -129,7 +129,7 @@ def _check(subject: Subject, with_type: str, scope: Scope) -> CheckView:
     numbers, fixed = _numbers(point), _fixed(subject)[1]
     least, greatest = type_range(raw)
     if any(low <= least and greatest <= high for low, high in merged(numbers)):
-        return CheckView(report, "raw" if fixed else "_", unused, "", (), (), fixed)
+        return CheckView(report, "raw" if fixed or point.specials else "_", unused, "", (), (), fixed)
     return CheckView(report, "raw", unused, "", patterns(numbers, raw), (), fixed)
 
 

@@ -5,45 +5,39 @@ Nothing here is shared with the other targets: a wrong rule in one of them canno
 
 from __future__ import annotations
 
-from json import dumps
 from typing import TYPE_CHECKING
 
-from fieldscribe.targets.vectors.can import can
+from fieldscribe.targets.vectors.can import CanWire, can
 from fieldscribe.targets.vectors.characters import digits, text
+from fieldscribe.targets.vectors.exchanges import Exchanges
 from fieldscribe.targets.vectors.floats import floats
 from fieldscribe.targets.vectors.lines import Lines
-from fieldscribe.targets.vectors.modbus import modbus
+from fieldscribe.targets.vectors.modbus import ModbusWire, modbus
 from fieldscribe.targets.vectors.oracle import Oracle
-from fieldscribe.targets.vectors.places import address, words
+from fieldscribe.targets.vectors.places import address, facts, words
 from fieldscribe.targets.vectors.scaled import scaled
-from fieldscribe.targets.vectors.uss import uss
+from fieldscribe.targets.vectors.uss import UssWire, uss
 from fieldscribe.targets.vectors.whole import bits, fixed, flags, names, specials, whole
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Callable, Iterable, Mapping
 
     from fieldscribe.model import Device, Point
     from fieldscribe.render import Render
+    from fieldscribe.targets.vectors.exchanges import Wire
 
-FORMAT = 1
-
-_FAMILIES = {"modbus": modbus, "can": can, "uss": uss}
-"""What each family adds for its frames."""
+_FAMILIES: Mapping[str, tuple[Callable[[Lines, Device], None], Callable[[Device], Wire]]] = {
+    "modbus": (modbus, ModbusWire),
+    "can": (can, CanWire),
+    "uss": (uss, UssWire),
+}
+"""What each family adds for its frames, and how points travel in it."""
 
 
 def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     """The one file of this target: its path, and one vector per line. `render` is not needed."""
     del render
-    lines = collect(device)
-    head = {
-        "format": FORMAT,
-        "device": device.id,
-        "version": device.version,
-        "digest": device.digest,
-        "counts": lines.counts,
-    }
-    opening = dumps(head, ensure_ascii=False)[:-1] + ', "vectors": [\n'
-    yield f"vectors/{device.id}.json", lines.text(opening, "\n]}\n")
+    yield f"vectors/{device.id}.txt", collect(device).text(device.id, device.version, device.digest)
 
 
 def runtime(device: Device) -> Iterable[tuple[str, str]]:
@@ -56,15 +50,22 @@ def collect(device: Device) -> Lines:
     """All vectors of a device: its points in the author's order, then its frames and blocks."""
     lines = Lines()
     oracle = Oracle({point.name: point for point in reversed(device.points)})
+    frames, wire = _FAMILIES[device.family]
+    exchanges = Exchanges(lines, oracle, device, wire(device))
+    exchanges.open()
     for point in device.points:
         if point.generated:
             _point(lines, oracle, point)
-    _FAMILIES[device.family](lines, device)
+            exchanges.of(point)
+            lines.gather()
+    frames(lines, device)
     return lines
 
 
 def _point(lines: Lines, oracle: Oracle, point: Point) -> None:
+    lines.set("point", point.item)
     address(lines, point)
+    facts(lines, point)
     if point.form == "scaled":
         scaled(lines, oracle, point)
     elif point.form == "float":
@@ -81,4 +82,3 @@ def _point(lines: Lines, oracle: Oracle, point: Point) -> None:
     fixed(lines, point)
     bits(lines, point)
     words(lines, point)
-    lines.gather()

@@ -2,19 +2,78 @@
 
 from __future__ import annotations
 
-from json import dumps
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.can import CanFrame, Receiver, build, checksum, identifier, parse
-from fieldscribe.targets.vectors.lines import Lines, array
+from fieldscribe.targets.vectors.exchanges import codes, writing_place
 from fieldscribe.targets.vectors.numbers import as_raw
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from fieldscribe.model import Device, Message, Point, Telegram
+    from fieldscribe.targets.vectors.exchanges import Script
+    from fieldscribe.targets.vectors.lines import Lines
 
 _NUMBERS = ((0, 0), (1, 1), (0x0102, 0xFEDC), (0xFFFF, 0xFFFF), (500, 1234), (0x00FF, 0xFF00), (0x8000, 0x8000))
+
+
+class CanWire:
+    """Exchanges of parameters, word by word; a frame is its identifier in four bytes and its data."""
+
+    def __init__(self, device: Device) -> None:
+        self.units = device.bus.units
+        self.unit = device.bus.units[0]
+        self.asks = {writes: _dialogue(device, writes=writes) for writes in (False, True)}
+
+    def opens(self, lines: Lines) -> None:
+        """The unit."""
+        lines.set("unit", self.unit)
+
+    def reads(self, point: Point, words: tuple[int, ...]) -> Script | None:
+        """A request and an answer for each word."""
+        return self._script(point.space, point.places[0].addresses, words, writes=False)
+
+    def writes(self, point: Point, words: tuple[int, ...], *, keep: bool) -> Script | None:
+        """A request and an answer for each word."""
+        return None if keep else self._script(point.space, writing_place(point).addresses, words, writes=True)
+
+    def _script(self, space: str, addresses: tuple[int, ...], words: tuple[int, ...], *, writes: bool) -> Script | None:
+        request, answer = self.asks[writes]
+        if space != "parameter" or request is None or answer is None:
+            return None
+        pairs = zip(sorted(addresses), words, strict=True)
+        return [
+            (self._sent(request, address, word if writes else 0), self._sent(answer, address, word))
+            for address, word in pairs
+        ]
+
+    def _sent(self, message: Message, address: int, raw: int) -> bytes:
+        return whole_frame(build(message, self.units, self.unit, address, raw)[1])
+
+    def spoils(self, point: Point, script: Script, *, writes: bool) -> Iterator[tuple[str, Script]]:
+        """No answer, or for a write another number than the one written."""
+        answer = self.asks[writes][1]
+        [(sent, good)] = script
+        yield "timeout", [(sent, b"")]
+        yield "timeout", [(sent, good[:3] + bytes((good[3] ^ 1,)) + good[4:])]
+        if answer is not None and writes and any(role.kind == "raw" for role in answer.roles):
+            word = parse(answer, self.unit, CanFrame(int.from_bytes(good[:4], "big"), good[4:])).raw
+            yield "echo_mismatch", [(sent, self._sent(answer, point.places[0].addresses[0], word ^ 0x0100))]
+
+
+def whole_frame(frame: CanFrame) -> bytes:
+    """A frame in bytes."""
+    return frame.id.to_bytes(4, "big") + frame.data
+
+
+def _dialogue(device: Device, *, writes: bool) -> tuple[Message | None, Message | None]:
+    """The message that reads or writes a parameter, and its answer."""
+    for request in device.messages:
+        kinds = {role.kind for role in request.roles}
+        if request.direction == "request" and "address" in kinds and ("raw" in kinds) == writes:
+            return request, next((one for one in device.messages if one.answers == request.name), None)
+    return None, None
 
 
 def can(lines: Lines, device: Device) -> None:
@@ -23,6 +82,12 @@ def can(lines: Lines, device: Device) -> None:
         if not any(role.kind == "word" for role in message.roles):
             _builds(lines, device.bus.units, message)
             _parses(lines, device.bus.units, message)
+    codes(lines, "constant", "exception", device.bus.exceptions)
+    for group in device.groups:
+        members = (one for one in device.points if one.generated and one.readable and one.group == group.name)
+        addresses = [address for one in members if one.space == "parameter" for address in one.addresses]
+        if addresses and _dialogue(device, writes=False)[0] is not None:
+            lines.add("group", group.name, list(dict.fromkeys(addresses)))
     for telegram in device.telegrams:
         _telegram(lines, device, telegram)
     lines.gather()
@@ -35,11 +100,8 @@ def _builds(lines: Lines, units: tuple[int, int], message: Message) -> None:
     for unit, address, raw in dict.fromkeys(tried):
         if unit >= 0:
             status, frame = build(message, units, unit, address, raw)
-            rest = f'"unit": {unit}, "address": {address}, "raw": {raw}, "status": "{status}"'
-            lines.add(
-                "can_build",
-                f'"message": {dumps(message.name)}, {rest}, "id": {frame.id}, "bytes": "{frame.data.hex()}"',
-            )
+            lines.set("message", message.name)
+            lines.add("can_build", unit, address, raw, status, *((frame.id, frame.data) if status == "ok" else ()))
 
 
 def _parses(lines: Lines, units: tuple[int, int], message: Message) -> None:
@@ -68,8 +130,9 @@ def _spoiled(good: CanFrame) -> Iterator[CanFrame]:
 
 def _parsed(lines: Lines, message: Message, unit: int, frame: CanFrame) -> None:
     found = parse(message, unit, frame)
-    head = f'"message": {dumps(message.name)}, "unit": {unit}, "id": {frame.id}, "bytes": "{frame.data.hex()}"'
-    lines.add("can_parse", f'{head}, "status": "{found.status}", "address": {found.address}, "raw": {found.raw}')
+    lines.set("message", message.name)
+    read = (found.address, found.raw) if found.status == "ok" else ()
+    lines.add("can_parse", unit, frame.id, frame.data, found.status, *read)
 
 
 def _telegram(lines: Lines, device: Device, telegram: Telegram) -> None:
@@ -77,9 +140,30 @@ def _telegram(lines: Lines, device: Device, telegram: Telegram) -> None:
     if message is None:
         return
     unit = device.bus.units[0]
-    for point in device.points:
-        if point.telegram == telegram.name and point.generated and point.form != "text":
-            _heard(lines, telegram, message, point, unit)
+    points = [one for one in device.points if one.telegram == telegram.name and one.generated and one.form != "text"]
+    for point in points:
+        _heard(lines, telegram, message, point, unit)
+    if message.words:
+        _misheard(lines, telegram, message, unit)
+
+
+def _misheard(lines: Lines, telegram: Telegram, message: Message, unit: int) -> None:
+    """Good frames, and one in which each byte that is no word is wrong; so once a telegram every role of a byte."""
+    data = bytearray({"constant": role.number, "unit": unit & 0xFF}.get(role.kind, 0) for role in message.roles)
+    for place, role in enumerate(message.roles):
+        if role.kind == "word":
+            data[place] = 0x35 + 0x11 * place & 0xFF
+    for place, role in enumerate(message.roles):
+        if role.kind == "xor":
+            data[place] = checksum(data, role.number)
+    good = CanFrame(identifier(message, unit), bytes(data))
+    frames = [good, CanFrame(good.id ^ 1, good.data), CanFrame(good.id, good.data[:-1])]
+    for place, role in enumerate(message.roles):
+        if role.kind != "word":
+            frames.append(CanFrame(good.id, bytes((*data[:place], data[place] ^ 0x80, *data[place + 1 :]))))
+    receiver = Receiver(telegram, message, unit)
+    lines.set("telegram", telegram.name, unit)
+    lines.add("can_taken", [(one.id, one.data) for one in frames], [int(receiver.take(one)) for one in frames])
 
 
 def _heard(lines: Lines, telegram: Telegram, message: Message, point: Point, unit: int) -> None:
@@ -133,8 +217,9 @@ class _Asking:
             pattern = pattern << 16 | word
         if self.point.bits is not None:
             pattern >>= self.point.bits[1]
-        raw = as_raw(self.point, pattern)
-        shown = ", ".join(f'[{frame.id}, "{frame.data.hex()}"]' for frame in frames)
-        head = f'"telegram": {dumps(self.telegram.name)}, "unit": {self.unit}, "frames": [{shown}]'
-        rest = f'"taken": {array(taken)}, "point": {dumps(self.point.item)}, "status": "{status}", "raw": {raw}'
-        self.lines.add("can_telegram", f"{head}, {rest}")
+        self.lines.set("point", self.point.item)
+        self.lines.set("telegram", self.telegram.name, self.unit)
+        shown = [(frame.id, frame.data) for frame in frames]
+        self.lines.add(
+            "can_telegram", shown, taken, status, *((as_raw(self.point, pattern),) if status == "ok" else ())
+        )

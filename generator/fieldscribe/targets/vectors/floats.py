@@ -5,12 +5,13 @@ from __future__ import annotations
 from math import inf, isfinite, isnan, nan, nextafter
 from typing import TYPE_CHECKING
 
-from fieldscribe.targets.vectors.lines import Lines, subject
-from fieldscribe.targets.vectors.numbers import bits32, bits64, exact_text, float_of_bits, float_text, hex64
-from fieldscribe.targets.vectors.oracle import is_no_value
+from fieldscribe.targets.vectors.numbers import bits32, bits64, float_of_bits
+from fieldscribe.targets.vectors.oracle import code_of
+from fieldscribe.targets.vectors.samples import codes
 
 if TYPE_CHECKING:
     from fieldscribe.model import Point
+    from fieldscribe.targets.vectors.lines import Lines
 
 _PATTERNS_32 = (
     0,
@@ -45,21 +46,20 @@ _GREATEST_64 = 1.7976931348623157e308
 
 def floats(lines: Lines, point: Point) -> None:
     """Decoding of patterns, encoding of values and checking; limits are compared after the conversion to the type."""
-    head, wide = subject(point.item), point.width == 64
+    wide = point.width == 64
     limits = _limits(point, wide)
     if point.readable:
         patterns = dict.fromkeys(_PATTERNS_64 if wide else _PATTERNS_32 + _EDGES_32)
-        for special in point.specials:
-            patterns.update({special.low: None, special.high: None})
+        patterns.update(dict.fromkeys(codes(point)))
         for bits in patterns:
-            lines.add("decode", f'{head}, "raw": {bits}, {_decoded(point, bits)}')
+            lines.add("decode", bits, *_decoded(point, bits))
     if point.writable:
         for value in dict.fromkeys(map(_Same, _values(point, limits, wide))):
-            text = f'"float": "{hex64(value.value)}", "value": "{float_text(value.value)}"'
-            lines.add("encode", f"{head}, {text}, {_encoded(value.value, limits, wide)}")
-        for bits in _patterns_to_check(limits, wide):
-            status = _admitted(float_of_bits(bits, point.width), limits)
-            lines.add("check", f'{head}, "raw": {bits}, "status": "{status}"')
+            lines.add("encode", value.value, *_encoded(point, value.value, limits))
+        for bits in dict.fromkeys((*_patterns_to_check(limits, wide), *codes(point))):
+            code = code_of(point, bits)
+            coded = None if code is None else "ok" if code.writable else "special"
+            lines.add("check", bits, coded or _admitted(float_of_bits(bits, point.width), limits))
 
 
 class _Same:
@@ -69,18 +69,15 @@ class _Same:
         self.value = value
 
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, _Same) and hex64(self.value) == hex64(other.value)
+        return isinstance(other, _Same) and bits64(self.value) == bits64(other.value)
 
     def __hash__(self) -> int:
-        return hash(hex64(self.value))
+        return hash(bits64(self.value))
 
 
-def _decoded(point: Point, bits: int) -> str:
-    if is_no_value(point, bits):
-        return '"status": "no_value"'
-    value = float_of_bits(bits, point.width)
-    text = exact_text(*value.as_integer_ratio()) if isfinite(value) else float_text(value)
-    return f'"status": "ok", "float": "{hex64(value)}", "value": "{text if len(text) <= 40 else float_text(value)}"'
+def _decoded(point: Point, bits: int) -> tuple[object, ...]:
+    code = code_of(point, bits)
+    return ("ok", float_of_bits(bits, point.width)) if code is None else ("special", None, code.name)
 
 
 def _limits(point: Point, wide: bool) -> list[tuple[float, float]]:
@@ -101,6 +98,7 @@ def _typed(value: float, wide: bool) -> float:
 
 def _values(point: Point, limits: list[tuple[float, float]], wide: bool) -> list[float]:
     values = [0.0, -0.0, 0.1, -1.5]
+    values += [value for raw in codes(point) if isfinite(value := float_of_bits(raw, point.width))]
     for low, high in point.allowed.units:
         for limit in (float(low), float(high)):
             values += [limit, nextafter(limit, inf), nextafter(limit, -inf), limit - 1, limit + 1]
@@ -139,12 +137,15 @@ def _patterns_to_check(limits: list[tuple[float, float]], wide: bool) -> list[in
     return list(dict.fromkeys(found))
 
 
-def _encoded(value: float, limits: list[tuple[float, float]], wide: bool) -> str:
+def _encoded(point: Point, value: float, limits: list[tuple[float, float]]) -> tuple[object, ...]:
     if not isfinite(value):
-        return '"status": "not_a_number"' if isnan(value) else '"status": "out_of_range"'
+        return ("not_a_number" if isnan(value) else "out_of_range",)
+    wide = point.width == 64
     pattern = bits64(value) if wide else bits32(value)
+    if pattern is not None and code_of(point, pattern) is not None:
+        return ("special",)
     status = "out_of_range" if pattern is None else _admitted(_typed(value, wide), limits)
-    return f'"status": "{status}"' + (f', "raw": {pattern}' if status == "ok" else "")
+    return (status, pattern if status == "ok" else None)
 
 
 def _admitted(number: float, limits: list[tuple[float, float]]) -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from json import dumps
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.modbus import (
@@ -19,24 +18,116 @@ from fieldscribe.families.modbus import (
     parse_request,
     profile_of,
 )
-from fieldscribe.targets.vectors.lines import Lines, array
+from fieldscribe.targets.vectors.exchanges import codes, writing_place
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-    from fieldscribe.model import Bus, Device
+    from fieldscribe.model import Bus, Device, Point
+    from fieldscribe.targets.vectors.exchanges import Script
+    from fieldscribe.targets.vectors.lines import Lines
 
 _READS = (0x01, 0x02, 0x03, 0x04)
 _TRANSACTION = 0x1234
 _ADDRESS = 0x0102
 
 
+_SPACES = {"coil": 0x01, "discrete": 0x02, "holding": 0x03, "input": 0x04}
+_WRITES = (0x05, 0x06, 0x0F, 0x10)
+
+
+class ModbusWire:
+    """Exchanges over the framing that the device knows first."""
+
+    def __init__(self, device: Device) -> None:
+        bus = device.bus
+        self.profile, self.bus = profile_of(bus), bus
+        low, _ = self.profile.units
+        self.unit = low if low != self.profile.broadcast else low + 1
+        self.framing = next(iter(_framings(bus)), "rtu")
+
+    def opens(self, lines: Lines) -> None:
+        """The unit and the framing."""
+        lines.set("unit", self.unit, self.framing)
+
+    def reads(self, point: Point, words: tuple[int, ...]) -> Script | None:
+        """One request for all words; they have to follow each other."""
+        place = point.places[0]
+        function = place.function if place.function in _READS else _SPACES[place.space]
+        return self.script(function, place.addresses, words)
+
+    def writes(self, point: Point, words: tuple[int, ...], *, keep: bool) -> Script | None:
+        """One request for all words, by the function that the manual names or the one for so many."""
+        place = writing_place(point)
+        if keep or place.space not in ("coil", "holding"):
+            return None
+        single, several = (0x05, 0x0F) if place.space == "coil" else (0x06, 0x10)
+        known = self.profile.most
+        usual = single if len(words) == 1 and single in known else several
+        function = place.function if place.function in _WRITES else usual
+        return self.script(function, place.addresses, words)
+
+    def script(self, function: int, addresses: tuple[int, ...], words: tuple[int, ...]) -> Script | None:
+        """One request for consecutive addresses and its answer; None where the device does not allow it."""
+        if max(addresses) - min(addresses) + 1 != len(words):
+            return None
+        reads = function in _READS
+        request = Request(self.unit, function, min(addresses), len(words), () if reads else words, self._transaction())
+        status, sent = build(self.profile, self.framing, request)
+        return [(sent, _frame(self.framing, request, answer_with(request, words)))] if status == "ok" else None
+
+    def _transaction(self) -> int:
+        """Every device object counts from 1."""
+        return 1 if self.framing == "tcp" else 0
+
+    def spoils(self, point: Point, script: Script, *, writes: bool) -> Iterator[tuple[str, Script]]:
+        """A refusal, a wrong checksum or protocol, another unit and another function."""
+        del point, writes
+        [(sent, good)] = script
+        request = parse_request(self.framing, sent)
+        if isinstance(request, str):
+            return
+        code = next((one.number for one in self.bus.exceptions), 2)
+        pdus = (bytes((request.function | 0x80, code)), bytes((request.function ^ 1,)) + good_answer(request)[1:])
+        bad = [_frame(self.framing, request, pdu) for pdu in pdus]
+        bad += [good[:-1], good + b"\x00", bytes((good[0] ^ 1,)) + good[1:], good[:-1] + bytes((good[-1] ^ 1,))]
+        for answer in dict.fromkeys(bad):
+            reply = parse_reply(self.framing, request, answer)
+            if reply.status != "ok":
+                yield reply.status, [(sent, answer)]
+
+
+def answer_with(request: Request, words: tuple[int, ...]) -> bytes:
+    """The PDU of a device that has these words, or takes them."""
+    head = bytes((request.function,))
+    if request.function in (0x01, 0x02):
+        data = sum(bit << place for place, bit in enumerate(words)).to_bytes((len(words) + 7) // 8, "little")
+    elif request.function in (0x03, 0x04):
+        data = b"".join(word.to_bytes(2, "big") for word in words)
+    else:
+        return good_answer(request)
+    return head + bytes((len(data),)) + data
+
+
 def modbus(lines: Lines, device: Device) -> None:
     """Everything about Modbus frames."""
+    codes(lines, "code", "exception", device.bus.exceptions)
+    commands(lines, device)
     builds(lines, device.bus)
     replies(lines, device.bus)
     printed(lines, device)
     blocks(lines, device)
+
+
+def commands(lines: Lines, device: Device) -> None:
+    """Each command sent and answered, by itself and with a refusal."""
+    wire = ModbusWire(device)
+    wire.opens(lines)
+    for command in device.commands:
+        value = 1 if command.value is None else command.value
+        script = wire.script(command.function, (command.address,), (value,))
+        if script is not None:
+            lines.add("command", command.name, value, script, "ok")
 
 
 def builds(lines: Lines, bus: Bus) -> None:
@@ -45,19 +136,18 @@ def builds(lines: Lines, bus: Bus) -> None:
     for framing in _framings(bus):
         for request in dict.fromkeys(_requests(profile, framing)):
             status, data = build(profile, framing, request)
-            lines.add("build", f'{_request_text(framing, request)}, "status": "{status}", "bytes": "{data.hex()}"')
+            _ask(lines, framing, request)
+            lines.add("build", status, data)
 
 
 def _framings(bus: Bus) -> tuple[str, ...]:
     return tuple(framing for framing in bus.framings if framing in FRAMINGS)
 
 
-def _request_text(framing: str, request: Request) -> str:
-    what = f'"count": {request.count}' if request.function in _READS else f'"values": {array(request.values)}'
-    return (
-        f'"framing": "{framing}", "unit": {request.unit}, "transaction": {request.transaction}, '
-        f'"function": {request.function}, "address": {request.address}, {what}'
-    )
+def _ask(lines: Lines, framing: str, request: Request) -> None:
+    """The request that the next vectors are about: reads have a count, writes as many values."""
+    head = framing, request.unit, request.transaction, request.function, request.address
+    lines.set("request", *head, request.count, () if request.function in _READS else request.values)
 
 
 def _requests(profile: Profile, framing: str) -> Iterator[Request]:
@@ -195,12 +285,12 @@ def _single_bit_errors(data: bytes) -> Iterator[bytes]:
 
 
 def _reply(lines: Lines, framing: str, request: Request, data: bytes) -> None:
-    lines.add("reply", f"{_request_text(framing, request)}, {_reply_text(data, parse_reply(framing, request, data))}")
+    _ask(lines, framing, request)
+    lines.add("reply", data, *_answer(parse_reply(framing, request, data)))
 
 
-def _reply_text(data: bytes, reply: Reply) -> str:
-    rest = f'"values_out": {array(reply.values)}, "exception": {reply.exception}'
-    return f'"bytes": "{data.hex()}", "status": "{reply.status}", {rest}'
+def _answer(reply: Reply) -> tuple[object, ...]:
+    return reply.status, reply.values, reply.exception if reply.status == "exception" else None
 
 
 def printed(lines: Lines, device: Device) -> None:
@@ -208,17 +298,14 @@ def printed(lines: Lines, device: Device) -> None:
     profile = profile_of(device.bus)
     requests: dict[str, Request] = {}
     for one in device.frames:
-        head = f'"frame": {dumps(one.name)}, '
         if one.direction == "request":
             request = parse_request(one.framing, one.corrected)
             if isinstance(request, str):
                 continue
             requests[one.name] = request
             status, data = build(profile, one.framing, request)
-            lines.add(
-                "printed_build",
-                f'{head}{_request_text(one.framing, request)}, "status": "{status}", "bytes": "{data.hex()}"',
-            )
+            _ask(lines, one.framing, request)
+            lines.add("printed_build", one.name, status, data)
             echoes = request.function in (0x05, 0x06, 0x08)
             answers: Iterable[bytes] = (one.printed,) if echoes and not one.valid else ()
         else:
@@ -228,12 +315,12 @@ def printed(lines: Lines, device: Device) -> None:
             request, answers = asked, dict.fromkeys((one.printed, one.corrected))
         for data in answers:
             reply = parse_reply(one.framing, request, data)
-            lines.add("printed_reply", f"{head}{_request_text(one.framing, request)}, {_reply_text(data, reply)}")
+            _ask(lines, one.framing, request)
+            lines.add("printed_reply", one.name, data, *_answer(reply))
 
 
 def blocks(lines: Lines, device: Device) -> None:
     """The batched reads of each group."""
     for group, found in device.blocks.items():
         for index, block in enumerate(found):
-            where = f'"space": {dumps(block.space)}, "function": {block.function}, "address": {block.address}'
-            lines.add("block", f'"group": {dumps(group)}, "index": {index}, {where}, "count": {block.count}')
+            lines.add("block", group, index, block.space, block.function, block.address, block.count)

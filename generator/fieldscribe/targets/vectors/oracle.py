@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from fieldscribe.targets.vectors.numbers import EXACT, INFINITY, float_of_bits, half_away, quotient
 
 if TYPE_CHECKING:
-    from fieldscribe.model import Bound, Factor, Limit, Linear, Point
+    from fieldscribe.model import Bound, Factor, Limit, Linear, Point, Special
 
 Settings = Mapping[str, int]
 """Raw numbers of the points that a rule or a limit needs."""
@@ -126,12 +126,19 @@ class Oracle:
 
     def _with_factors(self, rule: Linear, settings: Settings) -> Ratio | str:
         numbers = self._numbers(settings)
+        if any(self._is_code(factor.point, settings[factor.point]) for factor in rule.factors):
+            return "zero_factor"
         if any(_number(factor, numbers) == 0 for factor in rule.factors if not factor.ten_to):
             return "zero_factor"
         if any(not self.exponent_fits(factor, settings) for factor in rule.factors if factor.ten_to):
             return "overflow"
         over, under = _product(rule, numbers)
         return Ratio(over, under, rule.offset.numerator, rule.offset.denominator)
+
+    def _is_code(self, name: str, raw: int) -> bool:
+        """Whether a point holds what is no quantity, so that nothing can be computed with it."""
+        source = self.points.get(name)
+        return source is not None and code_of(source, raw) is not None
 
     def _numbers(self, settings: Settings) -> Numbers:
         return {name: self._value(name, raw) for name, raw in settings.items()}
@@ -173,7 +180,7 @@ class Oracle:
     def _bound(self, bound: Bound, settings: Settings, *, lower: bool) -> int | str:
         if isinstance(bound, int):
             return bound
-        if any(codes and settings[name] in codes for name, codes in bound.unless):
+        if any(low <= settings[name] <= high for name, codes in bound.unless for low, high in codes):
             return bound.least if lower else bound.greatest
         factors, numbers = bound.rule.factors, self._numbers(settings)
         if any(self._is_no_factor(one, numbers) for one in factors):
@@ -184,8 +191,14 @@ class Oracle:
         return max(bound.least, number) if lower else min(bound.greatest, number)
 
 
-def admit(point: Point, raw: int, limits: Sequence[tuple[int, int]]) -> str:
-    """Whether a raw number may be written within these limits: `ok`, `out_of_range`, `unknown_value`."""
+def admit(point: Point, raw: int, limits: Sequence[tuple[int, int]], *, by_value: bool = False) -> str:
+    """Whether a raw number may be written within these limits: `ok`, `special`, `out_of_range`, `unknown_value`.
+
+    `by_value` says that it follows from a value, which never means a special code.
+    """
+    code = code_of(point, raw)
+    if code is not None:
+        return "ok" if code.writable and not by_value else "special"
     if any(low <= raw <= high for low, high in limits):
         return "ok"
     closed = point.form == "enum" and point.enum is not None and point.enum.closed
@@ -199,6 +212,14 @@ def outer_bounds(point: Point) -> tuple[int, int]:
     return (min(lows), max(highs)) if lows else (point.least, point.greatest)
 
 
-def is_no_value(point: Point, raw: int) -> bool:
-    """Whether the number says that there is no value."""
-    return any(special.no_value and special.low <= raw <= special.high for special in point.specials)
+def code_of(point: Point, raw: int) -> Special | None:
+    """The special code that a raw number is, if it is one."""
+    found = [one for one in point.specials if one.low <= raw <= one.high]
+    return found[0] if found else None
+
+
+def quantity_at_most(point: Point, raw: int) -> int:
+    """The number itself, or the next below it that is no special code."""
+    while (code := code_of(point, raw)) is not None:
+        raw = code.low - 1
+    return raw

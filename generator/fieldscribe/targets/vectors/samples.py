@@ -39,8 +39,7 @@ def edges(limits: Limits) -> dict[int, None]:
 def raws_to_decode(point: Point, limits: Limits) -> list[int]:
     """Raw numbers that the point's bits hold: limits, edges of the type and of the sign, special codes."""
     found = {raw: None for interval in limits for raw in interval}
-    for special in point.specials:
-        found.update({special.low: None, special.high: None})
+    found.update(dict.fromkeys(codes(point)))
     found.update({point.least: None, point.greatest: None})
     if point.least < 0:
         found.update({-1: None, 0: None})
@@ -50,10 +49,14 @@ def raws_to_decode(point: Point, limits: Limits) -> list[int]:
 def raws_to_check(point: Point, limits: Limits) -> list[int]:
     """Raw numbers that the point's bits hold: limits, one beyond each, edges of the type, special codes."""
     found = edges(limits)
-    for special in point.specials:
-        found.update({special.low: None, special.high: None})
+    found.update(dict.fromkeys(codes(point)))
     found.update({point.least: None, point.greatest: None})
     return _held(point, found)
+
+
+def codes(point: Point) -> list[int]:
+    """The ends of the special codes, and one beyond each, as far as the bits hold them."""
+    return _held(point, (raw for one in point.specials for raw in (one.low, one.high, one.low - 1, one.high + 1)))
 
 
 def _held(point: Point, numbers: Iterable[int]) -> list[int]:
@@ -139,8 +142,12 @@ def _typical(oracle: Oracle, point: Point, name: str) -> int:
 
 def _choices(oracle: Oracle, point: Point, name: str) -> list[int]:
     """Raw numbers for one argument, as far as its point holds them: ends, cases, zeros, codes that lift limits."""
-    if (source := oracle.points.get(name)) is not None and source.info.floating:
-        return list(_FACTORS_32)
+    bands = [band for limit in limits_of(point) for other, codes in limit.unless if other == name for band in codes[:4]]
+    lifting = [code for low, high in bands for code in (low, high, high + 1)]
+    source = oracle.points.get(name)
+    lifting += [] if source is None else [one.low for one in source.specials[:4]]
+    if source is not None and source.info.floating:
+        return [raw for raw in dict.fromkeys((*_FACTORS_32, *lifting)) if raw <= source.greatest]
     low, high = _bounds(oracle, name)
     cases = [case.raw for case in point.scale or () if case.point == name and case.raw is not None]
     found = [*cases, max(cases) + 1] if cases else [low, high]
@@ -151,9 +158,7 @@ def _choices(oracle: Oracle, point: Point, name: str) -> list[int]:
             found += [low - 1, high + 1]
         elif factor.slope and factor.intercept % factor.slope == 0:
             found.append(-factor.intercept // factor.slope)
-    found += [
-        code for limit in limits_of(point) for other, codes in limit.unless if other == name for code in codes[:4]
-    ]
+    found += lifting
     return [raw for raw in dict.fromkeys(found) if source is None or source.least <= raw <= source.greatest]
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from json import dumps
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.uss import (
@@ -19,19 +18,114 @@ from fieldscribe.families.uss import (
     parse,
     telegram,
 )
-from fieldscribe.targets.vectors.lines import Lines, array
+from fieldscribe.targets.vectors.exchanges import codes, writing_place
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from fieldscribe.model import Bus, Device, Frame
+    from fieldscribe.model import Bus, Device, Frame, Point
+    from fieldscribe.targets.vectors.exchanges import Script
+    from fieldscribe.targets.vectors.lines import Lines
 
 _TASK_WIDTHS = {2: 1, 3: 2, 7: 1, 8: 2, 11: 2, 12: 1, 13: 2, 14: 1}
 """How many words of value the tasks that change something carry."""
 
 
+_RAM = {(1, False): 2, (2, False): 3, (1, True): 7, (2, True): 8}
+_EEPROM = {(1, False): 14, (2, False): 13, (1, True): 12, (2, True): 11}
+"""The tasks that change a parameter of so many words, or an element of an array."""
+
+
+class UssWire:
+    """Exchanges over the link that carries the most that every variant takes."""
+
+    def __init__(self, device: Device) -> None:
+        self.bus = device.bus
+        self.unit = device.bus.units[0]
+        pkw = next((one for one in (VARIABLE, 4, 3) if one in device.bus.pkw), 0)
+        self.link = Link(pkw, min(device.bus.pzd[1], *(most for _, most in device.bus.variant_pzd), 255))
+        self.directions = {one.name: one.direction for one in device.telegrams}
+        self.tasks = {code.number: code.answers for code in device.bus.functions}
+
+    def opens(self, lines: Lines) -> None:
+        """The unit and the link."""
+        lines.set("unit", self.unit)
+        lines.set("link", self.link.pkw, self.link.pzd)
+
+    def reads(self, point: Point, words: tuple[int, ...]) -> Script | None:
+        """A parameter by its task; a word of process data with the answer to no task."""
+        if point.text is not None or len(words) > 2:
+            return None
+        if point.telegram is None:
+            return self._change(point, 1, words, len(words), asks=True)
+        if self.directions.get(point.telegram) != "response" or max(point.addresses) >= self.link.pzd:
+            return None
+        return self._process((0,) * self.link.pzd, self._placed(point, words))
+
+    def writes(self, point: Point, words: tuple[int, ...], *, keep: bool) -> Script | None:
+        """A parameter by its task for RAM or EEPROM; a word of process data with no task."""
+        if point.text is not None or len(words) > 2:
+            return None
+        if point.telegram is None:
+            tasks = _EEPROM if keep else _RAM
+            if keep and point.keeps == "no":
+                return None
+            return self._change(point, tasks[len(words), point.index is not None], words, 0, asks=False)
+        if keep or self.directions.get(point.telegram) != "request" or max(point.addresses) >= self.link.pzd:
+            return None
+        return self._process(self._placed(point, words), (0,) * self.link.pzd)
+
+    def _placed(self, point: Point, words: tuple[int, ...]) -> tuple[int, ...]:
+        placed = dict(zip(sorted(point.addresses), words, strict=True))
+        return tuple(placed.get(at, 0) for at in range(self.link.pzd))
+
+    def _process(self, sent: tuple[int, ...], heard: tuple[int, ...]) -> Script | None:
+        status, data = build(self.bus, self.link, Request(self.unit, 0, words=sent))
+        empty = (0,) * (3 if self.link.pkw == VARIABLE else self.link.pkw)
+        return [(data, telegram(self.unit, (*empty, *heard)))] if status == "ok" else None
+
+    def _change(self, point: Point, task: int, words: tuple[int, ...], width: int, *, asks: bool) -> Script | None:
+        """One task for a parameter; `words` with the high one first are what it holds or is given."""
+        number = 0
+        for word in words:
+            number = number << 16 | word
+        quiet = (0,) * self.link.pzd
+        place = point.places[0] if asks else writing_place(point)
+        given = (0, 0) if asks else (len(words), number)
+        request = Request(self.unit, task, place.addresses[0], point.index or 0, *given, quiet)
+        status, data = build(self.bus, self.link, request)
+        answers = self.tasks.get(task, ())
+        double = [one for one in answers if (one in DOUBLE_RESPONSES) == (len(words) == 2)]
+        if status != "ok" or not double or (len(words) == 2 and self.link.pkw == 3):
+            return None
+        head = parameter_words(double[0], request.parameter, request.index)
+        part = list(head) + (list(words) if len(words) == 2 else [words[0]])
+        if self.link.pkw == 4 and len(words) == 1:
+            part = [*head, 0, words[0]]
+        return [(data, telegram(self.unit, (*part, *quiet)))]
+
+    def spoils(self, point: Point, script: Script, *, writes: bool) -> Iterator[tuple[str, Script]]:
+        """A refusal, a wrong check byte, another unit, and a telegram that is cut."""
+        del writes
+        [(sent, good)] = script
+        if point.telegram is not None:
+            return
+        words = [int.from_bytes(good[at : at + 2], "big") for at in range(3, len(good) - 1, 2)]
+        refused = telegram(self.unit, (words[0] & 0x0FFF | 0x7000, words[1], 17, *words[-self.link.pzd :]))
+        if self.link.pkw == 4:
+            refused = telegram(self.unit, (words[0] & 0x0FFF | 0x7000, words[1], 0, 17, *words[4:]))
+        yield "refused", [(sent, refused)]
+        yield "wrong_check", [(sent, good[:-1] + bytes((good[-1] ^ 1,)))]
+        yield "wrong_unit", [(sent, telegram(self.unit ^ 1, tuple(words)))]
+        yield "wrong_length", [(sent, good[:-1])]
+        yield "wrong_start", [(sent, bytes((START ^ 1,)) + good[1:])]
+
+
 def uss(lines: Lines, device: Device) -> None:
     """Everything about the telegrams of a USS device."""
+    codes(lines, "constant", "task", device.bus.functions)
+    codes(lines, "constant", "response", device.bus.responses)
+    codes(lines, "code", "error", device.bus.exceptions)
     for link in _links(device.bus):
         dialogue = _Dialogue(lines, device.bus, link)
         _builds(dialogue)
@@ -47,36 +141,34 @@ class _Dialogue:
     def __init__(self, lines: Lines, bus: Bus, link: Link) -> None:
         self.lines, self.bus, self.link = lines, bus, link
         self.words = tuple(0x047F + 0x3333 * place & 0xFFFF for place in range(link.pzd))
-        self._set = f'"pkw": {link.pkw}, "pzd": {link.pzd}'
 
-    def _head(self, request: Request) -> str:
-        first = "true" if self.link.single_first else "false"
-        asked = f'"task": {request.task}, "parameter": {request.parameter}, "index": {request.index}'
-        return f'{self._set}, "single_first": {first}, "unit": {request.unit}, {asked}'
+    def _ask(self, request: Request) -> None:
+        self._on_link()
+        asked = request.unit, request.task, request.parameter, request.index
+        self.lines.set("task", *asked, request.width, request.value, request.words)
+
+    def _on_link(self) -> None:
+        self.lines.set("link", self.link.pkw, self.link.pzd, 1 if self.link.single_first else None)
 
     def built(self, request: Request, frame: str | None = None) -> None:
         """The bytes of a request; `frame` names the manual's example that it is."""
-        status, data = build(self.bus, self.link, request)
-        rest = f'"width": {request.width}, "value": {request.value}, "words": {array(request.words)}'
         kind, lead = _kind("build", frame)
-        self.lines.add(kind, f'{lead}{self._head(request)}, {rest}, "status": "{status}", "bytes": "{data.hex()}"')
+        self._ask(request)
+        self.lines.add(kind, *lead, *build(self.bus, self.link, request))
 
     def answered(self, request: Request, data: bytes, frame: str | None = None) -> None:
         """What bytes say as the answer to a request."""
         found = parse(self.bus, self.link, request, data)
-        rest = (
-            f'"response": {found.response}, "width": {found.width}, "value": {found.value}, '
-            f'"error": {found.error}, "words": {array(found.words)}'
-        )
         kind, lead = _kind("reply", frame)
-        head = f'{lead}{self._head(request)}, "bytes": "{data.hex()}"'
-        self.lines.add(kind, f'{head}, "status": "{found.status}", {rest}')
+        self._ask(request)
+        parts: dict[str, tuple[object, ...]] = {"ok": (found.response, found.width, found.value, 0, found.words)}
+        parts["refused"] = (found.response, 0, 0, found.error)
+        self.lines.add(kind, *lead, data, found.status, *parts.get(found.status, ()))
 
     def sent(self, mask: tuple[int, ...], words: tuple[int, ...]) -> None:
         """A telegram to all units."""
-        status, data = broadcast(self.bus, self.link, mask, words)
-        head = f'{self._set}, "mask": {array(mask)}, "words": {array(words)}'
-        self.lines.add("uss_broadcast", f'{head}, "status": "{status}", "bytes": "{data.hex()}"')
+        self._on_link()
+        self.lines.add("uss_broadcast", mask, words, *broadcast(self.bus, self.link, mask, words))
 
     def parameter_part(self, request: Request, response: int) -> tuple[int, ...]:
         """That of an answer, with recognisable values; of variable length as long as it must be."""
@@ -87,8 +179,8 @@ class _Dialogue:
         return (number, index, 0x4248, 0x0006)[:size]
 
 
-def _kind(what: str, frame: str | None) -> tuple[str, str]:
-    return (f"uss_{what}", "") if frame is None else (f"uss_printed_{what}", f'"frame": {dumps(frame)}, ')
+def _kind(what: str, frame: str | None) -> tuple[str, tuple[str, ...]]:
+    return (f"uss_{what}", ()) if frame is None else (f"uss_printed_{what}", (frame,))
 
 
 def _links(bus: Bus) -> Iterator[Link]:

@@ -1,0 +1,248 @@
+"""Special codes of a point: its own and its format's, then those of its group and of the device, for all or by type."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, NamedTuple
+
+from fieldscribe.language.meant import interval_meant
+from fieldscribe.model import TYPES, Allowed, Interval, Special
+from fieldscribe.resolve.drafts import groups
+from fieldscribe.resolve.enums import entry_titles, name_of
+from fieldscribe.resolve.values import integer
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from fieldscribe.diagnostics import Span
+    from fieldscribe.language.nodes import Map
+    from fieldscribe.resolve.drafts import Draft
+    from fieldscribe.resolve.scope import Scope
+
+_PATTERN = re.compile(r"[+]?(?:0[xXb]|[hH]'|.*[hH]$)")
+"""What marks a number that is not decimal: the pattern of bits as manuals print it."""
+
+
+class _Code(NamedTuple):
+    """An entry of `special`; one without a name takes an inherited code away."""
+
+    low: int
+    high: int
+    hexadecimal: bool
+    name: str | None
+    holder: Map
+    key: str
+
+    @property
+    def span(self) -> Span:
+        """Where the number stands."""
+        return self.holder.key_span(self.key)
+
+
+class _Level(NamedTuple):
+    """Codes that one place declares; `label` is empty for the point itself."""
+
+    label: str
+    codes: Map
+
+
+@dataclass(slots=True)
+class SpecialCodes:
+    """The special codes of all points of a device; those that many inherit are worked out once."""
+
+    scope: Scope
+    _told: set[tuple[Span, str]] = field(default_factory=set)
+    _held: dict[tuple[int, str, int], tuple[_Code, ...]] = field(default_factory=dict)
+    _found: dict[tuple[object, ...], tuple[tuple[Special, ...], str]] = field(default_factory=dict)
+
+    def check_types(self) -> None:
+        """Findings for codes of types that no point may have: nobody else looks at those."""
+        for holder in (self.scope.header, *groups(self.scope)):
+            for kind, facts in holder.get("types", {}).items():
+                if "special" in facts:
+                    self.held(facts["special"], kind, TYPES[kind].bits)
+
+    def of(self, draft: Draft, kind: str, bits: tuple[int, int] | None) -> tuple[tuple[Special, ...], str]:
+        """The codes of a point of type `kind`, the nearest first, and the name of what declares those not its own."""
+        levels = tuple(_levels(self.scope, draft, kind, bits))
+        if not levels:
+            return (), ""
+        width = TYPES[kind].bits if bits is None else bits[0] - bits[1] + 1
+        key = (*(id(level.codes) for level in levels), kind, width)
+        if key not in self._found:
+            self._found[key] = self._found_of(levels, kind, width)
+        return self._found[key]
+
+    def _found_of(self, levels: tuple[_Level, ...], kind: str, width: int) -> tuple[tuple[Special, ...], str]:
+        codes = self._merged([self.held(level.codes, kind, width) for level in levels])
+        shared = [level for level in levels if level.label]
+        inherited = self._merged([self.held(level.codes, kind, width) for level in shared])
+        whole = bool(inherited) and all(any(one.span == code.span for code in codes) for one in inherited)
+        labels = dict.fromkeys(level.label for level in reversed(shared) if level.label != kind)
+        own = {id(level.codes) for level in levels if not level.label or not whole}
+        specials = tuple(_special(code, id(code.holder) in own) for code in codes)
+        return specials, "_".join((*labels, kind)) if whole else ""
+
+    def held(self, raw: Map, kind: str, width: int) -> tuple[_Code, ...]:
+        """What one `special` says, as raw numbers of that type; findings for what it cannot hold or is given twice."""
+        key = (id(raw), kind, width)
+        if key not in self._held:
+            kept: list[_Code] = []
+            for code in self._numbers(raw, kind, width):
+                if not any(self._clash(code, other) for other in kept):
+                    kept.append(code)
+            self._held[key] = tuple(kept)
+        return self._held[key]
+
+    def _numbers(self, raw: Map, kind: str, width: int) -> Iterator[_Code]:
+        info = TYPES[kind]
+        least, greatest = (-(1 << width - 1), (1 << width - 1) - 1) if info.signed else (0, (1 << width) - 1)
+        for key, value in raw.items():
+            span = raw.key_span(key)
+            meant = None if ".." in key else interval_meant(key)
+            if meant is not None:
+                self._report("bad-number", f"`{key[:60]}` is no band", span, f"write {meant}")
+                continue
+            first, dots, last = key.partition("..")
+            texts = [first.strip(), last.strip()] if dots else [first.strip()]
+            ends = [integer(text, span, self.scope.report) for text in texts]
+            numbers = [one for one in ends if one is not None]
+            if len(numbers) < len(ends):
+                continue
+            patterns = [bool(_PATTERN.match(text)) for text in texts]
+            if info.signed:  # manuals print the pattern of a negative code
+                numbers = [
+                    one - (1 << width) if pattern and greatest < one < 1 << width else one
+                    for one, pattern in zip(numbers, patterns, strict=True)
+                ]
+            low, high = numbers[0], numbers[-1]
+            if low > high:
+                self._report("range-reversed", f"`{key}` runs downwards", span, "the smaller number stands first")
+            elif info.floating and not all(patterns):
+                message = f"a special code of an {kind} is its pattern of bits, and {key} is decimal"
+                self._report("float-fact", message, span, "write the pattern in hexadecimal, as in 7FC00000h")
+            elif not least <= low <= high <= greatest:
+                message = f"the code {key} lies outside the type, which holds {least}..{greatest}"
+                hint = "correct the code or the `type`; codes of the points of one type go under `types`"
+                self._report("range-outside-type", message, span, hint)
+            else:
+                yield _Code(low, high, all(patterns), None if value is None else name_of(value), raw, key)
+
+    def _merged(self, levels: list[tuple[_Code, ...]]) -> list[_Code]:
+        """The codes of all levels, the nearest first; a nearer one without a name takes one away."""
+        kept: list[_Code] = []
+        away: list[_Code] = []
+        used: set[Span] = set()
+        for codes in levels:
+            nearer, takers = list(kept), list(away)
+            for code in codes:
+                taken = [one.span for one in takers if one[:2] == code[:2]]
+                used.update(taken)
+                if code.name is None:
+                    away.append(code)
+                elif not taken and not any(self._beats(one, code) for one in nearer):
+                    kept.append(code)
+        for one in away:
+            if one.span not in used:
+                message = f"there is no special code {one.key} to take away"
+                hint = "give it a name, or leave it out; a band is taken away as it was declared"
+                self._report("unknown-code", message, one.span, hint)
+        return kept
+
+    def _beats(self, nearer: _Code, code: _Code) -> bool:
+        """Whether a nearer code of that name or of just these numbers wins; sharing some of them is a finding."""
+        return nearer.name == code.name or nearer[:2] == code[:2] or self._clash(code, nearer)
+
+    def _clash(self, code: _Code, other: _Code) -> bool:
+        """Whether two codes of one point share a number or a name; a finding with both places."""
+        if code.low <= other.high and other.low <= code.high:
+            differ = None not in (code.name, other.name) and code.name != other.name
+            message = f"the special code {code.key} is given twice"
+            message += f", as `{other.name}` and as `{code.name}`" if differ else ""
+            self._report("special-twice", message, code.span, "remove one of them", other.span)
+            return True
+        if code.name is not None and code.name == other.name:
+            message = f"two special codes have the name `{code.name}`"
+            place = code.holder.span(code.key), "names are unique in a point", other.holder.span(other.key)
+            self._report("special-twice", message, *place)
+            return True
+        return False
+
+    def _report(self, rule: str, message: str, span: Span, hint: str, first: Span | None = None) -> None:
+        if (span, message) not in self._told:
+            self._told.add((span, message))
+            related = [(first, "first given here")] if first is not None else []
+            self.scope.report.error(rule, message, span, hint, related)
+
+
+def _levels(scope: Scope, draft: Draft, kind: str, bits: tuple[int, int] | None) -> Iterator[_Level]:
+    """Where the codes of a point are declared, the nearest first.
+
+    A group and the device speak of whole words: of all whole numbers, or of the points of one type. Bit groups, single
+    bits, texts and what is not settled have their own codes alone.
+    """
+    if kind == "text":
+        return
+    shared = scope.formats.get(str(draft.get("format"))) if draft.layer("format") is not None else None
+    for layer in draft.layers:
+        if layer.get("special"):
+            yield _Level(str(draft.get("format")) if layer is shared else "", layer["special"])
+    unsettled = (draft.layer("type") is not None and draft.get("type") is None) or draft.get("untyped") is not None
+    if bits is not None or kind == "bit" or unsettled or draft.failed & {"type", "bits"}:
+        return
+    for holder, label in ((draft.group, str(draft.group["group"])), (scope.header, kind)):
+        of_type = holder.get("types", {}).get(kind, {}).get("special")
+        if of_type:
+            yield _Level(label, of_type)
+        if holder.get("special") and not TYPES[kind].floating:
+            yield _Level(label, holder["special"])
+
+
+def quantities(scope: Scope, draft: Draft, allowed: Allowed, specials: tuple[Special, ...]) -> Allowed:
+    """What a range allows, without the special codes; a finding where nothing is left."""
+    found = without_codes(allowed, specials)
+    if found.intervals or not allowed.intervals:
+        return found
+    message = f"`{draft.name}` has no number that is a quantity: all that it allows are special codes"
+    key = next((key for key in ("range", "range_in_units", "enum") if draft.layer(key) is not None), None)
+    scope.report.error("enum-outside-range", message, draft.span(key), "correct the range or the codes")
+    return allowed
+
+
+def without_codes(allowed: Allowed, specials: tuple[Special, ...]) -> Allowed:
+    """The intervals without the codes, as far as their ends are known."""
+    found: list[Interval] = []
+    for one in allowed.intervals:
+        if isinstance(one.low, int) and isinstance(one.high, int):
+            found += _without(one.low, one.high, specials)
+        else:
+            found.append(one)
+    return replace(allowed, intervals=tuple(found))
+
+
+def _without(low: int, high: int, specials: tuple[Special, ...]) -> list[Interval]:
+    """The parts of low..high between the codes."""
+    parts = []
+    for one in sorted(specials, key=lambda one: one.low):
+        if low <= one.high and one.low <= high:
+            if low < one.low:
+                parts.append(Interval(low, one.low - 1))
+            low = one.high + 1
+    return [*parts, Interval(low, high)] if low <= high else parts
+
+
+def _special(code: _Code, own: bool) -> Special:
+    value = code.holder[code.key]
+    facts = {} if isinstance(value, str) else value
+    name = str(code.name)
+    return Special(
+        code.low,
+        code.high,
+        name,
+        entry_titles(value, name),
+        facts.get("no_value") in (True, "yes"),
+        facts.get("writable") in (True, "yes"),
+        code.hexadecimal,
+        own,
+    )

@@ -1,0 +1,81 @@
+"""The special codes that a type, a group or a format declares for many points: once each, and all codes as a sheet."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from fieldscribe import wording
+from fieldscribe.targets.docs.cells import Table, anchor, by_rows, cell, code
+from fieldscribe.text import csv_cell
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from fieldscribe.model import Device, Point, Special
+
+_HEADS = ("of", "type", "code", "raw_first", "raw_last", "name", "no_value", "writable")
+
+
+@dataclass(frozen=True, slots=True)
+class CodesView:
+    """The codes that many points share: `users` says how many of which type."""
+
+    anchor: str
+    heading: str
+    users: str
+    rows: Table
+
+
+def code_views(device: Device) -> Iterator[CodesView]:
+    """The shared codes, in the order in which points first have them."""
+    for name, points in _sharing(device).items():
+        rows = [
+            (
+                wording.special_numbers(one, points[0].width),
+                code(one.name),
+                cell(wording.title_text(one.title)),
+                cell(wording.special_remarks(one)),
+            )
+            for one in points[0].specials
+            if not one.own
+        ]
+        made = by_rows(("Raw", "Name", "Title", "Remarks"), rows)
+        assert made is not None, "who shares codes has some"
+        count = f"{len(points)} point{'' if len(points) == 1 else 's'} of type {points[0].type}"
+        yield CodesView(anchor("codes", name), cell(name), count, made)
+
+
+def sheet_of_codes(device: Device) -> list[str]:
+    """The lines of the table of all codes, its head first: a row a code, of one point or of those that share it."""
+    languages = tuple(dict.fromkeys(key for point in device.points for one in point.specials for key in one.title))
+    shared = [(name, points[0], False) for name, points in _sharing(device).items()]
+    owners = [*shared, *((point.item, point, True) for point in device.points)]
+    rows = [
+        _row(name, point, one, languages) for name, point, own in owners for one in point.specials if one.own == own
+    ]
+    heads = (*_HEADS, *(f"title_{key}" for key in languages))
+    return [",".join(map(csv_cell, row)) for row in (heads, *rows)] if rows else []
+
+
+def _row(name: str, point: Point, one: Special, languages: tuple[str, ...]) -> tuple[str, ...]:
+    return (
+        name,
+        point.type,
+        wording.special_numbers(one, point.width),
+        str(one.low),
+        str(one.high),
+        one.name,
+        "yes" if one.no_value else "no",
+        "yes" if one.writable else "no",
+        *(one.title.get(key, "") for key in languages),
+    )
+
+
+def _sharing(device: Device) -> dict[str, list[Point]]:
+    """The points that share their codes, by what declares these."""
+    found: dict[str, list[Point]] = {}
+    for point in device.points:
+        if point.specials_of:
+            found.setdefault(point.specials_of, []).append(point)
+    return found

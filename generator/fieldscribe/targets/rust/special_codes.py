@@ -1,0 +1,85 @@
+"""Special codes as Rust constants: those of a point, and those that many share, once."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from fieldscribe.targets.rust.documentation import sentence
+from fieldscribe.targets.rust.layout import Lines, binding, calls
+from fieldscribe.targets.rust.literals import mask, raw_literal, type_name
+from fieldscribe.targets.rust.views import ConstantView
+from fieldscribe.text import rust_string
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from fieldscribe.model import Special
+    from fieldscribe.targets.rust.subjects import Scope, Subject
+
+_WIDTH = 100
+
+
+@dataclass(frozen=True, slots=True)
+class SharedView:
+    """The codes that several points share: a type with a constant for each, and the table of all."""
+
+    name: str
+    of: str
+    constants: tuple[ConstantView, ...]
+    table: tuple[str, ...]
+
+
+def shared_views(scope: Scope) -> Iterator[SharedView]:
+    """The shared codes, in the order in which points first have them."""
+    first: dict[str, Subject] = {}
+    for subject in scope.subjects:
+        if subject.point.shared_codes:
+            first.setdefault(subject.point.shared_codes, subject)
+    for of, subject in first.items():
+        left = f"pub const CODES: &'static [runtime::Code<{subject.raw}>]"
+        yield SharedView(type_name(of), of, tuple(code_constants(subject)), _table(subject, left))
+
+
+def coded_trait(subject: Subject) -> tuple[str, ...]:
+    """The implementation of the trait that gives a point its codes."""
+    left = f"const CODES: &'static [runtime::Code<{subject.raw}>]"
+    shared = subject.point.shared_codes
+    lines = binding(4, left, f"special::{type_name(shared)}::CODES") if shared else _table(subject, left)
+    return (f"impl runtime::Coded for {subject.name} {{", *(f"    {line}" for line in lines), "}")
+
+
+def code_constants(subject: Subject) -> Iterator[ConstantView]:
+    """A constant for each code; of a band, its first code and the last raw number."""
+    for one in subject.point.specials:
+        left = f"pub const {one.name.upper()}: runtime::Special<{subject.raw}>"
+        kind = "_".join(word for word, holds in (("writable", one.writable), ("no_value", one.no_value)) if holds)
+        call = f"{kind or 'new'}({rust_string(one.name)}, {_literal(one.low, one, subject.raw)})"
+        lines = _constant(left, f"runtime::Special::{call}")
+        if one.low != one.high:
+            last = binding(4, f"pub const {one.name.upper()}_LAST: {subject.raw}", _literal(one.high, one, subject.raw))
+            yield ConstantView(sentence(f"{one.name}, the first of a band"), lines)
+            yield ConstantView(sentence(f"the last raw number of {one.name}"), last)
+        else:
+            yield ConstantView(sentence(one.name), lines)
+
+
+def _table(subject: Subject, left: str) -> Lines:
+    items: list[tuple[str, Lines]] = []
+    for one in subject.point.specials:
+        name = f"Self::{one.name.upper()}"
+        band = ("runtime::Code::band", (name, f"{name}_LAST"))
+        items.append(("runtime::Code::one", (name,)) if one.low == one.high else band)
+    return calls(4, left, items)
+
+
+def _constant(left: str, call: str) -> Lines:
+    """The constant's lines as rustfmt breaks them; those of names that are longer than a line it would tear apart."""
+    lines = binding(4, left, call)
+    if all(4 + len(line) <= _WIDTH for line in lines) and lines[0].startswith(left):
+        return lines
+    return "#[rustfmt::skip] // its name is longer than a line", f"{left} = {call};"
+
+
+def _literal(raw: int, special: Special, rust_type: str) -> str:
+    return mask(raw, rust_type) if special.hexadecimal and raw >= 0 else raw_literal(raw, rust_type)

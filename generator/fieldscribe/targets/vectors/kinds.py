@@ -1,0 +1,231 @@
+"""The one table of the kinds of vectors, and how the fields of their lines are written.
+
+A file is lines of fields between tabs. Its head names the device, then every set (what the vectors below it share,
+until it is set anew) and every kind that it holds, with its fields and their forms; so no runner has a list of its own.
+An absent field is a hyphen, or left out at the end of a line. A set ends the sets that stand behind it in the table.
+A runner holds every field against something, but for notes.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from fieldscribe.targets.vectors.numbers import bits64
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Mapping
+
+ABSENT = "-"
+
+
+@dataclass(frozen=True, slots=True)
+class Kind:
+    """The fields of a line in order, each with its form."""
+
+    fields: tuple[tuple[str, str], ...]
+    optional: frozenset[str]
+    """Fields that need not be there; they end in a question mark in the table."""
+    only: str = ""
+    """The languages that say this in more than comments, where not all do."""
+
+
+def _kind(row: str) -> Kind:
+    pairs = [part.partition(":")[::2] for part in row.split()]
+    only = next((form for name, form in pairs if name == "only"), "")
+    pairs = [pair for pair in pairs if pair[0] != "only"]
+    optional = frozenset(name for name, form in pairs if form.endswith("?"))
+    return Kind(tuple((name, form.removesuffix("?")) for name, form in pairs), optional, only)
+
+
+def _table(rows: Mapping[str, str]) -> dict[str, Kind]:
+    return {name: _kind(row) for name, row in rows.items()}
+
+
+_REQUEST = "framing:word unit:int transaction:int function:int address:int count:int values:ints?"
+
+_EXCHANGE = "script:script status:word raw:int? words:ints? needs:script?"
+
+SETS = _table(
+    {
+        "unit": "unit:int framing:word?",
+        "link": "pkw:int pzd:int single_first:int?",
+        "point": "point:word",
+        "with": "with:pairs?",
+        "request": _REQUEST,
+        "message": "message:word",
+        "telegram": "telegram:word unit:int",
+        "task": "unit:int task:int parameter:int index:int width:int value:int words:ints?",
+    }
+)
+"""What vectors share: the unit and its line, the point, the raw numbers that it needs, a request, a message, a task."""
+
+KINDS = _table(
+    {
+        # a raw number to a value in binary64 and back, to a count and back, and whether it may be written
+        "decode": "raw:int status:word value:real? special:word?",
+        "encode": "value:real status:word raw:int?",
+        "decode_count": "raw:int status:word count:int? special:word?",
+        "encode_count": "count:int status:word raw:int?",
+        "check": "raw:int status:word",
+        # names of numbers, special codes, flags and the numbers of wide ones
+        "name": "raw:int name:text?",
+        "special": "special:text low:int high:int",
+        "special_name": "raw:int name:text? no_value:int?",
+        "flag": "flag:text raw:int number:int truth:int?",
+        "flag_name": "flag:text raw:int name:text",
+        # a group of bits out of its word and into it, the words of a number, texts and digits
+        "bits": "word:int raw:int replaced:int result:int",
+        "words": "raw:int words:ints",
+        "text_decode": "words:ints text:bytes?",
+        "text_encode": "text:bytes? status:word words:ints?",
+        "digits": "raw:int status:word digits:ints? special:word?",
+        "digits_encode": "digits:ints status:word raw:int?",
+        # what a point is beside its conversions
+        "address": "space:word address:int words:int code:text? raw_min:int? raw_max:int? decimals:int? "
+        "references:pairs?",
+        "place": "addresses:ints index:int? telegram:word?",
+        "fixed": "mask:int bits:int",
+        # whole exchanges with a point: what is sent, what comes back, and what that makes of it; to be kept for good
+        "read": _EXCHANGE,
+        "write": _EXCHANGE,
+        "store": _EXCHANGE,
+        # what Python alone says of a point beside: C and Rust do so in comments, which no program can hold
+        "facts": "only:python group:word name:word symbol:text? default:real? changes:word? changes_with:names? "
+        "variant:text? write_space:word? write_addresses:ints?",
+        # the words that bring a group where each is asked for by itself: Rust reads the points themselves
+        "group": "only:c.python group:word addresses:ints",
+        # numbers of the protocol with names, and named writes
+        "code": "what:word number:int name:text",
+        "constant": "only:c.rust what:word number:int name:text",
+        "command": "command:word value:int script:script status:word",
+        # frames of Modbus, and batched reads
+        "build": "status:word bytes:bytes?",
+        "reply": "bytes:bytes? status:word values_out:ints? exception:int?",
+        "printed_build": "frame:note status:word bytes:bytes?",
+        "printed_reply": "frame:note bytes:bytes? status:word values_out:ints? exception:int?",
+        "block": "group:word index:int space:word function:int address:int count:int",
+        # frames of a maker's own CAN protocol
+        "can_build": "unit:int address:int raw:int status:word id:int? bytes:bytes?",
+        "can_parse": "unit:int id:int bytes:bytes? status:word address:int? raw:int?",
+        "can_taken": "frames:frames taken:ints",
+        "can_telegram": "frames:frames? taken:ints? status:word raw:int?",
+        # telegrams of USS
+        "uss_build": "status:word bytes:bytes?",
+        "uss_broadcast": "mask:ints words:ints? status:word bytes:bytes?",
+        "uss_reply": "bytes:bytes? status:word response:int? width:int? value:int? error:int? words:ints?",
+        "uss_printed_build": "frame:note status:word bytes:bytes?",
+        "uss_printed_reply": "frame:note bytes:bytes? status:word response:int? width:int? value:int? error:int? "
+        "words:ints?",
+    }
+)
+"""What a line asks and answers. Its own fields come before those of the sets that hold for it."""
+
+
+def _int(value: object) -> str:
+    if type(value) is not int:
+        raise TypeError(f"{value!r} is no integer")
+    return str(value)
+
+
+def _word(value: object) -> str:
+    """A name that needs no escape; checked all the same."""
+    return value if isinstance(value, str) and value.isidentifier() and value.isascii() else text(value)
+
+
+def text(value: object) -> str:
+    """A text: what does not print, `%`, `,` and `=` as percent and two hexadecimal digits for each byte of UTF-8."""
+    if not isinstance(value, str):
+        raise TypeError(f"{value!r} is no text")
+    if value in ("", ABSENT):
+        return "%" + "2D" * len(value)
+    return "".join(one if one.isprintable() and one not in "%,=" else _escaped(one) for one in value)
+
+
+def _escaped(character: str) -> str:
+    return "".join(f"%{byte:02X}" for byte in character.encode("utf-8", "surrogatepass"))
+
+
+def _bytes(value: object) -> str:
+    if not isinstance(value, bytes):
+        raise TypeError(f"{value!r} is no bytes")
+    return value.hex()
+
+
+def _real(value: object) -> str:
+    """The pattern of a binary64 in hexadecimal; zeros at its end are left out but for one digit."""
+    if not isinstance(value, float):
+        raise TypeError(f"{value!r} is no float")
+    return f"{bits64(value):016x}".rstrip("0") or "0"
+
+
+def _ints(value: object) -> str:
+    if not isinstance(value, (tuple, list)):
+        raise TypeError(f"{value!r} is no list")
+    return ",".join(map(_int, value))
+
+
+def _names(value: object) -> str:
+    if not isinstance(value, tuple):
+        raise TypeError(f"{value!r} is no list")
+    return ",".join(map(text, value))
+
+
+def _pairs(value: object) -> str:
+    if not isinstance(value, dict):
+        raise TypeError(f"{value!r} is no map")
+    return ",".join(f"{text(key)}={text(str(part))}" for key, part in value.items())
+
+
+def _frames(value: object) -> str:
+    if not isinstance(value, (tuple, list)):
+        raise TypeError(f"{value!r} is no list")
+    return ",".join(f"{number}={_bytes(data)}" for number, data in value)
+
+
+def _script(value: object) -> str:
+    if not isinstance(value, (tuple, list)):
+        raise TypeError(f"{value!r} is no list")
+    return ",".join(f"{_bytes(sent)}={_bytes(received)}" for sent, received in value)
+
+
+FORMS: dict[str, Callable[[object], str]] = {
+    "int": _int,
+    "word": _word,
+    "note": _word,
+    "text": text,
+    "bytes": _bytes,
+    "real": _real,
+    "ints": _ints,
+    "names": _names,
+    "pairs": _pairs,
+    "frames": _frames,
+    "script": _script,
+}
+"""How a field of each form is written: lists are between commas; `pairs`, `frames` and `script` are of two parts."""
+
+
+class Shape:
+    """Writes the lines of one kind or set, and holds each value against its field."""
+
+    def __init__(self, name: str, kind: Kind) -> None:
+        self.name = name
+        self._fields = [(key, FORMS[form], key in kind.optional) for key, form in kind.fields]
+
+    def line(self, values: Iterable[object]) -> str:
+        """The line of one vector; values left out at the end are absent."""
+        parts = [self.name]
+        given = iter(values)
+        for key, write, optional in self._fields:
+            value = next(given, None)
+            if value is None or (not value and value not in (0, "")):
+                if not optional:
+                    raise ValueError(f"{self.name} lacks {key}")
+                parts.append(ABSENT)
+            else:
+                parts.append(write(value))
+        if next(given, None) is not None:
+            raise ValueError(f"{self.name} has no more than {len(self._fields)} fields")
+        while parts[-1] == ABSENT:
+            parts.pop()
+        return "\t".join(parts)
