@@ -19,11 +19,11 @@ from .errors import (
     NoCaseError,
     NoReplyError,
     NotANumberError,
-    NoValueError,
     RangeError,
     RefusedError,
     RequestError,
     ResultOverflowError,
+    SpecialCodeError,
     TelegramError,
     UnknownValueError,
     WrongLengthError,
@@ -70,9 +70,10 @@ from .points import Point
 from .quantities import Floating, Scaled
 from .rules import Case, Factor, Limit, Rule
 from .session import PointTable, Value
+from .special import Codes, Special
 from .texts import Digits, Text
 from .words import Field, Flag, Word
-from .wrappers import OrNone
+from .wrappers import WithCodes, WithWritableCodes
 
 Device = ModbusDevice
 AsyncDevice = AsyncModbusDevice
@@ -100,6 +101,7 @@ __all__ = [
     "ByVariant",
     "Case",
     "CodecError",
+    "Codes",
     "Command",
     "Device",
     "Digits",
@@ -120,9 +122,7 @@ __all__ = [
     "Named",
     "NoCaseError",
     "NoReplyError",
-    "NoValueError",
     "NotANumberError",
-    "OrNone",
     "Place",
     "Point",
     "PointTable",
@@ -135,12 +135,16 @@ __all__ = [
     "ResultOverflowError",
     "Rule",
     "Scaled",
+    "Special",
+    "SpecialCodeError",
     "Telegram",
     "TelegramError",
     "Text",
     "Transport",
     "UnknownValueError",
     "Value",
+    "WithCodes",
+    "WithWritableCodes",
     "Word",
     "WriteOnly",
     "WrongLengthError",

@@ -30,7 +30,7 @@ from .handles import (
     WriteHandle,
 )
 from .points import Decoding, Encoding, Point
-from .wrappers import FixedBits
+from .wrappers import with_fixed
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -69,8 +69,8 @@ class PointAttribute(_Attribute, Point, Generic[H_co, A_co]):
 
     def __init__(self, form: Any, **facts: Unpack[FactArguments]) -> None:
         self.facts = Facts(**facts)
-        whole_word = self.facts.bits is None
-        self._form = FixedBits(form, *self.facts.fixed) if self.facts.fixed and whole_word else form
+        fixed = self.facts.fixed if self.facts.bits is None else None
+        self._form = with_fixed(form, *fixed) if fixed else form
 
     def __set_name__(self, owner: type, name: str) -> None:
         if self.new_name is not None:

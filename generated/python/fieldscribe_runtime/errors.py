@@ -64,10 +64,14 @@ class ResultOverflowError(CodecError):
     status = "overflow"
 
 
-class NoValueError(CodecError):
-    """The raw number is a code that means "there is no value"."""
+class SpecialCodeError(CodecError):
+    """A special code stands where a quantity belongs, or is to be written and only read; `special` is its name."""
 
-    status = "no_value"
+    status = "special"
+
+    def __init__(self, special: str, message: str) -> None:
+        super().__init__(message)
+        self.special = special
 
 
 class WrongLengthError(CodecError):

@@ -113,7 +113,6 @@ class FactArguments(TypedDict):
     unit: NotRequired[str]
     allowed: NotRequired[Allowed]
     default: NotRequired[float]
-    specials: NotRequired[Mapping[str, tuple[int, int]]]
     fixed: NotRequired[tuple[int, int]]
     changes: NotRequired[str]
     changes_with: NotRequired[tuple[str, ...]]
@@ -140,7 +139,6 @@ class Facts:
     unit: str = ""
     allowed: Allowed | None = None
     default: float | None = None
-    specials: Mapping[str, tuple[int, int]] = field(default_factory=dict)
     fixed: tuple[int, int] | None = None
     changes: str | None = None
     changes_with: tuple[str, ...] = ()

@@ -16,9 +16,10 @@ from .errors import (
     WrongTypeError,
 )
 from .rules import NO_RAWS, Bound, Raws, high_end, low_end
+from .special import NO_CODES
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from .special import Codes
 
 R_co = TypeVar("R_co", covariant=True)
 W_contra = TypeVar("W_contra", contravariant=True)
@@ -82,7 +83,7 @@ class Form(Decodes[R_co], Encodes[W_contra], ABC, Generic[R_co, W_contra]):
     wire: Type
     needs: tuple[str, ...] = ()
     decimals: int | None = 0
-    no_value: Mapping[str, tuple[int, int]] = {}
+    codes: Codes = NO_CODES
     names: type[enum.IntEnum | enum.IntFlag] | None = None
     refused: type[CodecError] = RangeError
 
@@ -91,16 +92,25 @@ class Form(Decodes[R_co], Encodes[W_contra], ABC, Generic[R_co, W_contra]):
         """The value that a raw number means."""
 
     @abstractmethod
+    def converted(self, value: W_contra, raws: Raws) -> int | None:
+        """The raw number for a value, whether it may be written or not; None where there is none."""
+
     def encode(self, value: W_contra, allowed: Allowed, raws: Raws) -> int | None:
         """The raw number for a value; None if it may not be written."""
+        raw = self.converted(value, raws)
+        return None if raw is None else self.checked(raw, allowed, raws)
 
     def decode_count(self, raw: int, raws: Raws) -> int:
         """The value as an integer count of 10^-decimals units."""
         return raw
 
+    def converted_count(self, count: int, raws: Raws) -> int:
+        """The raw number for an integer count of 10^-decimals units, whether it may be written or not."""
+        return whole(count)
+
     def encode_count(self, count: int, allowed: Allowed, raws: Raws) -> int | None:
         """The raw number for an integer count of 10^-decimals units; None if it may not be written."""
-        return self.checked(whole(count), allowed, raws)
+        return self.checked(self.converted_count(count, raws), allowed, raws)
 
     def checked(self, raw: int, allowed: Allowed, raws: Raws) -> int | None:
         """The same number; None if it may not be written."""
@@ -138,9 +148,9 @@ class Integer(Form[int, int]):
         """The raw number itself."""
         return raw
 
-    def encode(self, value: int, allowed: Allowed, raws: Raws) -> int | None:
+    def converted(self, value: int, raws: Raws) -> int | None:
         """The value itself."""
-        return self.checked(whole(value), allowed, raws)
+        return whole(value)
 
 
 class Bit(Form[bool, bool]):
@@ -152,9 +162,9 @@ class Bit(Form[bool, bool]):
         """Whether the bit is 1."""
         return bool(raw)
 
-    def encode(self, value: bool, allowed: Allowed, raws: Raws) -> int | None:
+    def converted(self, value: bool, raws: Raws) -> int | None:
         """1 for True."""
-        return self.checked(int(value) if isinstance(value, bool) else whole(value), allowed, raws)
+        return int(value) if isinstance(value, bool) else whole(value)
 
 
 class Named(Form[E | int, E | int]):
@@ -176,11 +186,11 @@ class Named(Form[E | int, E | int]):
         except ValueError:
             return raw
 
-    def encode(self, value: E | int, allowed: Allowed, raws: Raws) -> int | None:
+    def converted(self, value: E | int, raws: Raws) -> int | None:
         """The member's number; a member of another enum raises UnknownValueError."""
         if isinstance(value, enum.Enum) and not isinstance(value, self.names):
             raise UnknownValueError(f"{value!r} is no {self.names.__name__}")
-        return self.checked(whole(value), allowed, raws)
+        return whole(value)
 
     def checked(self, raw: int, allowed: Allowed, raws: Raws) -> int | None:
         """The same number if it is named (for a closed enum) and in range."""
@@ -216,11 +226,11 @@ class Flags(Form[F, F]):
         """All bits of the word."""
         return self.names(raw & (1 << self.wire.bits) - 1)
 
-    def encode(self, value: F, allowed: Allowed, raws: Raws) -> int | None:
+    def converted(self, value: F, raws: Raws) -> int | None:
         """The word as the type holds it; flags of another word raise UnknownValueError."""
         if isinstance(value, enum.Enum) and not isinstance(value, self.names):
             raise UnknownValueError(f"{value!r} is no {self.names.__name__}")
         raw = whole(value)
         if self.wire.signed and raw >> self.wire.bits == 0:
             raw = self.wire.number(raw, self.wire.bits)
-        return self.checked(raw, allowed, raws)
+        return raw

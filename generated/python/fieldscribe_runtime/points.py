@@ -11,10 +11,11 @@ from .rules import NO_RAWS, Limit, Raws, high_end, low_end
 
 if TYPE_CHECKING:
     import enum
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Sequence
 
     from .facts import Facts, Place
     from .forms import Allowed, Form, Type
+    from .special import Codes
 
 R_co = TypeVar("R_co", covariant=True)
 W_contra = TypeVar("W_contra", contravariant=True)
@@ -65,9 +66,9 @@ class Point:
         return self._form.decimals
 
     @property
-    def specials(self) -> Mapping[str, tuple[int, int]]:
-        """Raw numbers (first, last) that are no quantity, by name."""
-        return {**self._form.no_value, **self.facts.specials}
+    def special(self) -> Codes:
+        """The special codes: `point.special.inactive`, or `point.special(raw)` for what a raw number is."""
+        return self._form.codes
 
     @property
     def allowed(self) -> Allowed:
@@ -152,6 +153,9 @@ class Point:
 
     def told(self, raw: int, raws: Raws = NO_RAWS) -> str:
         """A raw number as people read it, with the unit; as `raw ...` where `raws` do not say what it means."""
+        code = self.special(raw)
+        if code is not None:
+            return code.name
         try:
             return self._form.shown(raw, raws) + self._unit
         except CodecError:
@@ -177,7 +181,7 @@ class Decoding(Point, Generic[R_co]):
     """The pure functions of a point that can be read."""
 
     def decode(self, raw: int, raws: Raws = NO_RAWS) -> R_co:
-        """The value of a raw number; `raws` holds the raw numbers of the points that the scale needs.
+        """The value (or special code) of a raw number; `raws` holds the raw numbers that the scale needs of others.
 
         Raises ZeroFactorError, NoCaseError, ResultOverflowError and MissingRawError, none of them without such points.
         """
@@ -188,7 +192,7 @@ class Decoding(Point, Generic[R_co]):
         return value
 
     def decode_count(self, raw: int, raws: Raws = NO_RAWS) -> int:
-        """The value as an integer count of 10^-decimals units; raises NoValueError for a "no value" code."""
+        """The value as an integer count of 10^-decimals units; raises SpecialCodeError for a special code."""
         try:
             return self._form.decode_count(raw, raws)
         except CodecError as error:
@@ -201,7 +205,8 @@ class Encoding(Point, Generic[W_contra]):
     def encode(self, value: W_contra, raws: Raws = NO_RAWS) -> int:
         """The raw number for a value; `raws` holds the raw numbers of the points that scale and limits need.
 
-        Raises RangeError, UnknownValueError, NotANumberError, ZeroFactorError, NoCaseError and MissingRawError.
+        Raises RangeError, UnknownValueError, NotANumberError, ZeroFactorError, NoCaseError and MissingRawError, and
+        SpecialCodeError for a value that would be a special code.
         """
         try:
             raw = self._form.encode(value, self.allowed, raws)
@@ -222,7 +227,7 @@ class Encoding(Point, Generic[W_contra]):
         return raw
 
     def check(self, raw: int, raws: Raws = NO_RAWS) -> None:
-        """Raises RangeError or UnknownValueError (or ZeroFactorError) if this raw number may not be written."""
+        """Raises RangeError, UnknownValueError, SpecialCodeError or ZeroFactorError if this may not be written."""
         try:
             number = int(raw) if isinstance(raw, bool) and self.width == 1 else whole(raw)
             if self._form.checked(number, self.allowed, raws) is None:

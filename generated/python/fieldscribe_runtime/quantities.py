@@ -59,8 +59,8 @@ class Scaled(Form[float, float]):
         """The binary64 nearest to the exact value."""
         return self._rule(raws).decode(raw, raws)
 
-    def encode(self, value: float, allowed: Allowed, raws: Raws) -> int | None:
-        """Rounded to nearest, halves away from zero, then checked."""
+    def converted(self, value: float, raws: Raws) -> int | None:
+        """Rounded to nearest, halves away from zero."""
         if not self.encodes:
             raise WrongTypeError("raw numbers have more than 53 bits, so values are only decoded: use raw numbers")
         try:
@@ -68,17 +68,15 @@ class Scaled(Form[float, float]):
                 raise NotANumberError("the value is NaN")
         except OverflowError:
             return None
-        raw = self._rule(raws).encode(value, raws)
-        return None if raw is None else self.checked(raw, allowed, raws)
+        return self._rule(raws).encode(value, raws)
 
     def decode_count(self, raw: int, raws: Raws) -> int:
         """The count nearest to the exact value, by integers alone."""
         return self._rule(raws).decode_count(raw, self._counted(), raws)
 
-    def encode_count(self, count: int, allowed: Allowed, raws: Raws) -> int | None:
-        """As `encode`, by integers alone."""
-        raw = self._rule(raws).encode_count(whole(count), self._counted(), raws)
-        return self.checked(raw, allowed, raws)
+    def converted_count(self, count: int, raws: Raws) -> int:
+        """As `converted`, by integers alone."""
+        return self._rule(raws).encode_count(whole(count), self._counted(), raws)
 
     def shown(self, raw: int, raws: Raws) -> str:
         """The value, as people read it."""
@@ -102,10 +100,12 @@ class Floating(Form[float, float]):
         value: float = struct.unpack(self._pack, struct.pack(self._word, raw))[0]
         return value
 
-    def encode(self, value: float, allowed: Allowed, raws: Raws) -> int | None:
-        """The nearest number of the type, ties to even, if that is within the limits."""
+    def converted(self, value: float, raws: Raws) -> int | None:
+        """The nearest number of the type, ties to even, if that is finite."""
         number = self._nearest(value)
-        if not self._fits(number):
+        if math.isnan(number):
+            raise NotANumberError("the value is NaN")
+        if math.isinf(number):
             return None
         pattern: int = struct.unpack(self._word, struct.pack(self._pack, number))[0]
         return pattern
@@ -135,7 +135,7 @@ class Floating(Form[float, float]):
         """There is none: raises TypeError."""
         raise TypeError("a floating-point pattern has no integer path")
 
-    def encode_count(self, count: int, allowed: Allowed, raws: Raws) -> int | None:
+    def converted_count(self, count: int, raws: Raws) -> int:
         """There is none: raises TypeError."""
         raise TypeError("a floating-point pattern has no integer path")
 

@@ -50,6 +50,7 @@ class Factor:
 
     With `ten_to` it is ten to that number, and the pair says between which raw numbers of the point this holds. With
     `f32` the raw number is the pattern of a binary32 number, and that number is taken for it (0 for what is none).
+    `codes` are bands (first, last) of raw numbers that are no quantity.
     """
 
     point: str
@@ -58,6 +59,11 @@ class Factor:
     power: int = 1
     ten_to: tuple[int, int] | None = None
     f32: bool = False
+    codes: tuple[tuple[int, int], ...] = ()
+
+    def is_code(self, raws: Raws) -> bool:
+        """Whether the point holds a special code, with which nothing can be computed."""
+        return any(first <= raw_of(self.point, raws) <= last for first, last in self.codes)
 
     def number(self, raws: Raws) -> int | Fraction:
         """The factor (or exponent) before `power`, exactly."""
@@ -88,6 +94,8 @@ class Rule:
             return num, den
         numbers = [(factor, factor.number(raws)) for factor in self.factors]
         for factor, number in numbers:
+            if factor.is_code(raws):
+                raise ZeroFactorError(f"{factor.point} holds a special code, which is no quantity")
             if number == 0 and factor.ten_to is None and not (zero_allowed and factor.power > 0):
                 raise ZeroFactorError(f"{factor.point} is {'no number or ' if factor.f32 else ''}zero")
         for factor, number in numbers:
@@ -155,17 +163,22 @@ def chosen(cases: tuple[Case, ...], raws: Raws) -> Rule:
 
 @dataclass(frozen=True, slots=True)
 class Limit:
-    """A limit that other points set: `rule` applied to 1. It does not hold while a point has a number of `unless`."""
+    """A limit that other points set: `rule` applied to 1.
+
+    It does not hold while a point has a number in one of its bands (first, last) of `unless`.
+    """
 
     rule: Rule
     least: int
     greatest: int
-    unless: Mapping[str, tuple[int, ...]]
+    unless: Mapping[str, tuple[tuple[int, int], ...]]
 
     def raw(self, raws: Raws) -> int | None:
         """The limit as a raw number; None while it does not hold."""
-        if any(raw_of(point, raws) in codes for point, codes in self.unless.items()):
-            return None
+        for point, bands in self.unless.items():
+            held = raw_of(point, raws)
+            if any(first <= held <= last for first, last in bands):
+                return None
         return self.rule.encode_count(1, 0, raws, zero_allowed=True)
 
 

@@ -23,6 +23,7 @@ from .errors import (
 )
 from .points import Decoding, Encoding, Point
 from .rules import NO_RAWS
+from .special import Special
 
 if TYPE_CHECKING:
     from .facts import Documented, Place
@@ -31,8 +32,8 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 Steps = Generator[Any, Any, T]
 """What goes in and out between the steps is the family's own."""
-Value = float | None
-"""What reading numbers can give (also bool, IntEnum and IntFlag); None is "no value"."""
+Value = float | Special
+"""What reading numbers can give (also bool, IntEnum and IntFlag)."""
 
 _NEVER = "never"
 _KEPT = frozenset({_NEVER, "rarely"})

@@ -34,7 +34,7 @@ class Text(Form[str, str]):
         data = (raw & (1 << self.wire.bits) - 1).to_bytes(self.characters, "big")
         return data.rstrip(b" ").decode("latin-1")
 
-    def encode(self, value: str, allowed: Allowed, raws: Raws) -> int | None:
+    def converted(self, value: str, raws: Raws) -> int | None:
         """The words of a text that fits and has only printable characters."""
         if not isinstance(value, str) or len(value) > self.characters:
             return None
@@ -54,7 +54,7 @@ class Text(Form[str, str]):
         """There is none: raises TypeError."""
         raise TypeError("a text has no integer path")
 
-    def encode_count(self, count: int, allowed: Allowed, raws: Raws) -> int | None:
+    def converted_count(self, count: int, raws: Raws) -> int:
         """There is none: raises TypeError."""
         raise TypeError("a text has no integer path")
 
@@ -87,7 +87,7 @@ class Digits(Form[tuple[E | int, ...], Sequence[E | int]]):
         """A member for each digit, or its bare number where there is none."""
         return tuple([self._numbers.get(digit, digit) for digit in self._digits(raw)])
 
-    def encode(self, value: Sequence[E | int], allowed: Allowed, raws: Raws) -> int | None:
+    def converted(self, value: Sequence[E | int], raws: Raws) -> int | None:
         """The word of that many members or numbers; a member of another enum raises UnknownValueError."""
         if not isinstance(value, Sequence) or isinstance(value, (str, bytes)):
             raise WrongTypeError(f"takes {self.count} digits, not {value!r}")

@@ -1,18 +1,18 @@
 # SPDX-License-Identifier: 0BSD
-"""Forms around other forms: codes for "there is no value", and bits that are always written as a constant."""
+"""Forms around other forms: special codes beside the quantities, and bits that are always written as a constant."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from .errors import NoValueError, RangeError
+from .errors import RangeError, SpecialCodeError, UnknownValueError
 from .forms import Form
+from .special import Special
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     from .forms import Allowed
     from .rules import Raws
+    from .special import Codes
 
 R = TypeVar("R")
 W = TypeVar("W")
@@ -26,7 +26,7 @@ class _Around(Form[R, W]):
         self.wire = form.wire
         self.needs = form.needs
         self.decimals = form.decimals
-        self.no_value = form.no_value
+        self.codes = form.codes
         self.names = form.names
         self.refused = form.refused
 
@@ -39,13 +39,13 @@ class _Around(Form[R, W]):
         """As in the form."""
         return self.form.decode_count(raw, raws)
 
-    def encode(self, value: W, allowed: Allowed, raws: Raws) -> int | None:
+    def converted(self, value: W, raws: Raws) -> int | None:
         """As in the form."""
-        return self.form.encode(value, allowed, raws)
+        return self.form.converted(value, raws)
 
-    def encode_count(self, count: int, allowed: Allowed, raws: Raws) -> int | None:
+    def converted_count(self, count: int, raws: Raws) -> int:
         """As in the form."""
-        return self.form.encode_count(count, allowed, raws)
+        return self.form.converted_count(count, raws)
 
     def checked(self, raw: int, allowed: Allowed, raws: Raws) -> int | None:
         """As in the form."""
@@ -72,25 +72,75 @@ class _Around(Form[R, W]):
         return self.form.name_of(raw)
 
 
-class OrNone(_Around[R | None, W]):
-    """Another form in which some raw numbers, by name, mean "there is no value"; those decode to None."""
+class _Coded(_Around[R | Special, W]):
+    """Another form beside special codes."""
 
-    def __init__(self, form: Form[R, W], no_value: Mapping[str, tuple[int, int]]) -> None:
+    form: Form[Any, Any]
+
+    def __init__(self, form: Form[Any, Any], codes: Codes) -> None:
         super().__init__(form)
-        self.no_value = no_value
+        self.codes = codes
 
-    def _missing(self, raw: int) -> bool:
-        return any(low <= raw <= high for low, high in self.no_value.values())
-
-    def decode(self, raw: int, raws: Raws) -> R | None:
-        """None for the codes, else as in the form."""
-        return None if self._missing(raw) else super().decode(raw, raws)
+    def decode(self, raw: int, raws: Raws) -> R | Special:
+        """The special code, else as in the form."""
+        return self.codes(raw) or super().decode(raw, raws)
 
     def decode_count(self, raw: int, raws: Raws) -> int:
-        """As in the form; raises NoValueError, because a count has no room for "no value"."""
-        if self._missing(raw):
-            raise NoValueError(f"raw {raw} means that there is no value")
-        return super().decode_count(raw, raws)
+        """As in the form; raises SpecialCodeError, because a count has no room for a code."""
+        return super().decode_count(self._quantity(raw, "is"), raws)
+
+    def converted(self, value: W, raws: Raws) -> int | None:
+        """As in the form; raises SpecialCodeError for a value whose raw number is a special code."""
+        raw = super().converted(value, raws)
+        return None if raw is None else self._quantity(raw, "would be")
+
+    def converted_count(self, count: int, raws: Raws) -> int:
+        """As in the form; raises SpecialCodeError for a count whose raw number is a special code."""
+        return self._quantity(super().converted_count(count, raws), "would be")
+
+    def checked(self, raw: int, allowed: Allowed, raws: Raws) -> int | None:
+        """The same number if it is a code that may be written, or the form takes it; raises SpecialCodeError."""
+        code = self.codes(raw)
+        if code is not None and code.writable:
+            return raw
+        return super().checked(self._quantity(raw, "is"), allowed, raws)
+
+    def _quantity(self, raw: int, how: str) -> int:
+        code = self.codes(raw)
+        if code is None:
+            return raw
+        hint = "write that" if code.writable else "it is only read"
+        raise SpecialCodeError(code.name, f"raw {raw} {how} the special code {code}: {hint}")
+
+
+class WithCodes(_Coded[R, W]):
+    """Another form beside special codes: those decode to `Special`, and no value is encoded to one."""
+
+    def __init__(self, form: Form[R, W], codes: Codes) -> None:
+        super().__init__(form, codes)
+
+
+class WithWritableCodes(_Coded[R, W | Special]):
+    """The same with special codes of which some may be written."""
+
+    def __init__(self, form: Form[R, W], codes: Codes) -> None:
+        super().__init__(form, codes)
+
+    def converted(self, value: W | Special, raws: Raws) -> int | None:
+        """As in the form, or the raw number of a special code; raises UnknownValueError for one of another point."""
+        if not isinstance(value, Special):
+            return super().converted(value, raws)
+        if self.codes(value.raw) != value:
+            raise UnknownValueError(f"{value} is no special code of this point")
+        return value.raw
+
+
+def with_fixed(form: Form[Any, Any], mask: int, bits: int) -> Form[Any, Any]:
+    """The form with bits that are always written as a constant; special codes stay outermost."""
+    if isinstance(form, _Coded):
+        form.form = FixedBits(form.form, mask, bits)
+        return form
+    return FixedBits(form, mask, bits)
 
 
 class FixedBits(_Around[R, W]):
@@ -101,16 +151,17 @@ class FixedBits(_Around[R, W]):
         self.mask = mask
         self.bits = bits
 
-    def _put(self, raw: int | None, allowed: Allowed, raws: Raws) -> int | None:
-        return None if raw is None else self.checked(raw & ~self.mask | self.bits, allowed, raws)
+    def converted(self, value: W, raws: Raws) -> int | None:
+        """As in the form, with the constant bits put in."""
+        raw = super().converted(value, raws)
+        return None if raw is None else self._put(raw)
 
-    def encode(self, value: W, allowed: Allowed, raws: Raws) -> int | None:
-        """As in the form, with the constant bits put in before the check."""
-        return self._put(super().encode(value, (self.wire.limits(self.wire.bits),), raws), allowed, raws)
+    def converted_count(self, count: int, raws: Raws) -> int:
+        """As in the form, with the constant bits put in."""
+        return self._put(super().converted_count(count, raws))
 
-    def encode_count(self, count: int, allowed: Allowed, raws: Raws) -> int | None:
-        """As in the form, with the constant bits put in before the check."""
-        return self._put(super().encode_count(count, (self.wire.limits(self.wire.bits),), raws), allowed, raws)
+    def _put(self, raw: int) -> int:
+        return raw & ~self.mask | self.bits
 
     def checked(self, raw: int, allowed: Allowed, raws: Raws) -> int | None:
         """The same number if it has the constant bits and the form takes it."""

@@ -21,17 +21,18 @@ mod pattern;
 mod point;
 mod raw;
 mod rule;
+mod special;
 pub mod text;
 pub mod uss;
 
 pub use flags::{Flag, Flags};
 pub use point::{
-    allowed, has_value, in_address_order, in_reading_order, listed, BitGroup, CountReadable,
-    CountWritable, Decoded, Digits, Documented, Encodable, Point, Readable, Scaled, Space, Whole,
-    Writable,
+    allowed, in_address_order, in_reading_order, listed, BitGroup, CountReadable, CountWritable,
+    Decoded, Digits, Documented, Encodable, Point, Readable, Scaled, Space, Whole, Writable,
 };
 pub use raw::Raw;
 pub use rule::Rule;
+pub use special::{factor, quantity, written, Code, Coded, Reading, Special};
 pub use text::Text;
 
 use core::fmt;
@@ -46,14 +47,14 @@ pub enum Error {
     NotANumber,
     /// The closed enum has no such number.
     UnknownValue,
-    /// A factor that is read at run time is zero.
+    /// A factor that is read at run time is zero, or no quantity.
     ZeroFactor,
     /// No case of the scale holds.
     NoCase,
     /// The result does not fit its type.
     Overflow,
-    /// The device says that there is no value.
-    NoValue,
+    /// The raw number is a special code and no quantity.
+    Special,
     /// There are more or fewer words than the point has.
     WrongLength,
     /// The reply is of another space than the point's.
@@ -73,7 +74,7 @@ impl Error {
             Self::ZeroFactor => "zero_factor",
             Self::NoCase => "no_case",
             Self::Overflow => "overflow",
-            Self::NoValue => "no_value",
+            Self::Special => "special",
             Self::WrongLength => "wrong_length",
             Self::WrongSpace => "wrong_space",
             Self::NotHeard => "not_heard",
@@ -90,7 +91,7 @@ impl fmt::Display for Error {
             Self::ZeroFactor => "a factor is zero",
             Self::NoCase => "no case of the scale holds",
             Self::Overflow => "the result does not fit its type",
-            Self::NoValue => "the device has no value",
+            Self::Special => "the raw number is a special code and no quantity",
             Self::WrongLength => "the point has another number of words",
             Self::WrongSpace => "the reply is of another space than the point's",
             Self::NotHeard => "the last telegram was not answered",

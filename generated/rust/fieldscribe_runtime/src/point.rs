@@ -57,7 +57,7 @@ impl Space {
 pub trait Point {
     /// The number on the wire.
     type Raw: Raw;
-    /// What the number means.
+    /// What the number means; a [`Reading`](crate::Reading) if the point has special codes.
     type Value;
     /// The point's name in the description.
     const NAME: &'static str;
@@ -215,7 +215,8 @@ pub trait Writable: Point {
     /// Whether the raw number may be written.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`], [`Error::UnknownValue`], and [`Error::ZeroFactor`] for a limit that divides by zero.
+    /// [`Error::OutOfRange`], [`Error::UnknownValue`], [`Error::Special`] for a special code that is only read, and
+    /// [`Error::ZeroFactor`] for a limit that divides by zero.
     fn check_with(raw: Self::Raw, with: Self::With) -> Result<(), Error>;
 
     /// As [`Writable::check_with`], for a point that needs no other.
@@ -235,7 +236,8 @@ pub trait Encodable: Writable {
     /// The raw number of a value: nearest, halves away from zero, then checked.
     ///
     /// # Errors
-    /// What [`Writable::check_with`] says; [`Error::NotANumber`], [`Error::NoCase`], [`Error::ZeroFactor`].
+    /// What [`Writable::check_with`] says; [`Error::NotANumber`], [`Error::NoCase`], [`Error::ZeroFactor`];
+    /// [`Error::Special`] for a value that would be a special code.
     fn encode_with(value: Self::Value, with: Self::With) -> Result<Self::Raw, Error>;
 
     /// As [`Encodable::encode_with`], for a point that needs no other.
@@ -313,19 +315,6 @@ pub const fn listed(holds: bool) -> Result<(), Error> {
         Ok(())
     } else {
         Err(Error::UnknownValue)
-    }
-}
-
-/// What a check for raw numbers that mean `no value` says.
-///
-/// # Errors
-/// [`Error::NoValue`] if it does not hold.
-#[inline]
-pub const fn has_value(holds: bool) -> Result<(), Error> {
-    if holds {
-        Ok(())
-    } else {
-        Err(Error::NoValue)
     }
 }
 

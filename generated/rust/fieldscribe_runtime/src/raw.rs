@@ -8,7 +8,7 @@ mod sealed {
 }
 
 /// A raw number: an integer, a bit, the bit pattern of a floating-point number; or the words of a text.
-pub trait Raw: Copy + PartialOrd + sealed::Sealed {
+pub trait Raw: Copy + PartialOrd + sealed::Sealed + 'static {
     /// The 16-bit words that hold the number.
     type Words: Copy + AsRef<[u16]> + AsMut<[u16]>;
     /// The smallest number of the type.

@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: 0BSD
+"""Special codes: raw numbers that are no quantity, and what decoding gives for them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Iterator, Mapping
+
+
+@dataclass(frozen=True, slots=True)
+class Special:
+    """What a point holds in the place of a quantity: a code by its name.
+
+    With `no_value` it says that there is no value; only a `writable` one may be written.
+    """
+
+    name: str
+    raw: int
+    no_value: bool = False
+    writable: bool = False
+
+    def __str__(self) -> str:
+        return self.name
+
+
+class Codes:
+    """The special codes of a point: `codes.inactive` or `codes["inactive"]`, or what a raw number is: `codes(0)`.
+
+    A code is a raw number, or the first and the last one of a band. Those named in `no_value` say that there is no
+    value, those in `writable` may be written.
+    """
+
+    def __init__(
+        self,
+        codes: Mapping[str, int | tuple[int, int]],
+        *,
+        no_value: Collection[str] = (),
+        writable: Collection[str] = (),
+    ) -> None:
+        self._spans = {name: (code, code) if isinstance(code, int) else code for name, code in codes.items()}
+        self._no_value = frozenset(no_value)
+        self._writable = frozenset(writable)
+        ends = self._spans.items()
+        self._single = {low: self._made(name, low) for name, (low, high) in ends if low == high}
+        self._bands = tuple((low, high, name) for name, (low, high) in ends if low != high)
+
+    def __call__(self, raw: int) -> Special | None:
+        """The code that a raw number is; None for a quantity."""
+        found = self._single.get(raw)
+        if found is None and self._bands:
+            return next((self._made(name, raw) for low, high, name in self._bands if low <= raw <= high), None)
+        return found
+
+    def __getitem__(self, name: str) -> Special:
+        """The code of that name; raises KeyError, also for a band, in which a raw number is meant."""
+        low, high = self._spans[name]
+        if low != high:
+            raise KeyError(f"{name} is all of {low}..{high}: call the codes with the raw number that is meant")
+        return self._made(name, low)
+
+    def __getattr__(self, name: str) -> Special:
+        try:
+            return self[name]
+        except KeyError as error:
+            known = name.startswith("_") or name not in self._spans
+            raise AttributeError(f"there is no special code {name}" if known else error.args[0]) from None
+
+    def __iter__(self) -> Iterator[str]:
+        """The names."""
+        return iter(self._spans)
+
+    def __len__(self) -> int:
+        return len(self._spans)
+
+    def _made(self, name: str, raw: int) -> Special:
+        return Special(name, raw, name in self._no_value, name in self._writable)
+
+
+NO_CODES = Codes({})
