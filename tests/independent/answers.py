@@ -82,8 +82,7 @@ class Point:
     def _order(self) -> str:
         words = self.device.words
         shared = words.get(self.type, "high first") if isinstance(words, dict) else words
-        order: str = self.row.get("words", shared)
-        return order
+        return str(self.row.get("words", shared))
 
     @cached_property
     def references(self) -> dict[str, int]:
@@ -117,10 +116,10 @@ class Point:
         for key, entry in self.row.get("flags", {}).items():
             high, _, low = key.partition("..")
             lowest = number(low or high) - (self.bits[1] if self.bits else 0)
-            facts = {"name": entry} if isinstance(entry, str) else entry
+            facts = {} if isinstance(entry, str) else entry
             values = self.device_entries(facts["values"]) if "values" in facts else {}
             width = number(high) - number(low or high) + 1
-            found[facts["name"]] = (lowest, width, int(facts.get("active", 1)), values)
+            found[_name(entry)] = (lowest, width, int(facts.get("active", 1)), values)
         return found
 
     # ---- raw and value ----
@@ -165,8 +164,7 @@ class Point:
 
     def _interval(self, text: str, settings: Settings, points: Mapping[str, Point]) -> tuple[int, int]:
         low, _, high = (part.strip() for part in text.partition(".."))
-        low, high = low, high or low
-        return self._end(low, settings, points), self._end(high, settings, points)
+        return self._end(low, settings, points), self._end(high or low, settings, points)
 
     def _end(self, text: str, settings: Settings, points: Mapping[str, Point]) -> int:
         def named(name: str, part: str) -> Fraction:
@@ -203,9 +201,14 @@ class Point:
         """The first and the last raw number of each special code, with its name."""
         found = {}
         for key, entry in self.row.get("special", {}).items():
-            name = entry if isinstance(entry, str) else entry["name"]
-            found.update({number(end): name for end in key.split("..")})
+            found.update({number(end): _name(entry) for end in key.split("..")})
         return found
+
+
+def _name(entry: str | Row) -> str:
+    """The name that an entry of a map gives, alone or among other facts."""
+    name: str = entry if isinstance(entry, str) else entry["name"]
+    return name
 
 
 def _parts(text: str | list[str]) -> list[str]:

@@ -8,6 +8,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 import yaml
+
 from independent.arithmetic import evaluate, is_number, number
 
 if TYPE_CHECKING:
@@ -51,7 +52,7 @@ def read(folder: Path) -> Description:
 
 
 def _load(path: Path) -> Row:
-    loaded = yaml.load(path.read_text("utf-8"), Loader=yaml.BaseLoader)  # noqa: S506 - it makes texts, lists and maps only
+    loaded = yaml.load(path.read_text("utf-8"), Loader=yaml.BaseLoader)  # texts, lists and maps only
     return loaded if isinstance(loaded, dict) else {}
 
 
@@ -69,11 +70,10 @@ def _written_out(description: Description, row: Row) -> Iterator[Row]:
 def _members(description: Description, row: Row) -> Iterator[Row]:
     kept = {key: value for key, value in row.items() if key in (*_INHERITED, "code")}
     for member in description.records[row["record"]]["points"]:
-        member = description.formats.get(member.get("format", ""), {}) | member
-        base = row["at"]
-        at = "~" if base in NOTHING else str(_whole(member["at"], {"base": number(base)}))
+        shared = description.formats.get(member.get("format", ""), {})
+        at = "~" if row["at"] in NOTHING else str(_whole(member["at"], {"base": number(row["at"])}))
         own = row.get("members", {}).get(member["name"], {})
-        yield from _variants(kept | member | own | {"name": f"{row['name']}_{member['name']}", "at": at})
+        yield from _variants(kept | shared | member | own | {"name": f"{row['name']}_{member['name']}", "at": at})
 
 
 def _sets(row: Row) -> Iterator[Row]:
