@@ -11,10 +11,23 @@ from fieldscribe.model import UNSETTLED_TYPE
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
-    from fractions import Fraction
 
-    from fieldscribe.model import Bound, Code, Command, Device, Entry, Enum, Factor, Flag, Frame, Linear, Message, Point
-    from fieldscribe.model import Special, Telegram
+    from fieldscribe.model import (
+        Bound,
+        Code,
+        Command,
+        Device,
+        Entry,
+        Enum,
+        Factor,
+        Flag,
+        Frame,
+        Linear,
+        Message,
+        Point,
+        Special,
+        Telegram,
+    )
 
 Facts = dict[str, Any]
 Row = dict[str, Any]
@@ -22,7 +35,7 @@ Row = dict[str, Any]
 
 LONG = 12
 """Enums with more entries than this are lists of their own, which points name."""
-NOTHING = (None, "", (), [], {}, False)
+NOTHING: tuple[object, ...] = (None, "", (), [], {}, False)
 
 
 def described(device: Device) -> Iterator[Row]:
