@@ -13,15 +13,15 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from described_facts import described, notes
 from fieldscribe.diagnostics import Report
 from fieldscribe.pipeline import load_device
+from second_reading_facts import described, notes
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from described_facts import Row
     from fieldscribe.model import Device
+    from second_reading_facts import Row
 
 ROOT = Path(__file__).resolve().parents[1]
 READINGS = ROOT / "tests/readings"

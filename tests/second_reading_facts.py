@@ -286,6 +286,7 @@ def _of_bus(device: Device) -> Facts:
         "framings": list(bus.framings),
         "units": list(bus.units),
         "broadcast": bus.broadcast,
+        "gaps": {space: [list(one) for one in gaps] for space, gaps in bus.gaps.items()},
         "pad_coil_bytes": bus.pad_coil_bytes,
         "pkw": list(bus.pkw),
         "pzd": list(bus.pzd) if any(bus.pzd) else [],
