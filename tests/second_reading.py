@@ -106,13 +106,16 @@ def _unsaid(name: str, device: Device) -> Iterator[Difference]:
                 yield Difference(name, f"note of {row['of']}", row["line"], "words", None, phrase)
 
 
-def settled_wrongly(name: str) -> list[str]:
-    """What is said to be settled, but was read as it counts now, or has no reason."""
-    return [
-        f"{key(row)}: {fact}"
-        for row in rows(name)
-        for fact, told in row.get("settled", {}).items()
-        if told["read"] == row["facts"].get(fact) or not told["why"]
+def settled_wrongly(name: str, named: set[str]) -> list[str]:
+    """What is said to be settled, but was read as it counts now, has no reason, or rests on an erratum that is none."""
+    settled = [(row, fact, told) for row in rows(name) for fact, told in row.get("settled", {}).items()]
+    wrong = [f"{key(row)}: {fact}" for row, fact, told in settled if told["read"] == row["facts"].get(fact)]
+    wrong += [f"{key(row)}: {fact}: no reason" for row, fact, told in settled if not told["why"]]
+    lists = [
+        (key(row), ids) for row, _, told in settled for ids in re.findall(r"errat(?:um|a)( [\w, ]+|\))", told["why"])
+    ]
+    return wrong + [
+        f"{of}: {one} is no erratum" for of, ids in lists for one in ids.split(", ") if one.strip() not in named
     ]
 
 
