@@ -96,8 +96,8 @@ class Point:
 
     @cached_property
     def entries(self) -> dict[int, str]:
-        """The names of numbers."""
-        return self.device_entries(self.row.get("enum", {}))
+        """The names of numbers, of a digit where the point is digits."""
+        return self.device_entries(self.row.get("enum") or self.row.get("digits", {}).get("enum", {}))
 
     def device_entries(self, enum: Row | str) -> dict[int, str]:
         """The names of an enum, given in place or by its name."""
@@ -198,10 +198,11 @@ class Point:
 
     @cached_property
     def special(self) -> dict[int, str]:
-        """The first and the last raw number of each special code, with its name."""
-        found = {}
+        """Every raw number that is no quantity, with its name."""
+        found = {number(code): "no_value" for code in self.row.get("no_value", [])}
         for key, entry in self.row.get("special", {}).items():
-            found.update({number(end): _name(entry) for end in key.split("..")})
+            low, _, high = key.partition("..")
+            found.update(dict.fromkeys(range(number(low), number(high or low) + 1), _name(entry)))
         return found
 
 
