@@ -7,8 +7,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from fieldscribe.model import UNSETTLED_TYPE
-
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
 
@@ -107,7 +105,7 @@ def _of_point(point: Point, codes: Mapping[str, str]) -> Facts:
         "code": point.code,
         "name": point.name,
         "title": point.title.get("de"),
-        "type": point.type if point.places and point.reason != UNSETTLED_TYPE else None,
+        "type": point.type if point.untyped is None else point.untyped,
         "words": list(point.addresses),
         "places": [[one.purpose, list(one.addresses), one.function] for one in point.places[1:]],
         "function": point.places[0].function if point.places else None,
@@ -145,7 +143,7 @@ def _around(point: Point) -> Facts:
         "changes_with": list(point.changes_with),
         "keeps": point.keeps,
         "conditions": list(point.conditions),
-        "when": point.when,
+        "when": None if point.when is None else str(point.when),
         "since": [one for one in (point.since, point.until) if one is not None],
         "reserved": point.reserved,
         "documented_only": not point.generated,
@@ -169,7 +167,8 @@ def _flag(flag: Flag) -> list[Any]:
 
 
 def _special(special: Special) -> list[Any]:
-    return [*_names_of(special), *(["no value"] if special.no_value else [])]
+    told = {"no value": special.no_value, "writable": special.writable}
+    return [*_names_of(special), *(word for word, holds in told.items() if holds)]
 
 
 def _fixed(point: Point) -> Facts:
@@ -210,7 +209,16 @@ def _ranges(point: Point, codes: Mapping[str, str]) -> list[Any]:
             found[-1][1] = pair[1]
         else:
             found.append(pair)
-    return [] if found == [[point.least, point.greatest]] or point.info.floating else found
+    return [] if found == _quantities(point) or point.info.floating else found
+
+
+def _quantities(point: Point) -> list[list[int]]:
+    """All raw numbers that the type can hold, but the special codes."""
+    low, found = point.least, list[list[int]]()
+    for one in sorted(point.specials, key=lambda special: special.low):
+        found.append([low, one.low - 1])
+        low = one.high + 1
+    return [pair for pair in (*found, [low, point.greatest]) if pair[0] <= pair[1]]
 
 
 def _bound(bound: Bound, codes: Mapping[str, str]) -> object:
