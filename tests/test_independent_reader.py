@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import struct
 from collections import Counter
+from math import isnan
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -42,7 +43,8 @@ def decode(point: Point, vector: Vector, points: Points) -> object:
     if vector["status"] != "ok":
         return vector["status"] in _REFUSED or vector["raw"] in point.special
     if point.type in ("f32", "f64"):
-        return _pattern(float_of(vector["raw"], point.width)) == _pattern(vector["value"])
+        value = float_of(vector["raw"], point.width)
+        return (isnan(value) and isnan(vector["value"])) or _pattern(value) == _pattern(vector["value"])
     slope, start = point.line(_with(vector), points)
     return float((vector["raw"] - start) / slope) == vector["value"]
 
@@ -59,6 +61,7 @@ def check(point: Point, vector: Vector, points: Points) -> object:
         raise UnknownError(vector["status"])
     raw, (mask, constant) = vector["raw"], point.fixed
     inside = any(low <= raw <= high for low, high in point.intervals(_with(vector), points))
+    inside = raw in point.writable_codes if raw in point.special else inside
     fits = bool(point.bits) or raw & mask == constant
     return (inside and fits) == (vector["status"] == "ok")
 

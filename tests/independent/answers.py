@@ -199,11 +199,43 @@ class Point:
     @cached_property
     def special(self) -> dict[int, str]:
         """Every raw number that is no quantity, with its name."""
-        found = {number(code): "no_value" for code in self.row.get("no_value", [])}
-        for key, entry in self.row.get("special", {}).items():
+        return {raw: name for (low, high), (name, _) in self.codes.items() for raw in range(low, high + 1)}
+
+    @cached_property
+    def writable_codes(self) -> set[int]:
+        """The special codes that may be written."""
+        bands = [span for span, (_, writable) in self.codes.items() if writable]
+        return {raw for low, high in bands for raw in range(low, high + 1)}
+
+    @cached_property
+    def codes(self) -> dict[tuple[int, int], tuple[str, bool]]:
+        """The special codes, with names and whether they may be written: what is nearer to the point wins."""
+        found: dict[tuple[int, int], tuple[str, bool]] = {}
+        for key, entry in (pair for layer in self._layers() for pair in layer.items()):
             low, _, high = key.partition("..")
-            found.update(dict.fromkeys(range(number(low), number(high or low) + 1), _name(entry)))
+            span = self._signed(number(low)), self._signed(number(high or low))
+            name = "" if entry in NOTHING else _name(entry)
+            found = {one: told for one, told in found.items() if one != span and told[0] != name}
+            if name and self.outer[0] <= span[0] and span[1] <= self.outer[1]:
+                found[span] = name, isinstance(entry, dict) and entry.get("writable") in ("yes", "true")
         return found
+
+    def _layers(self) -> list[Row]:
+        """Maps of special codes, the farthest first: device, group, format, the point's own."""
+        own = [self.row.get("format_special", {}), self.row.get("special", {})]
+        if self.bits or self.type in ("bit", "text"):
+            return own
+        floating = self.type in ("f32", "f64")
+        around = [
+            layer
+            for for_all, types in self.row.get("around", ())
+            for layer in ({} if floating else for_all, types.get(self.type, {}).get("special", {}))
+        ]
+        return around + own
+
+    def _signed(self, code: int) -> int:
+        """The number that a pattern is in a signed type."""
+        return code - (1 << self.width) if self.type.startswith("s") and code > self.outer[1] else code
 
 
 def _name(entry: str | Row) -> str:

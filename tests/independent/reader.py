@@ -44,8 +44,9 @@ def read(folder: Path) -> Description:
         for key in ("enums", "formats", "records"):
             getattr(found, key).update(part.get(key, {}))
     for group in (group for part in parts for group in (part, *part.get("groups", ()))):
+        around = [(one.get("special", {}), one.get("types", {})) for one in (device, group)]
         for row in group.get("points", ()):
-            shared = {key: group[key] for key in _INHERITED if key in group}
+            shared = {key: group[key] for key in _INHERITED if key in group} | {"around": around}
             for one in _written_out(found, shared | row):
                 found.points[one["item"]] = one
     return found
@@ -58,7 +59,8 @@ def _load(path: Path) -> Row:
 
 def _written_out(description: Description, row: Row) -> Iterator[Row]:
     """The points that a row stands for: of a record, for each set, for each element, for each variant."""
-    row = description.formats.get(row.get("format", ""), {}) | row
+    shared = description.formats.get(row.get("format", ""), {})
+    row = shared | row | {"format_special": shared.get("special", {})}
     if "record" in row:
         yield from _members(description, row)
         return
@@ -68,12 +70,12 @@ def _written_out(description: Description, row: Row) -> Iterator[Row]:
 
 
 def _members(description: Description, row: Row) -> Iterator[Row]:
-    kept = {key: value for key, value in row.items() if key in (*_INHERITED, "code")}
+    kept = {key: value for key, value in row.items() if key in (*_INHERITED, "code", "around")}
     for member in description.records[row["record"]]["points"]:
         shared = description.formats.get(member.get("format", ""), {})
         at = "~" if row["at"] in NOTHING else str(_whole(member["at"], {"base": number(row["at"])}))
-        own = row.get("members", {}).get(member["name"], {})
-        yield from _variants(kept | shared | member | own | {"name": f"{row['name']}_{member['name']}", "at": at})
+        own = row.get("members", {}).get(member["name"], {}) | {"name": f"{row['name']}_{member['name']}", "at": at}
+        yield from _variants(kept | shared | member | own | {"format_special": shared.get("special", {})})
 
 
 def _sets(row: Row) -> Iterator[Row]:
