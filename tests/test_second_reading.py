@@ -58,6 +58,7 @@ SLIPS = [
         {"name: output_2,": "name: output_3,", "name: output_3,": "name: output_2,"},
         "flags 1",
     ),
+    ("jumo_controller", "process_data.yaml", {"at: 0x005B": "at: 0x005F"}, "the whole row"),
     ("nord_sk5xxe", "process_data.yaml", {"name: quick_stop": "name: slow_stop"}, "flags 2"),
     ("siemens_mm4", "parameters.yaml", {"unit: Hz": "unit: s"}, "unit"),
     (
