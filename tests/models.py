@@ -264,7 +264,7 @@ def sample_bus() -> Bus:
     exceptions = (Code(0x21, "value_out_of_range", titles("Value out of range"), None),)
     gaps = {"holding": ((0x30, 0x8FF),)}
     return Bus(
-        *(("rtu",), (1, 32), 0, functions, exceptions, gaps),
+        *(("rtu", "tcp"), (1, 32), 0, functions, exceptions, gaps),
         *("even", {"silent_characters": "3.5"}, {"baud": {"4": "4800"}}, {}),
     )
 

@@ -151,7 +151,7 @@ def can_messages() -> tuple[Message, ...]:
     ask = (("constant", 0xFF), ("unit", 0), *NAMED)
     write = (("constant", 0xEE), ("unit", 0), *NAMED, ("raw", 8), ("raw", 0), *SUM)
     told = (("constant", 0xFF), ("unit", 0), *NAMED, ("raw", 8), ("raw", 0), *SUM)
-    beat = (("constant", 5), ("unit", 0), ("word", 1), ("word", 0), *(("constant", 0),) * 4)
+    beat = (("constant", 5), ("unit", 0), ("word", 1), ("word", 0), ("constant", 0), ("constant", 0), *SUM)
     return (
         message("read_request", "request", 0x33F, *ask, ("constant", 0), ("constant", 0), *SUM),
         message("read_answer", "response", 0x320, *told, answers="read_request"),

@@ -59,14 +59,15 @@ def draws(rng: random.Random) -> Iterator[tuple[Any, ...]]:
             yield *head, "decode_count", raw, ratio
             yield *head, "encode_count", raw, ratio
             continue
-        count = near_count(rng, ratio, raw, point.decimals)
+        decimals = point.decimals or 0
+        count = near_count(rng, ratio, raw, decimals)
         for kind, number, found in (
-            ("encode_count", count, ratio.raw_of_count(count, point.decimals)),
+            ("encode_count", count, ratio.raw_of_count(count, decimals)),
             *encoded_value(rng, ratio, raw),
         ):
             inside = found is not None and any(low <= found <= high for low, high in limits)
             yield *head, kind, number, *(("ok", found) if inside else ("out_of_range",))
-        decoded = ratio.count_of_raw(raw, point.decimals)
+        decoded = ratio.count_of_raw(raw, decimals)
         yield *head, "decode_count", raw, *(("ok", decoded) if -INT64 <= decoded < INT64 else ("overflow",))
         if ratio.divides_exactly(raw):
             yield *head, "decode", raw, "ok", quotient(ratio.numerator(raw), ratio.denominator)

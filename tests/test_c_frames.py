@@ -6,6 +6,7 @@ import re
 from typing import TYPE_CHECKING
 
 import pytest
+import wrong_bytes
 from c_device import SANITIZERS, STANDARDS, WARNINGS, driver, kitchen, write_headers
 from toolchains import compiled, run, succeed, tool
 
@@ -106,6 +107,57 @@ int main(void)
     return KITCHEN_CAN_WORDS_GROUP_COUNT == sizeof kitchen_can_words_group / sizeof kitchen_can_words_group[0] ? 0 : 11;
 }
 """
+
+CAN_WRONG_BYTES = """
+#include <string.h>
+#include "kitchen_can_can.h"
+static const uint8_t right[8] = {@RIGHT@};
+static const struct {
+    unsigned place;
+    fieldscribe_can_status reason;
+} wrong[] = {@WRONG@};
+int main(void)
+{
+    fieldscribe_can_frame frame = {0x705U, 8U, {0U}};
+    fieldscribe_can_slot slots[KITCHEN_CAN_TELEGRAM_HEARTBEAT_SLOTS];
+    fieldscribe_can_receiver receiver = kitchen_can_telegram_heartbeat_listen(5U, slots);
+    const uint8_t nobody[8] = {5U, 31U, 0U, 0U, 0U, 0U, 5U, 31U};
+    uint16_t beats = 0U;
+    uint16_t address = 0U;
+    uint16_t raw = 0U;
+    size_t at;
+    for (at = 0U; at < sizeof wrong / sizeof wrong[0]; ++at) {
+        memcpy(frame.data, right, 8U);
+        frame.data[wrong[at].place] = (uint8_t)(frame.data[wrong[at].place] ^ 0x20U);
+        if (fieldscribe_can_take(&receiver, &frame) ||
+            fieldscribe_can_parse(&kitchen_can_message_heartbeat, 5U, &frame, &address, &raw) != wrong[at].reason) {
+            return 1 + (int)at;
+        }
+    }
+    memcpy(frame.data, right, 8U);
+    if (!fieldscribe_can_take(&receiver, &frame) ||
+        kitchen_can_beats_received(&receiver, &beats) != FIELDSCRIBE_CAN_OK || beats != 0x1234U) {
+        return 20;
+    }
+    /* no device has that unit, though the frame is a good one */
+    receiver = kitchen_can_telegram_heartbeat_listen(31U, slots);
+    frame.id = 0x71FU;
+    memcpy(frame.data, nobody, 8U);
+    return fieldscribe_can_take(&receiver, &frame) ? 21 : 0;
+}
+"""
+
+
+def can_wrong_bytes() -> str:
+    """The program with the frames that all languages refuse alike."""
+    right = ", ".join(f"0x{byte:02X}U" for byte in wrong_bytes.RIGHT)
+    pairs = [
+        f"{{{place}U, FIELDSCRIBE_CAN_{reason.upper()}}}"
+        for reason, places in wrong_bytes.WRONG.items()
+        for place in places
+    ]
+    return CAN_WRONG_BYTES.replace("@RIGHT@", right).replace("@WRONG@", ", ".join(pairs))
+
 
 CAN_TELEGRAM = """
 #include <string.h>
@@ -221,7 +273,12 @@ int main(void)
 }
 """
 
-USES = {"can": CAN_DIALOGUE, "can_telegram": CAN_TELEGRAM, "uss": USS_DIALOGUE}
+USES = {
+    "can": CAN_DIALOGUE,
+    "can_telegram": CAN_TELEGRAM,
+    "can_wrong_bytes": can_wrong_bytes(),
+    "uss": USS_DIALOGUE,
+}
 
 
 @pytest.mark.parametrize("standard", ["c99", "c++11"])

@@ -183,7 +183,8 @@ def test_commands_and_loopback() -> None:
 
 
 def test_tcp_is_known_by_its_header() -> None:
-    heard = hear(bytes.fromhex("000700000006050310280001"))
+    rtu_only = replace(DEVICE, bus=replace(DEVICE.bus, framings=("rtu",)))
+    heard = ModbusListener(rtu_only, {}).hear(bytes.fromhex("000700000006050310280001"))
     assert (heard.framing, heard.unit, heard.kind) == ("tcp", 5, "request")
     assert heard.checks == "ok (transaction 7)"
     assert heard.findings == ("the manual knows only RTU frames",)
@@ -236,6 +237,9 @@ def test_requests_to_write() -> None:
     assert "3FC0h by 3FC0h" in caught.value.hint
     with pytest.raises(RefusedError, match="unit number"):
         write_request(DEVICE, named(DEVICE, "base_frequency"), 500, 99, None)
+    rtu_only = replace(DEVICE, bus=replace(DEVICE.bus, framings=("rtu",)))
+    with pytest.raises(RefusedError, match="does not speak this framing"):
+        write_request(rtu_only, named(DEVICE, "base_frequency"), 500, 1, "tcp")
     slow = replace(DEVICE, bus=replace(DEVICE.bus, functions=()))
     with pytest.raises(RefusedError, match="no function"):
         write_request(slow, named(DEVICE, "base_frequency"), 500, 1, None)

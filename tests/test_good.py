@@ -96,7 +96,7 @@ def test_run_time_factors() -> None:
     """Values and raw numbers of other points, powers of ten, and sums over one point."""
     value = Factor("rated_current", 1, 0, -1, False)
     assert rule("current") == Linear(Fraction(0x2000 * 100), Fraction(0), (value,))
-    exponent = Factor("power_exponent", 1, 0, -1, True)
+    exponent = Factor("power_exponent", 1, 0, -1, True, (-3, 3))
     assert rule("power") == Linear(Fraction(1), Fraction(0), (exponent,))
     assert rule("energy") == Linear(Fraction(28), Fraction(0), (value, exponent))
     assert rule("shifted") == Linear(Fraction(1, 10), Fraction(0), (Factor("rated_current", 1, 5, 1, False),))

@@ -18,7 +18,7 @@ from fieldscribe.resources import templates_dir
 from fieldscribe.targets import python as target
 from fieldscribe.targets.python.identifiers import DEVICE_MEMBERS, HELPERS, WORD_MEMBERS
 from models import HERTZ, STATUS_FLAGS, entry, plain_points, point, sample_device, titles, trip_device
-from python_package import AsyncSlave, Slave, imported, typed_findings, write_package
+from python_package import AsyncSlave, Slave, error, imported, typed_findings, write_package
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -381,10 +381,9 @@ def test_tcp_commands_and_refusals(package: Any) -> None:
         "exception",
         "A020 base_frequency: the device answered exception 21h (value_out_of_range)",
     )
-    assert status(package.SampleDrive(Slave(), unit=33).base_frequency.read)[0] == "bad_unit"
     with pytest.raises(AttributeError):
         drive.base_frequency = 5
-    with pytest.raises(ValueError, match="framing"):
+    with pytest.raises(ValueError, match="the device speaks rtu and tcp"):
         package.SampleDrive(Slave("ascii"), unit=5)
 
 
@@ -422,6 +421,7 @@ def test_tables_of_taken_names_are_complete(package: Any) -> None:
     runtime = sys.modules["fieldscribe_runtime"]
     can, uss = (importlib.import_module(f"fieldscribe_runtime.{family}") for family in ("can", "uss"))
     can.CanSession.PROFILE = can.Profile((0, 1), 11, ())
+    runtime.Device.PROFILE = runtime.AsyncDevice.PROFILE = package.SampleDrive.PROFILE
     uss.UssSession.PROFILE = uss.Profile((0, 1), (4,), (0, 2), {})
     link = uss.Link(4, 2)
     devices = (
@@ -528,8 +528,22 @@ def test_writes_go_only_to_spaces_that_can_be_written(drive: Any, slave: Slave) 
 def test_unknown_variants_are_refused(package: Any) -> None:
     with pytest.raises(ValueError, match="voltage_class is one of 200V, 400V, not '100V'"):
         package.SampleDrive(Slave(), unit=1, voltage_class="100V")
+    bare = type("Bare", (sys.modules["fieldscribe_runtime"].Device,), {"PROFILE": package.SampleDrive.PROFILE})
     with pytest.raises(ValueError, match="no variants by 'colour'"):
-        sys.modules["fieldscribe_runtime"].Device(Slave(), 1, {"colour": "red"})
+        bare(Slave(), 1, {"colour": "red"})
+
+
+def test_units_and_framings_that_the_device_cannot_have_are_refused(package: Any) -> None:
+    for made in (package.SampleDrive, package.SampleDriveAsync):
+        for unit in (33, -1, 256, "5", None):
+            failure = error(made, Slave(), unit)
+            assert (failure.status, str(failure)) == ("bad_unit", f"the device can be unit 1 to 32, not {unit!r}")
+        assert made(Slave(), 0).unit == 0  # all units
+        assert error(made, Slave("ascii"), 5).status == "bad_framing"
+        limited = type("Limited", (made,), {"PROFILE": replace(made.PROFILE, framings=("rtu",))})
+        failure = error(limited, Slave("tcp"), 5)
+        assert (failure.status, str(failure)) == ("bad_framing", "the device speaks rtu, not 'tcp'")
+        assert limited(Slave(), 5).unit == 5
 
 
 def test_nothing_is_cut_off_silently(package: Any) -> None:

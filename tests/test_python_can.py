@@ -3,17 +3,27 @@
 from __future__ import annotations
 
 import asyncio
+import importlib
 import sys
 import threading
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import pytest
+import wrong_bytes
+from c_device import kitchen
+from fieldscribe.dialogue.options import Options
+from fieldscribe.families.can import CanFrame, parse
+from fieldscribe.families.can.dialogue import decode
 from python_families import AsyncCanUnit, CanUnit, can_device
 from python_package import error, imported, typed_findings, write_package
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
+
+    from fieldscribe.dialogue import Heard
+    from fieldscribe.model import Message
 
 
 @pytest.fixture(scope="module")
@@ -39,6 +49,58 @@ def unit(can: Any) -> CanUnit:
 @pytest.fixture
 def mpu(package: Any, unit: CanUnit) -> Any:
     return package.SampleCan(unit, 5, voltage="400V")
+
+
+@pytest.fixture(scope="module")
+def kitchen_package(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Any]:
+    folder = write_package(kitchen("kitchen_can"), tmp_path_factory.mktemp("kitchen"))
+    yield from imported(folder, "kitchen_can")
+
+
+def test_a_frame_of_a_telegram_is_checked_byte_for_byte(kitchen_package: Any) -> None:
+    """Constant, unit and checksum of a cyclic message count as they do in an answer."""
+    can = importlib.import_module("fieldscribe_runtime.can")
+    profile = kitchen_package.KitchenCan.PROFILE
+    heartbeat = profile.message("heartbeat")
+    receiver = can.Receiver(profile, "heartbeat", wrong_bytes.UNIT)
+    frame = partial(can.Frame, wrong_bytes.IDENTIFIER + wrong_bytes.UNIT)
+    for reason, data in wrong_bytes.cases():
+        assert not receiver.take(frame(data)), reason
+        assert error(can.parse, heartbeat, wrong_bytes.UNIT, frame(data)).status == reason
+        assert parse(described("heartbeat"), wrong_bytes.UNIT, CanFrame(0x705, data)).status == reason
+        assert hear_kitchen(f"705#{data.hex()}").faults, reason
+    assert not hear_kitchen(f"705#{wrong_bytes.RIGHT.hex()}").faults
+    assert receiver.take(frame(wrong_bytes.RIGHT))
+    assert receiver.word(0) == 0x1234
+
+
+def test_a_unit_of_two_bytes_has_its_high_byte_first(kitchen_package: Any) -> None:
+    can = importlib.import_module("fieldscribe_runtime.can")
+    profile = kitchen_package.KitchenCan.PROFILE
+    stop = profile.message("stop")
+    assert can.build(stop, profile, 5).data == bytes((1, 0, 5, 0, 0, 0, 0, 0))
+    assert can.parse(stop, 5, can.Frame(0x7FF, bytes((1, 0, 5, 0, 0, 0, 0, 0)))) == (0, 0)
+    assert error(can.parse, stop, 5, can.Frame(0x7FF, bytes((1, 5, 5, 0, 0, 0, 0, 0)))).status == "wrong_unit"
+
+
+def test_units_that_the_device_cannot_have_are_refused(kitchen_package: Any) -> None:
+    can = importlib.import_module("fieldscribe_runtime.can")
+    profile = kitchen_package.KitchenCan.PROFILE
+    for unit in (0, 31, 256, "5"):
+        assert error(can.Receiver, profile, "heartbeat", unit).status == "bad_unit"
+        assert error(kitchen_package.KitchenCan, None, unit).status == "bad_unit"
+    data = bytes((5, 31, 0, 0, 0, 0, 5, 31))
+    assert hear_kitchen(f"71F#{data.hex()}").kind == "other"
+
+
+def described(name: str) -> Message:
+    """A message as the compiler knows it."""
+    return next(one for one in kitchen("kitchen_can").messages if one.name == name)
+
+
+def hear_kitchen(text: str) -> Heard:
+    """What the command line makes of a frame."""
+    return decode(kitchen("kitchen_can"), {}, [text], Options())[0]
 
 
 def test_parameters(mpu: Any, unit: CanUnit) -> None:
@@ -233,7 +295,7 @@ def test_failures_say_what_they_are(mpu: Any, package: Any, unit: CanUnit) -> No
     failure = error(mpu.fault_text.write, "Low oil")
     assert (failure.status, failure.point, failure.answered) == ("echo_mismatch", "fault_text", (1,))
     assert error(mpu.frequency.read).status == "timeout"
-    assert error(package.SampleCan(unit, 31).transformer.read).status == "bad_unit"
+    assert error(package.SampleCan, unit, 31).status == "bad_unit"
     mpu.patience = -1.0
     failure = error(mpu.transformer.read)
     text = "transformer: read_answer for 508 did not come within -1 s"

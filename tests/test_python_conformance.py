@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
-from c_device import rare_device
+from c_device import kitchen, rare_device
 from fieldscribe.diagnostics import Report
 from fieldscribe.pipeline import find_devices, load_device
 from fieldscribe.render import render
@@ -64,7 +64,7 @@ def test_all_vectors_pass(folder: Path) -> None:
 
 @pytest.mark.parametrize(
     "device",
-    [with_enums(rare_device()), odd_device(), kitchen_sink(), can_device(), uss_device()],
+    [with_enums(rare_device()), odd_device(), kitchen_sink(), kitchen("kitchen_can"), can_device(), uss_device()],
     ids=lambda device: str(device.id),
 )
 def test_other_models_pass(device: Device, tmp_path: Path) -> None:

@@ -441,7 +441,7 @@ def test_other_failures(drive: Any, package: Any, uss: Any, line: UssDrive) -> N
     assert (failure.status, str(failure)) == ("timeout", "drive_status: unit 3 did not reply to task 1 for 52")
     assert isinstance(failure, TimeoutError)
     line.change = bytes
-    assert error(package.SampleUss(line, 32, uss.Link(4, 2)).command_source.read).status == "bad_unit"
+    assert error(package.SampleUss, line, 32, uss.Link(4, 2)).status == "bad_unit"
     for link in ((5, 2), (4, 5)):
         assert error(package.SampleUss, line, 3, uss.Link(*link)).status == "bad_link"
     short = package.SampleUss(UssDrive(3, 0), 3, uss.Link(3, 0))

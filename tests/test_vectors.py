@@ -457,14 +457,14 @@ class Reading:
         if subject.scale is None:
             return {"status": "ok", "count": raw}
         ratio, offset = self.rule(subject, vector)
-        count = near((raw - offset) / ratio * 10**subject.decimals)
+        count = near((raw - offset) / ratio * 10 ** (subject.decimals or 0))
         if not -(2**63) <= count < 2**63:
             raise RefusedError("overflow")
         return {"status": "ok", "count": count}
 
     def encode_count(self, subject: Point, vector: Vector) -> Vector:
         ratio, offset = (Fraction(1), Fraction(0)) if subject.scale is None else self.rule(subject, vector)
-        power = 1 if subject.scale is None else 10**subject.decimals
+        power = 1 if subject.scale is None else 10 ** (subject.decimals or 0)
         raw = near(Fraction(vector["count"], power) * ratio + offset)
         self.admit(subject, raw, vector.get("with", {}))
         return {"status": "ok", "raw": raw}
@@ -581,7 +581,7 @@ def one_fact_at_a_time(subject: Point) -> Iterator[tuple[str, Point]]:
             cases[index] = changed_case
             yield f"case {index}: {what}", replace(subject, scale=tuple(cases))
     if subject.scale is not None:
-        yield "decimals", replace(subject, decimals=subject.decimals + 1)
+        yield "decimals", replace(subject, decimals=(subject.decimals or 0) + 1)
     yield from names_and_places(subject)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import shutil
 import subprocess
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NoReturn
 
 import pytest
 
@@ -22,6 +22,7 @@ _PACKAGES = {
     "arm-none-eabi-nm": "binutils-arm-none-eabi",
     "arm-none-eabi-objdump": "binutils-arm-none-eabi",
     "arm-none-eabi-size": "binutils-arm-none-eabi",
+    "avr-gcc": "gcc-avr avr-libc",
     "cargo": "cargo, or rustup from https://rustup.rs",
     "rustfmt": "rustfmt",
 }
@@ -34,11 +35,27 @@ def tool(name: str) -> str:
     """The path of a tool; without it the test is skipped, or fails where CI is set."""
     path = shutil.which(name)
     if path is None:
-        reason = f"{name} is missing: install {_PACKAGES.get(name, name)}"
-        if os.environ.get("CI", "").lower() == "true":
-            pytest.fail(reason)
-        pytest.skip(reason)
+        _do_without(name, _PACKAGES.get(name, name))
     return path
+
+
+def gcc_for_32_bits() -> str:
+    """The path of a gcc that makes programs of 32 bits too; the same without it."""
+    path = tool("gcc")
+    asked = [path, "-m32", "-x", "c", "-o", os.devnull, "-"]
+    program = "#include <stdio.h>\nint main(void) { return 0; }"
+    done = subprocess.run(asked, input=program, text=True, capture_output=True, check=False)
+    if done.returncode != 0:
+        _do_without("gcc -m32", "gcc-multilib")
+    return path
+
+
+def _do_without(name: str, packages: str) -> NoReturn:
+    """Skips the test and says what to install; where CI is set, it fails."""
+    reason = f"{name} is missing: install {packages}"
+    if os.environ.get("CI", "").lower() == "true":
+        pytest.fail(reason)
+    pytest.skip(reason)
 
 
 def run(command: Sequence[str | Path], *, cwd: Path | None = None) -> subprocess.CompletedProcess[str]:

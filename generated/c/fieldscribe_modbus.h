@@ -33,6 +33,7 @@ typedef enum fieldscribe_modbus_status {
     FIELDSCRIBE_MODBUS_BAD_COUNT,        /* no items, too many, or no values for them */
     FIELDSCRIBE_MODBUS_BAD_ADDRESS,      /* the last item lies beyond FFFFh, or 08h has a sub-function but 0 */
     FIELDSCRIBE_MODBUS_BAD_VALUE,        /* a coil that is neither 0 nor 1 */
+    FIELDSCRIBE_MODBUS_BAD_FRAMING,      /* the device speaks the other one alone: RTU or TCP */
     FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL, /* the caller's buffer does not hold the result */
     /* parsing */
     FIELDSCRIBE_MODBUS_SHORT_FRAME,
@@ -64,6 +65,8 @@ typedef struct fieldscribe_modbus_profile {
     uint8_t last_unit;
     uint16_t broadcast;
     bool pads_coil_bytes; /* 0Fh carries an even number of data bytes */
+    bool rtu;
+    bool tcp;
 } fieldscribe_modbus_profile;
 
 /* Consecutive addresses that one request reads. */
@@ -233,6 +236,9 @@ static inline fieldscribe_modbus_status fieldscribe_modbus_build(const fieldscri
     size_t used = head + 6U; /* with the unit, up to the checksum */
     uint8_t *const frame = buffer;
     *length = 0U;
+    if (!(framing == FIELDSCRIBE_MODBUS_TCP ? profile->tcp : profile->rtu)) {
+        return FIELDSCRIBE_MODBUS_BAD_FRAMING;
+    }
     if (status != FIELDSCRIBE_MODBUS_OK) {
         return status;
     }

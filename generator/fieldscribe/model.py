@@ -64,13 +64,17 @@ class Place:
 
 @dataclass(frozen=True, slots=True)
 class Factor:
-    """A run-time factor of a rule: (raw * slope + intercept) of a point to the power of 1 or -1; or ten to that."""
+    """A run-time factor of a rule: (raw * slope + intercept) of a point to the power of 1 or -1; or ten to that.
+
+    `exponents` are the raw numbers for which ten to it is defined; None before the points are complete.
+    """
 
     point: str
     slope: int
     intercept: int
     power: int
     ten_to: bool
+    exponents: tuple[int, int] | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -208,8 +212,9 @@ class Point:
 
     `name` is unique but for variants: points of one name differ in `variant` ("axis=value"). `places` is empty when the
     manual prints no address. `scale` is None where the raw number is the value. `decimals` k fixes the unit of the
-    integer path, 10^-k units. `specials` are never computed with. `steps` gives (from raw, step in raw). `generated` is
-    False for what is only documented; `reason` then says why.
+    integer path, 10^-k units; it is None where no 64-bit integer holds the counts, and there are none then.
+    `encodes_values` is False where raw numbers exceed 53 bits: values are decoded only. `specials` are never computed
+    with. `steps` gives (from raw, step in raw). `generated` is False for what is only documented; `reason` says why.
     """
 
     name: str
@@ -226,7 +231,7 @@ class Point:
     note: Titles
     unit: Unit
     scale: tuple[ScaleCase, ...] | None
-    decimals: int
+    decimals: int | None
     allowed: Allowed
     default: Fraction | None
     steps: tuple[tuple[int, int], ...]
@@ -253,6 +258,7 @@ class Point:
     digits: Digits | None = None
     fixed: Fixed | None = None
     changes_with: tuple[str, ...] = ()
+    encodes_values: bool = True
 
     @property
     def info(self) -> TypeInfo:
@@ -280,6 +286,13 @@ class Point:
     def greatest(self) -> int:
         """The largest raw number that the bits can hold."""
         return (1 << (self.width - self.info.signed)) - 1
+
+    @property
+    def outer(self) -> tuple[int, int]:
+        """The least and greatest raw number that may ever be written; what the bits hold where nothing is said."""
+        lows = [one.low if isinstance(one.low, int) else one.low.least for one in self.allowed.intervals]
+        highs = [one.high if isinstance(one.high, int) else one.high.greatest for one in self.allowed.intervals]
+        return max(min(lows, default=self.least), self.least), min(max(highs, default=self.greatest), self.greatest)
 
     @property
     def addresses(self) -> tuple[int, ...]:

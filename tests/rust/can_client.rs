@@ -7,7 +7,8 @@ use std::sync::Arc;
 use std::task::{Context, Poll, Wake, Waker};
 
 use fieldscribe_runtime::can::{
-    AsyncClient, AsyncTransport, BuildError, Client, ClientError, Frame, ReceiveError, Receiver, Transport,
+    AsyncClient, AsyncTransport, BuildError, Client, ClientError, Content, Frame, ParseError, ReceiveError, Receiver,
+    Transport,
 };
 use fieldscribe_runtime::Text;
 use odd_can::{enums, flags, messages, points, telegrams, with, Error, PROFILE};
@@ -218,6 +219,35 @@ fn units_are_checked() {
     assert!(client.into_transport().sent.is_empty());
 }
 
+/// Constants, unit and checksum of a cyclic message count as they do in an answer.
+fn wrong_bytes_are_of_no_telegram() {
+    const RIGHT: [u8; 8] = [5, 5, 0x34, 0x12, 0, 0, 5 ^ 0x34, 5 ^ 0x12];
+    let mut receiver = Receiver::<telegrams::Telegram>::new(5);
+    let expected = [
+        (0, ParseError::WrongConstant),
+        (1, ParseError::WrongUnit),
+        (2, ParseError::WrongCheck),
+        (3, ParseError::WrongCheck),
+        (4, ParseError::WrongConstant),
+        (5, ParseError::WrongConstant),
+        (6, ParseError::WrongCheck),
+        (7, ParseError::WrongCheck),
+    ];
+    for (place, reason) in expected {
+        let mut bytes = RIGHT;
+        bytes[place] ^= 0x20;
+        let frame = Frame::new(messages::MESSAGE.id(5), &bytes);
+        assert!(!receiver.take(&frame), "byte {place}");
+        assert_eq!(messages::MESSAGE.parse(5, &frame), Err(reason), "byte {place}");
+    }
+    assert!(receiver.take(&Frame::new(messages::MESSAGE.id(5), &RIGHT)));
+    assert_eq!(receiver.word(0), Ok(0x1234));
+    let mut nobody = Receiver::<telegrams::Telegram>::new(31);
+    let frame = Frame::new(messages::MESSAGE.id(31), &[5, 31, 0, 0, 0, 0, 5, 31]);
+    assert_eq!(messages::MESSAGE.parse(31, &frame), Ok(Content::default()));
+    assert!(!nobody.take(&frame));
+}
+
 fn is_send<T: Send>(_: &T) {}
 
 fn waits_without_blocking() {
@@ -252,5 +282,6 @@ fn main() {
     other_numbers_are_told();
     listeners_are_lent_and_paired();
     units_are_checked();
+    wrong_bytes_are_of_no_telegram();
     waits_without_blocking();
 }

@@ -3,9 +3,9 @@
 use fieldscribe_runtime::client::{Client, Transport};
 use fieldscribe_runtime::modbus::{crc, BuildError, Framing, Function, Profile, Request};
 use fieldscribe_runtime::{Error, Text};
-use rare::{points, Point, Whole, Writable};
+use rare::{points, Encodable, Point, Whole};
 
-static PROFILE: Profile = Profile::new(&[Function::new(3, 125), Function::new(16, 123)], (1, 9), None, false);
+static PROFILE: Profile = Profile::new(&[Function::new(3, 125), Function::new(16, 123)], &[Framing::Rtu], (1, 9), None, false);
 
 /// Registers from 100 on.
 struct Registers([u16; 8]);
@@ -30,7 +30,16 @@ impl Transport for Registers {
     }
 }
 
+/// A device that speaks RTU alone is not asked over TCP.
+fn framings_are_checked() {
+    let mut buffer = [0; 256];
+    let request = Request::read::<points::Name>(1);
+    assert!(request.build(&PROFILE, &mut buffer).is_ok());
+    assert_eq!(request.tcp(7).build(&PROFILE, &mut buffer), Err(BuildError::BadFraming));
+}
+
 fn main() {
+    framings_are_checked();
     let text = Text::new("First to last").unwrap();
     let mut client = Client::new(Registers([0; 8]), &PROFILE, Framing::Rtu, 1);
     assert_eq!(client.write::<points::Name>(text), Ok(()));

@@ -1,7 +1,7 @@
 //! Every raw number of a 16-bit point of each kind of rule survives raw, value, raw and raw, count, raw.
 
 use trips::points::{Falling, Fine, Sevenths, Shifted, Tenth};
-use trips::{CountReadable, CountWritable, Readable, Writable};
+use trips::{CountReadable, CountWritable, Encodable, Readable};
 
 macro_rules! trip {
     ($point:ident, $raws:expr) => {

@@ -81,7 +81,7 @@ class Form(Decodes[R_co], Encodes[W_contra], ABC, Generic[R_co, W_contra]):
 
     wire: Type
     needs: tuple[str, ...] = ()
-    decimals: int = 0
+    decimals: int | None = 0
     no_value: Mapping[str, tuple[int, int]] = {}
     names: type[enum.IntEnum | enum.IntFlag] | None = None
     refused: type[CodecError] = RangeError

@@ -19,9 +19,31 @@ if TYPE_CHECKING:
     from fieldscribe.resolve.points import Resolved
 
 HEADER = frozenset(
-    {"ok", "out_of_range", "not_a_number", "unknown_value", "zero_factor", "no_case", "overflow", "no_value", "h"}
+    {
+        "ok",
+        "may_fuse",
+        "out_of_range",
+        "not_a_number",
+        "unknown_value",
+        "zero_factor",
+        "no_case",
+        "overflow",
+        "no_value",
+        "h",
+    }
     | {"modbus_h", "description_version", "description_digest", "status", "real", "rule", "signed", "signed32"}
-    | {"signed64", "divide", "divide_wide", "magnitude", "multiply", "add", "times_ten_to", "ratio", "apply_rule"}
+    | {
+        "signed64",
+        "divide",
+        "divide_wide",
+        "magnitude",
+        "multiply",
+        "add",
+        "times_ten_to",
+        "ratio",
+        "apply_rule",
+        "quotient",
+    }
     | {"raw_from_count", "count_from_raw", "times", "times_wide", "round", "round_wide", "copy", "f32_of_bits"}
     | {"bits_of_f32", "f64_of_bits", "bits_of_f64", "is_nan", "raw_from_value", "value_from_raw"}
     | {"f32_order", "f64_order"}

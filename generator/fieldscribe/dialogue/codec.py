@@ -19,7 +19,7 @@ Settings = Mapping[str, int | Fraction]
 """What rules take of other points, by name: raw numbers; of f32 and f64 points the value, see `setting_of`."""
 
 MOST_EXPONENT = 400
-"""The largest power of ten that a run-time exponent may ask for."""
+"""The largest exponent of a point that says no range of its own."""
 
 _PATTERNS = {"f32": ("<f", "<I"), "f64": ("<d", "<Q")}
 
@@ -176,7 +176,7 @@ def _with_factors(rule: Linear, settings: Settings) -> Fraction:
     if missing:
         raise CodecError("missing", missing)
     ratio = rule.ratio
-    for factor in rule.factors:
+    for factor in _powers_last(rule):
         number = _factor(factor, settings)
         if number == 0:
             raise CodecError("zero_factor", (factor.point,))
@@ -184,11 +184,17 @@ def _with_factors(rule: Linear, settings: Settings) -> Fraction:
     return ratio
 
 
+def _powers_last(rule: Linear) -> list[Factor]:
+    """The factors in the order in which generated code looks at them: a zero counts before an exponent too large."""
+    return sorted(rule.factors, key=lambda factor: factor.ten_to)
+
+
 def _factor(factor: Factor, settings: Settings) -> Fraction:
     number = Fraction(factor.slope * settings[factor.point] + factor.intercept)
     if not factor.ten_to:
         return number
-    if abs(number) > MOST_EXPONENT:
+    low, high = factor.exponents or (-MOST_EXPONENT, MOST_EXPONENT)
+    if not low <= settings[factor.point] <= high:
         raise CodecError("overflow", (factor.point,))
     return Fraction(10) ** int(number)
 
@@ -216,7 +222,7 @@ def _bound(bound: Bound, settings: Settings, *, lower: bool) -> tuple[int, tuple
 
 def _limit(limit: Limit, settings: Settings) -> int:
     product = limit.rule.ratio
-    for factor in limit.rule.factors:
+    for factor in _powers_last(limit.rule):
         number = _factor(factor, settings)
         if number == 0 and factor.power < 0:
             raise CodecError("zero_factor", (factor.point,))

@@ -54,7 +54,7 @@ def failure(device: Device, point: Point, error: CodecError) -> tuple[str, str]:
     return {
         "zero_factor": (f"{blamed} is zero, and nothing can be computed with that", ""),
         "no_case": (f"the manual gives no scale for what {blamed} holds", ""),
-        "overflow": (f"the exponent {blamed} is too large to compute with", ""),
+        "overflow": (f"the exponent {blamed} is outside the range that it has", ""),
         "no_value": ("this raw number says that there is no value", ""),
         "not_a_number": ("the bit pattern is no number", ""),
     }.get(error.status, (error.status, ""))

@@ -142,8 +142,9 @@ def _by_reference(device: Device, key: str, asked: str, number: int | None) -> I
 
 
 def _words_per_frame(device: Device) -> dict[str, int]:
-    """How many words of each telegram one frame brings."""
-    words = {message.name: message.words for message in device.messages}
+    """How many words of each telegram one of its several frames brings."""
+    parts = [one for one in device.messages if any(role.kind == "multiplexer" for role in one.roles)]
+    words = {message.name: message.words for message in parts}
     return {telegram.name: words.get(telegram.message or "", 0) for telegram in device.telegrams}
 
 

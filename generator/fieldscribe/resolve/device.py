@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from fieldscribe.families import modbus
 from fieldscribe.model import Block, Device, Enum, Group, Point
 from fieldscribe.resolve.drafts import groups, humanised
+from fieldscribe.resolve.exponents import with_exponents
 from fieldscribe.resolve.scope import Scope, source_of, titles
 
 if TYPE_CHECKING:
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
 def build_device(subject: Subject) -> Device:
     """The model of a device without findings."""
     scope, header = subject.scope, subject.scope.header
-    points = tuple(_with_errata(subject, resolved.point) for resolved in subject.resolved)
+    points = with_exponents(tuple([_with_errata(subject, resolved.point) for resolved in subject.resolved]))
     device = Device(
         id=str(header["device"]),
         version=str(header["version"]),
@@ -149,7 +150,7 @@ def _common_facts(point: Point) -> tuple[object, ...]:
         point.access,
         point.unit.symbol,
         point.scale,
-        point.decimals,
+        (point.decimals, point.encodes_values),
         point.allowed,
         point.default,
         point.steps,

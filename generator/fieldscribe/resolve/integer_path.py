@@ -1,94 +1,106 @@
-"""The unit of the integer path: the decimals that a count needs to lose no raw number, and whether 64 bits hold it."""
+"""The ways to compute a scaled point, as far as they go: counts of 10^-k units in 64 bits, and values in binary64."""
 
 from __future__ import annotations
 
-from fractions import Fraction
-from typing import TYPE_CHECKING
-
-from fieldscribe.language.formula import Affine, cut_off, parse_scale, scale_rule
-from fieldscribe.model import ScaleCase
+from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
-    from fieldscribe.model import Linear
+    from fieldscribe.model import Linear, ScaleCase
     from fieldscribe.resolve.bounds import Bounds
     from fieldscribe.resolve.drafts import Draft
 
 MOST_DECIMALS = 12
 _INT64 = 1 << 62
+_WORD = 1 << 63
 _EXACT = 1 << 53
+_ROUNDED = 1 << 49
+"""Up to here six roundings in binary64, those of the constants too, stay below half a raw step."""
 _MANTISSA = 24
 """Of an f32 that is a factor the mantissa takes part; its exponent only shifts the result."""
 
-_WIDE = 1 << 33
-"""From here on not all raw numbers of a type can have counts, but those of its range."""
+
+class Paths(NamedTuple):
+    """The k of the point's counts (None where no 64-bit integer holds them), and whether values can be encoded."""
+
+    decimals: int | None
+    encodes_values: bool = True
 
 
-def decimals_of(draft: Draft, cases: tuple[ScaleCase, ...] | None, bounds: Bounds) -> int:
-    """The k of the point's counts (10^-k units): the author's, or the least at which a raw step is a count at least."""
+class _Needs(NamedTuple):
+    """The largest integers that a rule meets: with its offset, in the numerator of a value, and among its constants."""
+
+    raw: int
+    numerator: int
+    constant: int
+    fixed: bool
+
+    @property
+    def encodes(self) -> bool:
+        """Whether every raw number survives the way to its value and back, step by step in binary64."""
+        if self.numerator <= _EXACT:
+            return True
+        return self.fixed and self.raw <= _ROUNDED
+
+
+def paths_of(draft: Draft, cases: tuple[ScaleCase, ...] | None, bounds: Bounds) -> Paths:
+    """How the point can be computed; the k is the author's, or the least at which a raw step is a count at least."""
     said: int | None = draft.get("decimals")
     report = bounds.scales.scope.report
     if cases is None:
         if said and "scale" not in draft.failed and draft.layer("scale") is None and not draft.floating:
             message = "`decimals` belongs to a scale, and the raw number is the value here"
             report.error("integer-path", message, draft.span("decimals"), "leave it out, or give the `scale`")
-        return 0
+        return Paths(0)
     span = draft.span("decimals" if said is not None else "scale")
     if said is None and any(bounds.scales.floats(case.rule) for case in cases):
         message = "nothing says how fine the counts are: a floating-point factor has no finest step"
         report.error("integer-path", message, span, "add `decimals: …`, the decimals that the device resolves")
-        return 0
+        return Paths(0)
+    needs = [_needs(case.rule, _largest(draft, bounds), bounds) for case in cases]
+    encodes = all(one.encodes for one in needs)
+    if any(one.constant >= _WORD or not (one.fixed or one.encodes) for one in needs):
+        message = "some values of this point cannot be exact in a double"
+        report.error("float-path", message, draft.span("scale"), _way_out(cases, bounds))
+    return Paths(_decimals(draft, cases, bounds, needs), encodes)
+
+
+def _largest(draft: Draft, bounds: Bounds) -> int:
+    """The largest raw number that has to survive: any, or where the type is too wide for that, any in range."""
+    raw = max(map(abs, bounds.holds[draft]))
+    return raw if raw < 1 << 33 else max(map(abs, bounds.own_hull(draft)))
+
+
+def _decimals(draft: Draft, cases: tuple[ScaleCase, ...], bounds: Bounds, needs: list[_Needs]) -> int | None:
+    """The decimals of the counts; None, which is no finding, where they are beyond 64 bits."""
+    said: int | None = draft.get("decimals")
     needed = max(_needed(case.rule, bounds) for case in cases)
-    if needed > MOST_DECIMALS:
-        message = f"one raw step can be finer than 10^-{MOST_DECIMALS} units"
-        report.error("integer-path", message, draft.span("scale"), _way_out(draft, cases, needed, 0, bounds))
-        return MOST_DECIMALS
-    if said is not None and said < needed:
+    fits = needed <= MOST_DECIMALS and _fit(needs, needed)
+    if said is None:
+        return needed if fits else None
+    if said < needed:
         message = f"with {said} decimals two raw numbers would have one count"
-        if _faults(draft, cases, needed, bounds):
-            span, said = draft.span("scale"), None  # what is needed is no way out: tell why
-        else:
-            report.error("integer-path", message, span, f"write `decimals: {needed}`, or leave it out")
-            return needed
-    chosen = needed if said is None else said
-    for rule, message in _faults(draft, cases, chosen, bounds):
-        report.error(rule, message, span, _way_out(draft, cases, needed, chosen, bounds))
-    return chosen
+        alone = "leave `decimals` out: no 64-bit integer holds counts that tell them apart, so the point has none"
+        hint = f"write `decimals: {needed}`, or leave it out" if fits else alone
+        bounds.scales.scope.report.error("integer-path", message, draft.span("decimals"), hint)
+        return needed
+    if fits and not _fit(needs, said):
+        message = f"counts of 10^-{said} units do not fit into 64 bits"
+        hint = f"write `decimals: {max(one for one in range(needed, said) if _fit(needs, one))}`"
+        bounds.scales.scope.report.error("integer-path", message, draft.span("decimals"), hint)
+    return said if fits else None
 
 
-def _faults(draft: Draft, cases: tuple[ScaleCase, ...], decimals: int, bounds: Bounds) -> list[tuple[str, str]]:
-    """Rule and message of each case of the scale that one of the paths is too narrow for."""
-    raw = max(map(abs, bounds.holds[draft]))  # every raw number survives where the type is not too wide for that
-    if raw >= _WIDE:
-        raw = max(map(abs, bounds.own_hull(draft)))
-    found = [_fault(case.rule, decimals, raw, bounds) for case in cases]
-    return [fault for fault in found if fault is not None]
-
-
-def _way_out(draft: Draft, cases: tuple[ScaleCase, ...], needed: int, chosen: int, bounds: Bounds) -> str:
-    """What to do about a fault: something that leads into no other one."""
-    for fewer in range(chosen - 1, needed - 1, -1):
-        if not _faults(draft, cases, fewer, bounds):
-            return f"write `decimals: {fewer}`"
-    said = draft.get("scale")
-    cut = cut_off(said) if isinstance(said, str) else None
-    if cut is not None and _fits(draft, cut.line, bounds):
-        return f"the decimal was cut off: write `scale: {cut.line}`"
+def _way_out(cases: tuple[ScaleCase, ...], bounds: Bounds) -> str:
+    """What to do where the steps of a scale do not fit: something that leads into no other fault."""
     used = {bounds.scales.index.by_item(factor.point).name for case in cases for factor in case.rule.factors}
     if used:
         return f"give {' and '.join(f'`{name}`' for name in sorted(used))} a narrower `range`"
-    if needed <= MOST_DECIMALS and max(map(abs, bounds.holds[draft])) >= _WIDE:
-        return "give the point a narrower `range`"
     return "write a scale of fewer digits, or `scale: ~`: the point is then documented only"
 
 
-def _fits(draft: Draft, scale: str, bounds: Bounds) -> bool:
-    """Whether the point would have no fault with that scale, which uses no other point."""
-    parsed = parse_scale(scale)
-    if parsed.uses:
-        return False
-    cases = (ScaleCase(None, None, scale_rule(parsed, lambda _, __: Affine("", Fraction(1), Fraction(0)))),)
-    needed = _needed(cases[0].rule, bounds)
-    return needed <= MOST_DECIMALS and not _faults(draft, cases, needed, bounds)
+def _fit(needs: list[_Needs], decimals: int) -> bool:
+    """Whether counts of so many decimals, and all that is computed with them, stay within 62 bits."""
+    return all(2 * max(one.numerator, one.constant) * 10**decimals <= _INT64 for one in needs)
 
 
 def _needed(rule: Linear, bounds: Bounds) -> int:
@@ -106,8 +118,8 @@ def _needed(rule: Linear, bounds: Bounds) -> int:
     return needed
 
 
-def _fault(rule: Linear, decimals: int, raw: int, bounds: Bounds) -> tuple[str, str] | None:
-    """Rule and message unless all intermediates of both paths are wide enough: 62 bits integer, 53 as double."""
+def _needs(rule: Linear, raw: int, bounds: Bounds) -> _Needs:
+    """What both paths of a rule meet, whatever the points in it hold."""
     up, down = abs(rule.ratio.numerator), rule.ratio.denominator
     floats = bounds.scales.floats(rule)
     for factor in rule.factors:
@@ -121,10 +133,7 @@ def _fault(rule: Linear, decimals: int, raw: int, bounds: Bounds) -> tuple[str, 
             up *= most
         else:
             down *= most
-    part = rule.offset.denominator
-    numerator = (raw * part + abs(rule.offset.numerator)) * down
-    if numerator > _EXACT or up * part > _EXACT:
-        return "float-path", "some values of this point cannot be exact in a double"
-    if 2 * max(numerator, up * part) * 10**decimals > _INT64:
-        return "integer-path", f"counts of 10^-{decimals} units do not fit into 64 bits"
-    return None
+    part, lift = rule.offset.denominator, abs(rule.offset.numerator)
+    numerator = (raw * part + lift) * down
+    constant = max(up * part, down * part, lift * down)
+    return _Needs(raw + lift // part, max(numerator, up * part), constant, not rule.factors)

@@ -13,7 +13,7 @@ from fieldscribe.resolve.addresses import Places
 from fieldscribe.resolve.allowed import Ranges
 from fieldscribe.resolve.bounds import Bounds
 from fieldscribe.resolve.enums import enum_of, flags_of, specials_of
-from fieldscribe.resolve.integer_path import decimals_of
+from fieldscribe.resolve.integer_path import paths_of
 from fieldscribe.resolve.names import Index, bits_of, space_of, type_of
 from fieldscribe.resolve.rules import Scales
 from fieldscribe.resolve.scope import PLAIN, Scope, source_of, titles
@@ -94,6 +94,7 @@ def _point(scope: Scope, draft: Draft, shape: Shape, places: Places, ranges: Ran
     if enum is not None and not said_open and _all_named(allowed, enum):
         enum = enum_of(scope, draft, closed=True)
     cases = _cases(draft, ranges.bounds)
+    paths = paths_of(draft, cases, ranges.bounds)
     access = places.access(draft, shape.space)
     writable = "w" in access
     reason = _reason(draft, place is not None, access)
@@ -113,7 +114,8 @@ def _point(scope: Scope, draft: Draft, shape: Shape, places: Places, ranges: Ran
         note=titles(get("note")),
         unit=_unit(scope, draft),
         scale=cases,
-        decimals=decimals_of(draft, cases, ranges.bounds),
+        decimals=paths.decimals,
+        encodes_values=paths.encodes_values,
         allowed=allowed,
         default=None if draft.text else _default(scope, draft, enum),
         steps=_steps(scope, draft),

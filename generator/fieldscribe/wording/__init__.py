@@ -110,6 +110,15 @@ def resolution_text(point: Point) -> str:
     return ", ".join(parts)
 
 
+def width_texts(point: Point) -> tuple[str, ...]:
+    """What a scaled point does not have because its numbers are too wide: sentences without a stop."""
+    if point.form != "scaled":
+        return ()
+    counts = ("no integer path: its counts need more than 64 bits",) if point.decimals is None else ()
+    values = () if point.encodes_values else ("values are only decoded: raw numbers have more than 53 bits",)
+    return counts + values
+
+
 def steps_text(point: Point) -> str:
     """The raw steps that the device keeps: `raw 1, from raw 10000 on 10`."""
     if not point.steps:

@@ -80,6 +80,7 @@ typedef struct fieldscribe_can_profile {
 
 /* A cyclic layout of words; a message with a multiplexer carries `per_frame` of them at a time. */
 typedef struct fieldscribe_can_telegram {
+    const fieldscribe_can_profile *profile;
     const fieldscribe_can_message *message;
     uint16_t words;
     uint8_t per_frame;
@@ -288,13 +289,17 @@ static inline fieldscribe_can_receiver fieldscribe_can_listen(
     return receiver;
 }
 
-/* Takes a frame, if it is one of the telegram. */
+/* Takes a frame, if it is one of the telegram. To a unit that the device cannot have nothing belongs. */
 static inline bool fieldscribe_can_take(fieldscribe_can_receiver *receiver, const fieldscribe_can_frame *frame)
 {
     const fieldscribe_can_message *const message = receiver->telegram->message;
+    const fieldscribe_can_profile *const profile = receiver->telegram->profile;
     fieldscribe_can_slot *slot;
     uint8_t multiplexer = 0U;
     unsigned at;
+    if (receiver->unit < profile->first_unit || receiver->unit > profile->last_unit) {
+        return false;
+    }
     if (fieldscribe_can_recognize(message, receiver->unit, frame) != FIELDSCRIBE_CAN_OK) {
         return false;
     }

@@ -672,8 +672,8 @@ static inline void fieldscribe_sends(fieldscribe_vector *v, const char *sent, co
 static const char *fieldscribe_modbus_status_text(fieldscribe_modbus_status status)
 {
     static const char *const names[] = {"ok", "bad_unit", "bad_function", "bad_count", "bad_address", "bad_value",
-        "buffer_too_small", "short_frame", "long_frame", "bad_crc", "bad_protocol", "wrong_transaction", "wrong_unit",
-        "wrong_function", "exception", "bad_byte_count", "echo_mismatch"};
+        "bad_framing", "buffer_too_small", "short_frame", "long_frame", "bad_crc", "bad_protocol", "wrong_transaction",
+        "wrong_unit", "wrong_function", "exception", "bad_byte_count", "echo_mismatch"};
     return names[(size_t)status];
 }
 

@@ -26,7 +26,7 @@ class Frame:
 class Role(NamedTuple):
     """What one byte of a message carries.
 
-    `constant` (number: the byte itself), `unit`, `address` and `raw` (number: how far the byte lies above bit 0),
+    `constant` (number: the byte itself), `unit`, `address`, `raw` (number: how far the byte lies above bit 0),
     `multiplexer`, `word` (number: 2 * word of the frame, and 1 more for its low byte), `xor` (number: a mask of the
     bytes of the message that are combined).
     """
@@ -108,13 +108,13 @@ def build(message: Message, profile: Profile, unit: int, address: int = 0, raw: 
     ):
         if not low <= number <= high:
             raise RequestError(status, f"{what} {number} is outside {low}..{high}")
-    carried = {"address": address, "raw": raw}
+    carried = {"unit": unit, "address": address, "raw": raw}
     data = bytearray()
     for kind, number in message.roles:
         if kind == "constant":
             data.append(number)
         else:
-            data.append(unit & 0xFF if kind == "unit" else carried.get(kind, 0) >> number & 0xFF)
+            data.append(carried.get(kind, 0) >> number & 0xFF)
     for place, (kind, mask) in enumerate(message.roles):
         if kind == "xor":
             data[place] = _combined(data, mask)
@@ -122,30 +122,40 @@ def build(message: Message, profile: Profile, unit: int, address: int = 0, raw: 
 
 
 def check(message: Message, unit: int, frame: Frame) -> None:
-    """Raises FrameError if a frame is not that message of that unit, whatever its check bytes say.
+    """Raises FrameError if a frame is not that message of that unit; the one place that says so.
 
-    The first failure decides: wrong_id, wrong_length, wrong_constant, wrong_unit.
+    The first failure decides: wrong_id, wrong_length, wrong_constant, wrong_unit, wrong_check.
     """
     if frame.id != message.identifier(unit):
         raise FrameError("wrong_id", f"identifier {frame.id:X}h is not that of {message.name}")
     if len(frame.data) != LENGTH:
         raise FrameError("wrong_length", f"{message.name} has {LENGTH} bytes, not {len(frame.data)}")
-    for kind, status, expected in (("constant", "wrong_constant", None), ("unit", "wrong_unit", unit & 0xFF)):
-        for role, byte in zip(message.roles, frame.data, strict=True):
-            if role.kind == kind and byte != (role.number if expected is None else expected):
-                raise FrameError(status, f"a byte that {message.name} has as its {kind} is {byte:02X}h")
+    found = list(zip(message.roles, frame.data, strict=True))
+    for kind, status, what in _FIXED:
+        for role, byte in found:
+            if role.kind == kind and byte != _expected(role, unit, frame.data):
+                raise FrameError(status, f"a byte that {message.name} has as its {what} is {byte:02X}h")
+
+
+_FIXED = (("constant", "wrong_constant", "constant"), ("unit", "wrong_unit", "unit"), ("xor", "wrong_check", "check"))
+"""The kinds of bytes that are known beforehand, in the order in which they are looked at."""
+
+
+def _expected(role: Role, unit: int, data: bytes) -> int:
+    """What a byte of a kind that is known beforehand has to be."""
+    if role.kind == "constant":
+        return role.number
+    return unit >> role.number & 0xFF if role.kind == "unit" else _combined(data, role.number)
 
 
 def parse(message: Message, unit: int, frame: Frame) -> tuple[int, int]:
     """Address and raw number in a message, 0 for what it does not carry.
 
-    Raises FrameError, the first failure deciding: wrong_id, wrong_length, wrong_constant, wrong_unit, wrong_check.
+    Raises FrameError as `check` does.
     """
     check(message, unit, frame)
     carried = {"address": 0, "raw": 0}
     for (kind, number), byte in zip(message.roles, frame.data, strict=True):
-        if kind == "xor" and byte != _combined(frame.data, number):
-            raise FrameError("wrong_check", f"the check of {message.name} is wrong")
         if kind in carried:
             carried[kind] += byte << number
     return carried["address"], carried["raw"]

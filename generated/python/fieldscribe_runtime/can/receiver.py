@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from ..errors import FrameError, RequestError, TelegramError
+from ..session import check_unit
 from .frames import Frame, Message, Profile, check
 
 if TYPE_CHECKING:
@@ -28,9 +29,13 @@ class _Slot:
 
 
 class Receiver:
-    """Takes the frames of a telegram from one unit, and gives its words once they came."""
+    """Takes the frames of a telegram from one unit, and gives its words once they came.
+
+    Raises RequestError `bad_unit` for one that the device cannot have.
+    """
 
     def __init__(self, profile: Profile, telegram: str, unit: int) -> None:
+        check_unit(unit, profile.units)
         layout = profile.telegram(telegram)
         self.telegram = layout.name
         self.unit = unit

@@ -8,10 +8,8 @@ from typing import TYPE_CHECKING, ClassVar, TypeVar
 
 from ..errors import RequestError
 from ..points import Decoding, Point
-from ..session import Session
+from ..session import Session, check_unit
 from .frames import (
-    RTU,
-    TCP,
     WRITE_COIL,
     WRITE_COILS,
     WRITE_REGISTER,
@@ -20,6 +18,7 @@ from .frames import (
     Profile,
     Request,
     build,
+    check_framing,
     parse,
 )
 from .planner import Block, plan, read_function
@@ -43,8 +42,9 @@ class ModbusSession(Session):
     PROFILE: ClassVar[Profile]
 
     def __init__(self, framing: str, unit: int, variants: Mapping[str, str | None]) -> None:
-        if framing not in (RTU, TCP):
-            raise ValueError(f"the framing is 'rtu' or 'tcp', not {framing!r}")
+        check_framing(framing, self.PROFILE)
+        if unit != self.PROFILE.broadcast:
+            check_unit(unit, self.PROFILE.units)
         super().__init__(unit, variants)
         self._framing = framing
         self._transaction = 0

@@ -69,12 +69,31 @@ pub const fn to_f64(integer: i64) -> f64 {
     integer as f64
 }
 
-/// The binary64 number nearest to an unsigned integer.
+/// The binary64 number nearest to a quotient, ties to even; 0 where nothing is divided or by nothing.
 #[must_use]
-#[expect(clippy::cast_precision_loss, reason = "nearest is what is asked for")]
+#[expect(
+    clippy::cast_precision_loss,
+    reason = "nearest is what is asked for, and the lowest bit stands for all that is left over"
+)]
 #[inline]
-pub const fn unsigned_to_f64(integer: u64) -> f64 {
-    integer as f64
+pub fn quotient(dividend: i128, divisor: u64) -> f64 {
+    let size = dividend.unsigned_abs();
+    let up = size.leading_zeros();
+    let (Some(size), divisor) = (size.checked_shl(up), u128::from(divisor)) else {
+        return 0.0;
+    };
+    // The quotient has 64 bits at least: what is left over lies far below the half of a step.
+    let (Some(whole), Some(rest)) = (size.checked_div(divisor), size.checked_rem(divisor)) else {
+        return 0.0;
+    };
+    let nearest = (whole | u128::from(rest != 0)) as f64;
+    let down = f64::from_bits(1023_u64.saturating_sub(u64::from(up)) << 52);
+    let value = nearest * down;
+    if dividend < 0 {
+        -value
+    } else {
+        value
+    }
 }
 
 /// A bit out of a count.

@@ -205,12 +205,6 @@ pub trait Writable: Point {
     /// [`Error::OutOfRange`], [`Error::UnknownValue`], and [`Error::ZeroFactor`] for a limit that divides by zero.
     fn check_with(raw: Self::Raw, with: Self::With) -> Result<(), Error>;
 
-    /// The raw number of a value: nearest, halves away from zero, then checked.
-    ///
-    /// # Errors
-    /// What [`Writable::check_with`] says; [`Error::NotANumber`], [`Error::NoCase`], [`Error::ZeroFactor`].
-    fn encode_with(value: Self::Value, with: Self::With) -> Result<Self::Raw, Error>;
-
     /// As [`Writable::check_with`], for a point that needs no other.
     ///
     /// # Errors
@@ -221,14 +215,23 @@ pub trait Writable: Point {
     {
         Self::check_with(raw, ())
     }
+}
 
-    /// As [`Writable::encode_with`], for a point that needs no other.
+/// A point whose values can be encoded: all that are written, but for raw numbers of more than 53 bits with a scale.
+pub trait Encodable: Writable {
+    /// The raw number of a value: nearest, halves away from zero, then checked.
+    ///
+    /// # Errors
+    /// What [`Writable::check_with`] says; [`Error::NotANumber`], [`Error::NoCase`], [`Error::ZeroFactor`].
+    fn encode_with(value: Self::Value, with: Self::With) -> Result<Self::Raw, Error>;
+
+    /// As [`Encodable::encode_with`], for a point that needs no other.
     ///
     /// # Errors
     /// The same.
     fn encode(value: Self::Value) -> Result<Self::Raw, Error>
     where
-        Self: Writable<With = ()>,
+        Self: Encodable<With = ()>,
     {
         Self::encode_with(value, ())
     }

@@ -68,9 +68,7 @@ def build(message: Message, units: tuple[int, int], unit: int, address: int, raw
 def _byte(role: Role, unit: int, address: int, raw: int) -> int:
     if role.kind == "constant":
         return role.number
-    if role.kind == "unit":
-        return unit & 0xFF
-    carried = {"address": address, "raw": raw}.get(role.kind, 0)
+    carried = {"unit": unit, "address": address, "raw": raw}.get(role.kind, 0)
     return carried >> role.number & 0xFF
 
 
@@ -87,7 +85,7 @@ def parse(message: Message, unit: int, frame: CanFrame) -> Parsed:
     found = list(zip(message.roles, data, strict=True))
     if any(role.kind == "constant" and byte != role.number for role, byte in found):
         return Parsed("wrong_constant")
-    if any(role.kind == "unit" and byte != unit & 0xFF for role, byte in found):
+    if any(role.kind == "unit" and byte != unit >> role.number & 0xFF for role, byte in found):
         return Parsed("wrong_unit")
     if any(role.kind == "xor" and byte != checksum(data, role.number) for role, byte in found):
         return Parsed("wrong_check")

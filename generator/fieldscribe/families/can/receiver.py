@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from fieldscribe.families.can.frames import LENGTH, checksum, identifier
+from fieldscribe.families.can.frames import parse
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -55,29 +55,23 @@ class Receiver:
 
     def _place(self, frame: CanFrame) -> int | None:
         """The slot of a frame: its multiplexer, 0 without one; None if it is no frame of the telegram."""
-        if frame.id != identifier(self.message, self.unit) or len(frame.data) != LENGTH:
+        if parse(self.message, self.unit, frame).status != "ok":
             return None
-        place = 0
-        for role, byte in zip(self.message.roles, frame.data, strict=True):
-            expected = {"constant": role.number, "unit": self.unit & 0xFF}.get(role.kind, byte)
-            if role.kind == "xor":
-                expected = checksum(frame.data, role.number)
-            if byte != expected:
-                return None
-            if role.kind == "multiplexer":
-                place = byte
+        roles = zip(self.message.roles, frame.data, strict=True)
+        place = next((byte for role, byte in roles if role.kind == "multiplexer"), 0)
         return place if place < len(self._slots) else None
 
     def words(self, positions: Sequence[int]) -> tuple[str, tuple[int, ...]]:
         """The words at positions of the telegram, the high one first: ("ok", words), or `missing` or `torn` and none.
 
-        Two words of two frames are believed when the same high word came before and after the low one.
+        Two words of two frames are believed when the same high word came before and after the low one. Longer runs of
+        words, such as texts, are given as they came last.
         """
         found = [(self._slots[position // self.per_frame], position % self.per_frame) for position in positions]
         if any(slot.at == 0 for slot, _ in found):
             return "missing", ()
         (high, high_word), (low, low_word) = found[0], found[-1]
-        if high is low:
+        if high is low or len(found) > 2:
             return "ok", tuple(slot.words[word] for slot, word in found)
         if high.before == 0 or high.words[high_word] != high.words_before[high_word]:
             return "torn", ()

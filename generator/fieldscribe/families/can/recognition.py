@@ -42,7 +42,7 @@ class Recognised:
 
 def recognise(device: Device, frame: CanFrame) -> Recognised | None:
     """The message that a frame is, or is most likely meant to be; None if nothing fits."""
-    found = [_read(message, unit, frame) for message, unit in senders(device, frame)]
+    found = [_read(message, unit, frame, device.bus.units) for message, unit in senders(device, frame)]
     whole = [one for one in found if one is not None]
     return min(whole, key=lambda one: len(one.faults), default=None)
 
@@ -58,6 +58,11 @@ def senders(device: Device, frame: CanFrame) -> Iterator[tuple[Message, int | No
             yield message, carried(message, frame, "unit") if carries(message, "unit") else None
 
 
+def no_unit_text(unit: int, units: tuple[int, int]) -> str:
+    """That no device has that unit number."""
+    return f"the device cannot have unit {unit}: units are {units[0]} to {units[1]}"
+
+
 def carries(message: Message, kind: str) -> bool:
     """Whether bytes of a message have a role of that kind."""
     return any(role.kind == kind for role in message.roles)
@@ -69,7 +74,7 @@ def carried(message: Message, frame: CanFrame, kind: str) -> int:
     return sum(byte << (0 if kind == "multiplexer" else role.number) for role, byte in found if role.kind == kind)
 
 
-def _read(message: Message, unit: int | None, frame: CanFrame) -> Recognised | None:
+def _read(message: Message, unit: int | None, frame: CanFrame, units: tuple[int, int]) -> Recognised | None:
     """The frame as that message; None where the first byte that tells messages apart says that it is another."""
     if len(frame.data) != LENGTH:
         return None
@@ -78,12 +83,14 @@ def _read(message: Message, unit: int | None, frame: CanFrame) -> Recognised | N
     if fixed and fixed[0][0] != fixed[0][1]:
         return None
     faults = []
+    if unit is not None and message.direction != "request" and not units[0] <= unit <= units[1]:
+        faults.append(no_unit_text(unit, units))
     for place, (role, byte) in enumerate(found):
         right = byte
         if role.kind == "constant":
             right = role.number
         elif role.kind == "unit" and unit is not None:
-            right = unit & 0xFF
+            right = unit >> role.number & 0xFF
         if byte != right:
             faults.append(f"byte {place} is {hex_text(byte, 2)}, in this message it is {hex_text(right, 2)}")
     sums = [(byte, checksum(frame.data, role.number)) for role, byte in found if role.kind == "xor"]

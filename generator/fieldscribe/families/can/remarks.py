@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.explain.lookup import word_text
-from fieldscribe.families.can.recognition import carries
+from fieldscribe.families.can.recognition import carries, no_unit_text
 from fieldscribe.text import line
 from fieldscribe.wording import address_text, fixed_text
 from fieldscribe.wording.exact import hex_text
@@ -61,7 +61,7 @@ def request_finding(device: Device, found: Recognised) -> Iterator[str]:
     """What no unit will answer."""
     low, high = device.bus.units
     if found.unit is not None and not low <= found.unit <= high:
-        yield f"the device cannot have unit {found.unit}: units are {low} to {high}"
+        yield no_unit_text(found.unit, device.bus.units)
 
 
 def fixed_finding(point: Point, word: int) -> str:

@@ -3,15 +3,17 @@
 from fieldscribe.families.modbus.blocks import plan_blocks
 from fieldscribe.families.modbus.functions import (
     BROADCAST,
+    FRAMINGS,
     FUNCTIONS,
     PROTOCOL_MOST,
     SPACES,
     Profile,
     Space,
+    framings_of,
     profile_of,
 )
 from fieldscribe.families.modbus.replies import Reply, parse_reply
-from fieldscribe.families.modbus.requests import FRAMINGS, Request, build, crc16, frame, parse_request
+from fieldscribe.families.modbus.requests import Request, build, crc16, frame, parse_request
 
 __all__ = [
     "BROADCAST",
@@ -26,6 +28,7 @@ __all__ = [
     "build",
     "crc16",
     "frame",
+    "framings_of",
     "parse_reply",
     "parse_request",
     "plan_blocks",

@@ -10,6 +10,7 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Bus
 
+FRAMINGS = ("rtu", "tcp")
 READ_BITS = frozenset({0x01, 0x02})
 READ_WORDS = frozenset({0x03, 0x04})
 READS = READ_BITS | READ_WORDS
@@ -51,7 +52,7 @@ SPACES: Mapping[str, Space] = {
 
 @dataclass(frozen=True, slots=True)
 class Profile:
-    """What a device takes: the largest count per allowed function, unit numbers, broadcast, padding of 0Fh.
+    """What a device takes: the largest count per allowed function, unit numbers, broadcast, padding of 0Fh, framings.
 
     `broadcast` is the unit number that means all, `broadcasts` the functions that may be sent to it.
     """
@@ -61,6 +62,7 @@ class Profile:
     broadcast: int | None
     pad_coil_bytes_even: bool
     broadcasts: frozenset[int] = BROADCAST
+    framings: tuple[str, ...] = FRAMINGS
 
 
 def profile_of(bus: Bus) -> Profile:
@@ -71,4 +73,9 @@ def profile_of(bus: Bus) -> Profile:
         if code.number in PROTOCOL_MOST
     }
     silent = {code.number for code in bus.functions if code.broadcast is False}
-    return Profile(most, bus.units, bus.broadcast, bus.pad_coil_bytes == "even", BROADCAST - silent)
+    return Profile(most, bus.units, bus.broadcast, bus.pad_coil_bytes == "even", BROADCAST - silent, framings_of(bus))
+
+
+def framings_of(bus: Bus) -> tuple[str, ...]:
+    """How the device frames what it says: as the manual says, or either way where it does not."""
+    return bus.framings or FRAMINGS

@@ -11,8 +11,6 @@ from fieldscribe.families.modbus.functions import (
     Profile,
 )
 
-FRAMINGS = ("rtu", "tcp")
-
 
 @dataclass(frozen=True, slots=True)
 class Request:
@@ -69,12 +67,13 @@ def pack_bits(values: tuple[int, ...], even: bool) -> bytes:
 def build(profile: Profile, framing: str, request: Request) -> tuple[str, bytes]:
     """The bytes of a request; (status, b"") when it must not be sent.
 
-    The first failure wins: `bad_function` (not one the device allows), `bad_unit` (outside the units, or broadcast
+    The first failure wins: `bad_framing` (one that the device does not speak), `bad_function` (not one the device
+    allows), `bad_unit` (outside the units, or broadcast
     with a function that does not go to all units), `bad_count` (none, more than the most, a single write without
     exactly one value), `bad_address` (beyond 65535; a sub-function of 08h other than 0), `bad_value` (a coil not
     0 or 1, a word not 16 bits).
     """
-    status = _refusal(profile, request)
+    status = _refusal(profile, request) if framing in profile.framings else "bad_framing"
     return (
         (status, b"")
         if status != "ok"

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from fieldscribe.dialogue.refusals import RefusedError
 from fieldscribe.dialogue.selection import label
 from fieldscribe.dialogue.words import raw_of as raw_of_words
-from fieldscribe.families.modbus.functions import BROADCAST, SPACES, profile_of
+from fieldscribe.families.modbus.functions import BROADCAST, SPACES, framings_of, profile_of
 from fieldscribe.families.modbus.requests import Request, build
 from fieldscribe.wording.exact import hex_text
 
@@ -77,6 +77,7 @@ def _function(device: Device, place: Place) -> int:
 
 
 _STATUS_WORDS = {
+    "bad_framing": "the device does not speak this framing",
     "bad_unit": "the device cannot have this unit number",
     "bad_function": "the device allows no function that writes it",
     "bad_count": "it has more words than the device takes in one request",
@@ -85,6 +86,8 @@ _STATUS_WORDS = {
 
 
 def _status_hint(device: Device, status: str) -> str:
+    if status == "bad_framing":
+        return f"it speaks {' and '.join(framings_of(device.bus))}"
     if status != "bad_unit":
         return ""
     low, high = device.bus.units

@@ -35,6 +35,7 @@ _HELPERS = (
     "round",
     "round_wide",
     "copy",
+    "quotient",
     "f32_of_bits",
     "bits_of_f32",
     "f64_of_bits",
@@ -55,6 +56,7 @@ _HELPERS = (
 _MACROS = (
     "OK",
     "OUT_OF_RANGE",
+    "MAY_FUSE",
     "NOT_A_NUMBER",
     "UNKNOWN_VALUE",
     "ZERO_FACTOR",

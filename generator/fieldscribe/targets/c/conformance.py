@@ -158,7 +158,7 @@ def _constants(point: Point, view: PointView) -> str:
     calls = [f"CODE({view.macro})"] if point.code is not None else []
     if view.shape not in ("float", "text", "digits"):
         calls.append(f"RAWS({view.macro})")
-    if point.form == "scaled":
+    if point.form == "scaled" and point.decimals is not None:
         calls.append(f"DECIMALS({view.macro})")
     for key, number in point.references.items():
         kind = "REFERENCE_TEXT" if isinstance(number, str) else "REFERENCE"
@@ -179,14 +179,15 @@ def _conversions(point: Point, view: PointView, scope: Scope) -> list[str]:
     if form == "plain" and kind == "bool" and not attempt:
         number = "int32_t"
     cases = []
-    if form != "float":
+    if form != "float" and view.counts:
         if view.writable:
             cases.append(f"ENCODE_COUNT({function}_encode{counted}, {number}, {kind}, {everything})")
         if view.readable:
-            cases.append(f"{attempt}DECODE_COUNT({function}_decode{counted}, {number}, {kind}, {scale})")
+            tried = "TRY_" if getattr(view.codec, "count_beyond", "") else attempt
+            cases.append(f"{tried}DECODE_COUNT({function}_decode{counted}, {number}, {kind}, {scale})")
     if form != "plain":
         real = getattr(view.codec, "real", "double")
-        if view.writable:
+        if view.writable and view.encodes:
             cases.append(f"ENCODE({function}_encode, {real}, {kind}, {everything})")
         if view.readable:
             cases.append(f"{attempt}DECODE({function}_decode, {real}, {kind}, {scale})")

@@ -71,7 +71,7 @@ def _raw_number(point: Point, macro: str, outer: tuple[int, int]) -> Iterator[De
     elif not point.info.floating:
         yield f"{macro}_RAW_MIN", signed(outer[0])
         yield f"{macro}_RAW_MAX", signed(outer[1])
-    if point.form == "scaled":
+    if point.form == "scaled" and point.decimals is not None:
         yield f"{macro}_DECIMALS", f"{point.decimals}"
 
 

@@ -16,7 +16,7 @@ from fieldscribe.text import c_comment
 if TYPE_CHECKING:
     from fieldscribe.model import Device, Point
 
-_FLOATS = {"round", "round_wide", "times", "times_wide", "real", "f32", "f64", "rules"}
+_FLOATS = {"round", "round_wide", "times", "times_wide", "real", "f32", "f64", "rules", "quotient"}
 
 
 def device_view(device: Device) -> tuple[DeviceView, Scope]:
@@ -77,14 +77,15 @@ def head_lines(device: Device) -> tuple[str, ...]:
 
 def function_names(view: PointView) -> list[str]:
     """Every function that the header defines for a point, but for the names of its enum."""
-    counted = view.shape in ("scaled", "ruled")
+    counted = view.shape in ("scaled", "ruled") and view.counts
     if view.shape in ("text", "digits"):
         tails = ["_encode"] if view.writable else []
         tails += ["_decode"] if view.readable else []
         tails += ["_check"] if view.shape == "digits" and view.writable else []
         tails += ["_addresses"] if view.shape == "text" else []
         return [view.function + tail for tail in tails]
-    tails = ["_encode", "_encode_count"][: 1 + counted] if view.writable else []
+    tails = ["_encode"] if view.writable and view.encodes else []
+    tails += ["_encode_count"] if view.writable and counted else []
     tails += ["_decode", "_decode_count"][: 1 + counted] if view.readable else []
     tails += ["_check"] if view.writable else []
     tails += ["_rule"] if view.shape == "ruled" else []
@@ -129,10 +130,13 @@ def _needs(scope: Scope) -> Needs:
         round_wide=rules or "round_wide" in used,
         f32="f32" in used,
         f64="f64" in used,
+        quotient="quotient" in used,
         f32_order="f32_order" in used,
         f64_order="f64_order" in used,
         rules=rules,
         shifts=rules and scope.shifts,
         lifts=rules and scope.lifts,
         floats=bool(used & _FLOATS),
+        computes=bool(used & (_FLOATS | {"real", "double"})),
+        double=rules or "double" in used,
     )

@@ -41,19 +41,6 @@ def raw_bounds(point: Point) -> tuple[int, int]:
     return (-(1 << (info.bits - 1)), (1 << (info.bits - 1)) - 1) if info.signed else (0, (1 << info.bits) - 1)
 
 
-def outer_limits(point: Point) -> tuple[int, int]:
-    """The least and the greatest raw number that can ever be allowed."""
-    intervals = point.allowed.intervals
-    if not intervals:
-        return point.least, point.greatest
-    if len(intervals) == 1:
-        low, high = intervals[0].low, intervals[0].high
-        return low if isinstance(low, int) else low.least, high if isinstance(high, int) else high.greatest
-    lows = [one.low if isinstance(one.low, int) else one.low.least for one in intervals]
-    highs = [one.high if isinstance(one.high, int) else one.high.greatest for one in intervals]
-    return min(lows), max(highs)
-
-
 @lru_cache(maxsize=65536)
 def signed(number: int) -> str:
     """A number as a signed constant where one can hold it, ready for any expression or `#define`."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from fieldscribe.families.modbus import framings_of
 from fieldscribe.names import upper
 from fieldscribe.targets.c.literals import hexadecimal, raw_type, unsigned
 from fieldscribe.targets.c.places import fixed_number, fixes
@@ -78,6 +79,8 @@ class BusView:
     units: tuple[int, int]
     broadcast: str
     pads: str
+    rtu: str
+    tcp: str
     blocks: tuple[BlocksView, ...]
     requests: tuple[RequestView, ...]
     commands: tuple[CommandView, ...]
@@ -110,6 +113,8 @@ def modbus_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
         units=bus.units,
         broadcast="FIELDSCRIBE_MODBUS_NO_BROADCAST" if bus.broadcast is None else f"{bus.broadcast}U",
         pads="true" if bus.pad_coil_bytes == "even" else "false",
+        rtu="true" if "rtu" in framings_of(bus) else "false",
+        tcp="true" if "tcp" in framings_of(bus) else "false",
         blocks=tuple(_blocks(group, blocks, scope) for group, blocks in device.blocks.items() if blocks),
         requests=tuple(request for request in requests if request is not None),
         commands=tuple(_command(command, scope) for command in device.commands),

@@ -13,7 +13,6 @@ from fieldscribe.targets.c.literals import (
     VALUE_BOUNDS,
     bare,
     float_order,
-    outer_limits,
     raw_bounds,
     raw_type,
     signed,
@@ -32,7 +31,7 @@ from fieldscribe.targets.c.views import (
     PointView,
 )
 from fieldscribe.text import c_comment, c_string
-from fieldscribe.wording import access_text, range_text, raw_range_text, resolution_text, with_unit
+from fieldscribe.wording import access_text, range_text, raw_range_text, resolution_text, width_texts, with_unit
 from fieldscribe.wording.exact import number_text
 
 if TYPE_CHECKING:
@@ -45,7 +44,7 @@ _COMMENT_WIDTH = 114
 def point_view(point: Point, scope: Scope) -> PointView:
     """The view of a generated point."""
     macro = f"{scope.upper}_{upper(point.item)}"
-    low, high = (0, 0) if point.info.floating else outer_limits(point)
+    low, high = (0, 0) if point.info.floating else point.outer
     scale, limits = point.scale_arguments, point.limit_arguments
     shape, codec = _codec(point, macro, scope, (low, high), scale)
     checked = point.writable and shape in ("plain", "scaled", "ruled")
@@ -65,6 +64,8 @@ def point_view(point: Point, scope: Scope) -> PointView:
         raw_type=kind,
         from_whole="whole != 0" if kind == "bool" else f"({kind})whole",
         from_value="value != 0" if kind == "bool" else "value" if kind == "uint64_t" else f"({kind})value",
+        counts=point.decimals is not None,
+        encodes=point.encodes_values,
         readable=point.readable,
         writable=point.writable,
         check=check,
@@ -98,6 +99,7 @@ def comment_lines(point: Point, scope: Scope) -> tuple[str, ...]:
     if point.default is not None:
         facts.append(f"default {with_unit(number_text(point.default), point)}")
     lines = [*_wrapped(head), *_wrapped("; ".join(fact for fact in facts if fact) + ".")]
+    lines += [f"{text[0].upper()}{text[1:]}." for text in width_texts(point)]
     for flag in point.flags:
         if flag.width == 1 and flag.active == 0:
             lines += _wrapped(f"Bit {flag.low} ({flag.name}) is true when it is 0.")
@@ -157,7 +159,7 @@ def _codec(
 
 def _float_view(point: Point, scope: Scope) -> FloatView:
     bits = point.info.bits
-    scope.used.add(f"f{bits}")
+    scope.used.update((f"f{bits}", "double") if bits == 64 else (f"f{bits}",))
     if point.writable:
         scope.used.add(f"f{bits}_order")
     infinity = 0x7F80_0000 if bits == 32 else 0x7FF0 << 48

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.targets.c.literals import INT32, INT64, bare, outer_limits, raw_bounds, signed
+from fieldscribe.targets.c.literals import INT32, INT64, bare, raw_bounds, signed
 from fieldscribe.targets.c.views import LimitView, RuleCase, RuledView, Step
 
 if TYPE_CHECKING:
@@ -22,7 +22,7 @@ def ruled_view(point: Point, scope: Scope) -> RuledView:
     return RuledView(
         cases=cases,
         total=any(not case.test for case in cases),
-        tens=signed(10**point.decimals),
+        tens=signed(10 ** (point.decimals or 0)),
         pass_scale=scope.place(point.scale_arguments),
     )
 
@@ -98,7 +98,7 @@ def _floats(factor: Factor, scope: Scope) -> bool:
 def _beyond(factor: Factor, scope: Scope) -> str:
     """Whether an exponent is more than its own point may hold."""
     point = scope.points[factor.point]
-    low, high = outer_limits(point)
+    low, high = factor.exponents or point.outer
     least, greatest = raw_bounds(point)
     tests = [f"{factor.point}_raw < {bare(low)}"] if low > least else []
     tests += [f"{factor.point}_raw > {bare(high)}"] if high < greatest else []

@@ -5,12 +5,15 @@ from __future__ import annotations
 from math import gcd
 from typing import TYPE_CHECKING, NamedTuple
 
-from fieldscribe.targets.c.literals import EXACT_FLOAT, INT32, INT64, bare, raw_bounds, raw_type, real, signed
+from fieldscribe.targets.c.literals import EXACT_FLOAT, INT32, INT64, bare, raw_bounds, raw_type, real, signed, unsigned
 from fieldscribe.targets.c.views import ScaledView
 
 if TYPE_CHECKING:
     from fieldscribe.model import Linear, Point
     from fieldscribe.targets.c.scope import Scope
+
+
+_EXACT = 1 << 53
 
 
 class Plan(NamedTuple):
@@ -31,6 +34,8 @@ class Plan(NamedTuple):
     decode_wide: bool
     numerator: int
     counts: tuple[int, int]
+    wide_raw: bool
+    beyond: tuple[int, int] | None
 
 
 def scaled_view(point: Point, scope: Scope, low: int, high: int) -> ScaledView:
@@ -39,7 +44,7 @@ def scaled_view(point: Point, scope: Scope, low: int, high: int) -> ScaledView:
     rule = point.scale[0].rule
     ratio, offset = rule.ratio, rule.offset
     numbers = ratio.numerator, ratio.denominator, offset.numerator, offset.denominator  # hashed faster than fractions
-    key = (*numbers, point.decimals, point.type, point.access, low, high)
+    key = (*numbers, point.decimals, point.encodes_values, point.type, point.access, low, high)
     known = scope.scales.get(key)
     if known is None:
         known = scope.scales[key] = _scaled_view(point, rule, scope, low, high)
@@ -47,24 +52,28 @@ def scaled_view(point: Point, scope: Scope, low: int, high: int) -> ScaledView:
 
 
 def _scaled_view(point: Point, rule: Linear, scope: Scope, low: int, high: int) -> ScaledView:
-    plan = _plan(rule, point.decimals, raw_bounds(point), low, high)
+    plan = _plan(rule, point.decimals or 0, raw_bounds(point), low, high)
     limits = INT64 if plan.count_wide else INT32
     tests = [f"count < {bare(plan.counts[0])}"] if plan.counts[0] > limits[0] else []
     tests += [f"count > {bare(plan.counts[1])}"] if plan.counts[1] < limits[1] else []
     narrow = _is_float(plan, rule, low, high)
     wide = not narrow
-    if point.writable:
+    if wide:
+        scope.used.add("double")
+    counted, encodes = point.decimals is not None, point.writable and point.encodes_values
+    if encodes:
         scope.used.add("round_wide" if wide else "round")
     return ScaledView(
         count_type="int64_t" if plan.count_wide else "int32_t",
+        count_beyond=_beyond(plan, raw_bounds(point)) if counted and point.readable else "",
         count_outside=" || ".join(tests),
-        raw_of_count=_raw_of_count(plan, scope, raw_type(point)) if point.writable else "",
-        count_of_raw=_count_of_raw(plan, scope) if point.readable else "",
+        raw_of_count=_raw_of_count(plan, scope, raw_type(point)) if counted and point.writable else "",
+        count_of_raw=_count_of_raw(plan, scope) if counted and point.readable else "",
         real="double" if wide else scope.helper("real"),
         round=f"{scope.prefix}_round_wide" if wide else f"{scope.prefix}_round",
         whole_type="int64_t" if wide else "int32_t",
-        scaled=_scaled(rule, scope, wide) if point.writable else "",
-        value_of_raw=_value_of_raw(plan, "double" if wide else f"{scope.prefix}_real"),
+        scaled=_scaled(rule, scope, wide) if encodes else "",
+        value_of_raw=_value_of_raw(plan, point, scope, "double" if wide else f"{scope.prefix}_real"),
     )
 
 
@@ -92,7 +101,16 @@ def _plan(rule: Linear, decimals: int, raws: tuple[int, int], low: int, high: in
         decode_wide=max(decoded) + abs(p) > INT32[1],
         numerator=max(numerators),
         counts=counts,
+        wide_raw=max(raws) > INT64[1],
+        beyond=_countable(p, q, r, raws),
     )  # fmt: skip
+
+
+def _countable(p: int, q: int, r: int, raws: tuple[int, int]) -> tuple[int, int] | None:
+    """The raw numbers between which counts are computed in 64 bits; None where that is all that the type holds."""
+    most = INT64[1] - abs(p) // 2
+    low, high = -((most - q) // r), (most + q) // r
+    return None if (low <= raws[0] or p == r == 1) and raws[1] <= high else (max(low, raws[0]), min(high, raws[1]))
 
 
 def _reduced(factor: int, add: int, divisor: int) -> tuple[int, int, int]:
@@ -151,10 +169,20 @@ def _raw_of_count(plan: Plan, scope: Scope, target: str) -> str:
     return f"({target})({number})" if " " in number else f"({target}){number}"
 
 
+def _beyond(plan: Plan, raws: tuple[int, int]) -> str:
+    """The test of raw numbers, which no range allows, whose counts need more than 64 bits."""
+    if plan.beyond is None:
+        return ""
+    low, high = plan.beyond
+    tests = [f"raw < {bare(low)}"] if low > raws[0] else []
+    literal = unsigned(high) if plan.wide_raw else bare(high)
+    return " || ".join(tests + ([f"raw > {literal}"] if high < raws[1] else []))
+
+
 def _count_of_raw(plan: Plan, scope: Scope) -> str:
     sign = 1 if plan.p > 0 else -1
     if plan.p == plan.r == 1 and plan.q == 0:
-        return "raw"
+        return "(int64_t)raw" if plan.wide_raw else "raw"
     number = _linear("raw", plan.r * sign, -plan.q * sign, "int64_t" if plan.decode_wide else "int32_t")
     if abs(plan.p) != 1:
         number = f"{scope.helper('divide_wide' if plan.decode_wide else 'divide')}({number}, {abs(plan.p)})"
@@ -165,9 +193,9 @@ def _scaled(rule: Linear, scope: Scope, wide: bool) -> str:
     """The value in raw steps, before rounding: times, divided by, plus, each rounded by itself."""
     text = "value"
     if rule.ratio.numerator != 1:
-        text = f"{scope.helper('times_wide' if wide else 'times')}(value, {signed(rule.ratio.numerator)})"
+        text = f"{scope.helper('times_wide' if wide else 'times')}(value, {_constant(rule.ratio.numerator)})"
     if rule.ratio.denominator != 1:
-        text = f"{text} / {rule.ratio.denominator}"
+        text = f"{text} / {_constant(rule.ratio.denominator)}"
     if rule.offset:
         offset = abs(rule.offset)
         number = real(offset) if offset.denominator != 1 else str(offset.numerator)
@@ -175,9 +203,24 @@ def _scaled(rule: Linear, scope: Scope, wide: bool) -> str:
     return text
 
 
-def _value_of_raw(plan: Plan, real_type: str) -> str:
+def _constant(number: int) -> str:
+    """An integer as the double that is nearest to it, where none is equal."""
+    return signed(number) if abs(number) <= _EXACT else f"{number}.0"
+
+
+def _value_of_raw(plan: Plan, point: Point, scope: Scope, real_type: str) -> str:
+    if point.readable and max(plan.numerator, plan.c) > _EXACT:
+        return _quotient(plan, point, scope)
     plain = plan.a == 1 and plan.b == 0
     cast = "int64_t" if plan.numerator > INT32[1] else "int32_t"
     number = "raw" if plain else f"({_linear('raw', plan.a, -plan.b, cast)})"
     text = f"({real_type}){number}"
     return text if plan.c == 1 else f"{text} / {plan.c}"
+
+
+def _quotient(plan: Plan, point: Point, scope: Scope) -> str:
+    """(raw * a - b) / c to the nearest double, where a double does not hold the numerator."""
+    size = "(raw < 0 ? (uint64_t)(-(raw + 1)) + 1U : (uint64_t)raw)" if point.info.signed else "raw"
+    above, below = ("raw >= 0", "raw < 0") if point.info.signed else ("true", "false")
+    numbers = [unsigned(abs(plan.a)), "true" if plan.b > 0 else "false", unsigned(abs(plan.b)), unsigned(plan.c)]
+    return f"{scope.helper('quotient')}({above if plan.a < 0 else below}, {size}, {', '.join(numbers)})"

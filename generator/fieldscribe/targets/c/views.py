@@ -90,6 +90,7 @@ class ScaledView:
     """A scale known at compile time."""
 
     count_type: str
+    count_beyond: str
     count_outside: str
     raw_of_count: str
     count_of_raw: str
@@ -188,6 +189,8 @@ class PointView:
     raw_type: str
     from_whole: str
     from_value: str
+    counts: bool
+    encodes: bool
     readable: bool
     writable: bool
     check: CheckView | None
@@ -223,7 +226,10 @@ class GroupView:
 
 @dataclass(frozen=True, slots=True)
 class Needs:
-    """Which shared helpers the header holds."""
+    """Which shared helpers the header holds.
+
+    `computes` says that some function takes or gives a floating-point number, `double` that it is never a float.
+    """
 
     signed: bool
     signed32: bool
@@ -237,12 +243,15 @@ class Needs:
     round_wide: bool
     f32: bool
     f64: bool
+    quotient: bool
     f32_order: bool
     f64_order: bool
     rules: bool
     shifts: bool
     lifts: bool
     floats: bool
+    computes: bool
+    double: bool
 
 
 @dataclass(frozen=True, slots=True)

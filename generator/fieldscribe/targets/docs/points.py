@@ -147,6 +147,7 @@ def _remarks(device: Device, point: Point) -> Iterator[str]:
     if point.steps:
         yield cell("steps: " + wording.steps_text(point))
     yield from (cell(f"{one.purpose}: {one.space} {_words(one.addresses)}") for one in point.places[1:])
+    yield from map(cell, wording.width_texts(point))
     yield from _conditions(device, point)
     if point.note:
         yield cell(wording.title_text(point.note).rstrip("."))

@@ -54,7 +54,8 @@ def _floating(point: Point, wire: str, scope: Scope) -> Node:
 
 def _scaled(point: Point, wire: str, scope: Scope) -> Node:
     scope.used.update(("Rule", "Scaled"))
-    return call("Scaled", (wire, _scale(point.scale or (), scope), f"decimals={point.decimals}"))
+    only_decodes = () if point.encodes_values else ("encodes=False",)
+    return call("Scaled", (wire, _scale(point.scale or (), scope), f"decimals={point.decimals}", *only_decodes))
 
 
 def _flags(point: Point, wire: str, scope: Scope) -> Node:
@@ -146,16 +147,8 @@ def _factor(factor: Factor, scope: Scope) -> Node:
     if source is not None and source.info.floating:
         arguments.append("f32=True")
     if factor.ten_to:
-        arguments.append("ten_to=({}, {})".format(*_outer(scope.points[factor.point])))
+        arguments.append("ten_to=({}, {})".format(*(factor.exponents or scope.points[factor.point].outer)))
     return call("Factor", arguments)
-
-
-def _outer(point: Point) -> tuple[int, int]:
-    """The least and the greatest raw number that a point may ever hold."""
-    ends = [(one.low, one.high) for one in point.allowed.intervals]
-    lows = [low.least if isinstance(low, Limit) else low for low, _ in ends]
-    highs = [high.greatest if isinstance(high, Limit) else high for _, high in ends]
-    return min(lows, default=point.least), max(highs, default=point.greatest)
 
 
 def allowed(point: Point, scope: Scope) -> Node | None:

@@ -34,15 +34,17 @@ def conformance_tables(scope: Scope, device: Device) -> tuple[Table, ...]:
     whole = [one for one in scope.subjects if one.form not in ("scaled", "float", "text", "digits")]
     plain = [one for one in whole if one.carried == one.raw]
     mixed = [one for one in whole if one.carried != one.raw]
+    counted = [one for one in scaled if one.point.decimals is not None]
+    encoding = [one for one in scaled if one.point.encodes_values]
     read_scaled, write_scaled = tuple(_reads(scaled)), tuple(_writes(scaled))
     write_plain, write_mixed = tuple(_writes(plain)), tuple(_writes(mixed))
     return (
         ("decode", "decode", (*read_scaled, *_reads(floats))),
-        ("encode", "encode", (*write_scaled, *_writes(floats))),
-        ("decode_count", "decode_count", read_scaled),
+        ("encode", "encode", (*_writes(encoding), *_writes(floats))),
+        ("decode_count", "decode_count", tuple(_reads(counted))),
         ("decode_plain", "decode_plain", tuple(_reads(plain))),
         ("decode_mixed", "decode_count", tuple(_reads(mixed))),
-        ("encode_count", "encode_count", write_scaled),
+        ("encode_count", "encode_count", tuple(_writes(counted))),
         ("encode_plain", "encode_plain", write_plain),
         ("encode_mixed", "encode_count", write_mixed),
         ("check", "check", (*write_scaled, *write_plain, *write_mixed, *_writes(floats), *_writes(digits))),
@@ -147,7 +149,7 @@ def _change(subject: Subject, change: str, update: str, text: str) -> tuple[str,
     point = subject.point
     if point.bits:
         return update, ()
-    if not point.readable:
+    if not (point.readable and point.encodes_values):
         return f"{change}_only", ()
     return f"{change}{text}", () if text else (_of_scale(subject), _of_all(subject))
 

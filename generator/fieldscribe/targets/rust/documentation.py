@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.text import rust_code
-from fieldscribe.wording import access_text, address_text, raw_range_text, resolution_text, scale_text
+from fieldscribe.wording import access_text, address_text, raw_range_text, resolution_text, scale_text, width_texts
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -72,6 +72,7 @@ def _facts(point: Point) -> Iterator[str]:
             yield f"steps of {rust_code(resolution)}"
         elif scale:
             yield f"value {rust_code(scale)}"
+        yield from width_texts(point)
     yield access_text(point.access)
     if point.variant:
         yield f"for {rust_code(point.variant)}"

@@ -10,7 +10,7 @@ from fieldscribe.targets.rust.families import family_traits, space
 from fieldscribe.targets.rust.layout import binding, short_array
 from fieldscribe.targets.rust.literals import integer, mask, raw_literal, type_name, type_range
 from fieldscribe.targets.rust.reading import read_view
-from fieldscribe.targets.rust.rules import bounds, run_time_rules
+from fieldscribe.targets.rust.rules import run_time_rules
 from fieldscribe.targets.rust.views import BitsView, ConstantView, OrderView, PointView
 from fieldscribe.targets.rust.writing import write_view
 from fieldscribe.text import rust_string
@@ -28,7 +28,7 @@ _LETTERS = ("a", "b", "c", "d")
 def point_view(subject: Subject, scope: Scope) -> PointView:
     """All that the templates need of a point."""
     point = subject.point
-    low, high = bounds(point)
+    low, high = point.outer
     rules = run_time_rules(point, scope.points) if subject.form == "scaled" and subject.rule is None else ()
     code = point.code
     return PointView(

@@ -34,11 +34,14 @@ def read_view(subject: Subject, low: int, high: int) -> ReadView:
     if form == "float":
         value = f"f64::from(f{point.width}::from_bits(raw))" if raw == "u32" else "f64::from_bits(raw)"
     elif form == "scaled" and rule is not None:
-        path = count_path(rule, point.decimals, raw, low, high)
-        value, count_type, (scaled, count) = decode_float(rule, raw), path.type, path.decode
-        failing = narrows = path.overflows
+        value = decode_float(rule, raw)
+        if point.decimals is not None:
+            path = count_path(rule, point.decimals, raw, low, high)
+            count_type, (scaled, count), failing, narrows = path.type, path.decode, path.overflows, path.overflows
     elif form == "scaled":
-        value, count_type, count, failing = "", "i64", f"decode_count::<{integer(10**point.decimals)}>", True
+        value, failing = "", True
+        if point.decimals is not None:
+            count_type, count = "i64", f"decode_count::<{integer(10**point.decimals)}>"
     elif form == "text":
         value = "runtime::Text::from_words(&raw)"
     elif form == "digits":

@@ -37,16 +37,6 @@ class CountPath:
     high: str
 
 
-def bounds(point: Point) -> tuple[int, int]:
-    """The least and greatest raw number that may ever be written; the bits' own where the manual says none."""
-    intervals = point.allowed.intervals
-    if not intervals:
-        return point.least, point.greatest
-    low = min(one.low if isinstance(one.low, int) else one.low.least for one in intervals)
-    high = max(one.high if isinstance(one.high, int) else one.high.greatest for one in intervals)
-    return max(low, point.least), min(high, point.greatest)
-
-
 @lru_cache(maxsize=4096)
 def encode_float(rule: Linear) -> str:
     """A value as a raw number before rounding, each step rounded to binary64."""
@@ -63,27 +53,20 @@ def encode_float(rule: Linear) -> str:
 
 @lru_cache(maxsize=4096)
 def decode_float(rule: Linear, raw: str) -> str:
-    """The binary64 number nearest to the value: integers as far as they are exact, then one division."""
+    """The binary64 number nearest to the value: one division of integers that are exact, or of 128 bits."""
     multiply, add, divide = reduced = _reduced(*inverse(rule))
     ends = type_range(raw)
     wide = _wide(raw, reduced, ends)
+    largest = max(abs(end * multiply) + abs(add) for end in ends)
+    if max(largest, divide) > _EXACT:
+        return f"arithmetic::quotient({_linear('i128::from(raw)', multiply, add)}, {integer(divide)})"
     if (multiply, add) == (1, 0) and raw not in ("i64", "u64"):
         text = "f64::from(raw)"
     elif wide == 32:
         text = f"f64::from({_linear(_cast('raw', raw, 'i32'), multiply, add)})"
-    elif wide == 64 and max(abs(end * multiply) + abs(add) for end in ends) <= _EXACT:
-        text = f"arithmetic::to_f64({_linear(_cast('raw', raw, 'i64'), multiply, add)})"
     else:
-        text = _decode_wide(raw, multiply, add, divide)
+        text = f"arithmetic::to_f64({_linear(_cast('raw', raw, 'i64'), multiply, add)})"
     return text if divide == 1 else f"{text} / {float_literal(float(divide))}"
-
-
-def _decode_wide(raw: str, multiply: int, add: int, divide: int) -> str:
-    """As `decode_float`, in floating point from the start: 64-bit numbers whose multiples no integer holds."""
-    text = "arithmetic::unsigned_to_f64(raw)" if raw == "u64" else f"arithmetic::to_f64({_cast('raw', raw, 'i64')})"
-    text += f" * {float_literal(float(multiply))}" if multiply != 1 else ""
-    text += f" {'-' if add < 0 else '+'} {float_literal(float(abs(add)))}" if add else ""
-    return f"({text})" if add and divide != 1 else text
 
 
 @lru_cache(maxsize=16384)
@@ -204,7 +187,7 @@ def _factor(factor: Factor, points: Mapping[str, Point], *, limit: bool) -> Fact
     if factor.ten_to:
         method = "times_ten_to" if factor.power > 0 else "over_ten_to"
         if source is not None:
-            low, high = bounds(source)
+            low, high = factor.exponents or source.outer
             exponent_bounds = f"{integer(low)}, {integer(high)}"
     elif factor.power > 0:
         method = "limited_by" if limit else "times"

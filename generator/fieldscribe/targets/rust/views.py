@@ -87,6 +87,7 @@ class WriteView:
     passed: str
     check: CheckView
     kind: str
+    encodes: bool
     bounded: bool
     value: str
     count_type: str

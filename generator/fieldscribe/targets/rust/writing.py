@@ -30,11 +30,14 @@ def write_view(subject: Subject, low: int, high: int, scope: Scope) -> WriteView
     if form == "float":
         value = f"f{point.width}_bits"
     elif form == "scaled" and rule is not None:
-        path = count_path(rule, point.decimals, raw, low, high)
-        value, count_type, (scaled, count) = encode_float(rule), path.type, path.encode
-        within = f"{path.low}, {path.high}"
+        value = encode_float(rule)
+        if point.decimals is not None:
+            path = count_path(rule, point.decimals, raw, low, high)
+            count_type, (scaled, count), within = path.type, path.encode, f"{path.low}, {path.high}"
     elif form == "scaled":
-        kind, count_type, count = "run_time", "i64", f"encode_count::<{integer(10**point.decimals)}>"
+        kind = "run_time"
+        if point.decimals is not None:
+            count_type, count = "i64", f"encode_count::<{integer(10**point.decimals)}>"
         value = "with" if subject.factors == subject.arguments else "with.factors()"
     elif form == "text":
         value = "value.into_words()"
@@ -54,6 +57,7 @@ def write_view(subject: Subject, low: int, high: int, scope: Scope) -> WriteView
         passed="with" if subject.arguments else "()",
         check=_check(subject, with_type, scope),
         kind=kind,
+        encodes=point.encodes_values,
         bounded=bounded,
         value=value,
         count_type=count_type,

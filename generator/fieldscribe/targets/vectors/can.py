@@ -200,7 +200,7 @@ class _Asking:
         data = bytearray()
         for role in self.message.roles:
             word = (pattern + 0x1111 * (role.number >> 1)) & 0xFFFF
-            parts = {"constant": role.number, "unit": self.unit & 0xFF, "multiplexer": slot}
+            parts = {"constant": role.number, "unit": self.unit >> role.number & 0xFF, "multiplexer": slot}
             data.append(parts.get(role.kind, word & 0xFF if role.number & 1 else word >> 8))
         for place, role in enumerate(self.message.roles):
             if role.kind == "xor":

@@ -23,7 +23,7 @@ def text(lines: Lines, point: Point) -> None:
     received += [
         b"\xff\x80\0"[:size].ljust(size),
         b"\0" * size,
-        bytes(0xA0 + place for place in range(size)),
+        bytes(0xA0 + place % 0x60 for place in range(size)),
     ]
     if point.readable:
         for data in dict.fromkeys(received):

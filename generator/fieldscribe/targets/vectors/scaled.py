@@ -38,10 +38,12 @@ def _no_rule(lines: Lines, point: Point, status: str) -> None:
     raw = next(raw for raw in (1, 0, point.greatest) if not is_no_value(point, raw))
     if point.readable:
         lines.add("decode", raw, status)
-        lines.add("decode_count", raw, status)
+        if point.decimals is not None:
+            lines.add("decode_count", raw, status)
     if point.writable:
         lines.add("encode", 1.0, status)
-        lines.add("encode_count", 1, status)
+        if point.decimals is not None:
+            lines.add("encode_count", 1, status)
         lines.add("encode", nan, "not_a_number")
 
 
@@ -51,8 +53,10 @@ def _no_limits(lines: Lines, point: Point, ratio: Ratio, status: str) -> None:
         # Inside the outer bounds of the limit, so that nothing but the limit can refuse it.
         raw = samples.limits_of(point)[0].greatest
         value = quotient(ratio.numerator(raw), ratio.denominator)
-        lines.add("encode", value, status)
-        lines.add("encode_count", ratio.count_of_raw(raw, point.decimals), status)
+        if point.encodes_values:
+            lines.add("encode", value, status)
+        if point.decimals is not None:
+            lines.add("encode_count", ratio.count_of_raw(raw, point.decimals), status)
         lines.add("check", raw, status)
 
 
@@ -71,10 +75,13 @@ class _Sheet:
         if self.point.readable:
             raws = samples.raws_to_decode(self.point, self.limits)
             self._decode(raws)
-            self._decode_count(raws)
+            if self.point.decimals is not None:
+                self._decode_count(raws, self.point.decimals)
         if self.point.writable:
-            self._encode()
-            self._encode_count()
+            if self.point.encodes_values:
+                self._encode()
+            if self.point.decimals is not None:
+                self._encode_count(self.point.decimals)
             if self.full or self.point.limit_arguments:
                 self._check()
 
@@ -85,11 +92,11 @@ class _Sheet:
         for raw in dict.fromkeys((*raws, telling) if held and telling is not None else raws):
             if is_no_value(self.point, raw):
                 add("decode", raw, "no_value")
-            elif ratio.divides_exactly(raw):
+            elif ratio.divides_exactly(raw) or not self.point.scale_arguments:
                 add("decode", raw, "ok", ratio.numerator(raw) / under)
 
-    def _decode_count(self, raws: list[int]) -> None:
-        ratio, add, decimals = self.ratio, self.lines.add, self.point.decimals
+    def _decode_count(self, raws: list[int], decimals: int) -> None:
+        ratio, add = self.ratio, self.lines.add
         for raw in raws:
             if is_no_value(self.point, raw):
                 add("decode_count", raw, "no_value")
@@ -118,15 +125,15 @@ class _Sheet:
             add("encode", -inf, "out_of_range")
             add("encode", 1e300, *self._encoded(ratio.raw_of_float(1e300)))
 
-    def _encode_count(self) -> None:
-        ratio, add, decimals = self.ratio, self.lines.add, self.point.decimals
-        for count in self._counts():
+    def _encode_count(self, decimals: int) -> None:
+        ratio, add = self.ratio, self.lines.add
+        for count in self._counts(decimals):
             add("encode_count", count, *self._encoded(ratio.raw_of_count(count, decimals)))
 
-    def _counts(self) -> list[int]:
+    def _counts(self, decimals: int) -> list[int]:
         """Counts of the limits and beyond, around the halves on both sides of each limit, and ends of the integers."""
-        point, ratio, power = self.point, self.ratio, 10**self.point.decimals
-        found = {ratio.count_of_raw(raw, point.decimals): None for raw in samples.edges(self.limits)}
+        point, ratio, power = self.point, self.ratio, 10**decimals
+        found = {ratio.count_of_raw(raw, decimals): None for raw in samples.edges(self.limits)}
         if ratio.denominator != power * abs(ratio.den) * ratio.under:  # else a count is a raw number
             low, high = self.limits[0][0], self.limits[-1][1]
             for raw in (low - 1, low, high - 1, high):
@@ -135,7 +142,7 @@ class _Sheet:
                 found.update({below if rest else below - 1: None, below + 1: None})
                 if not rest:
                     found[below] = None
-        ends = [ratio.count_of_raw(raw, point.decimals) for raw in (point.least, point.greatest)]
+        ends = [ratio.count_of_raw(raw, decimals) for raw in (point.least, point.greatest)]
         edge = INT32 if all(-INT32 <= count < INT32 for count in ends) else INT64
         if self.full:
             found.update({INT32 - 1: None, -INT32: None, edge - 1: None, -edge: None})

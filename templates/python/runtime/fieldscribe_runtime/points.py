@@ -60,8 +60,8 @@ class Point:
         return self._form.names
 
     @property
-    def decimals(self) -> int:
-        """Counts are in units of 10^-decimals."""
+    def decimals(self) -> int | None:
+        """Counts are in units of 10^-decimals; None where there are no counts."""
         return self._form.decimals
 
     @property

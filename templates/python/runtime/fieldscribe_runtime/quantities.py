@@ -29,15 +29,28 @@ def _is_nan(value: float) -> bool:
 
 
 class Scaled(Form[float, float]):
-    """A quantity: raw = value by a rule, or by the first of several cases that fits."""
+    """A quantity: raw = value by a rule, or by the first of several cases that fits.
 
-    def __init__(self, wire: Type, rule: Rule | tuple[Case, ...], *, decimals: int) -> None:
+    With `decimals` None no 64-bit integer holds its counts, and there are none. Unless it `encodes`, its raw numbers
+    have more bits than a float, and values are only decoded.
+    """
+
+    def __init__(
+        self, wire: Type, rule: Rule | tuple[Case, ...], *, decimals: int | None, encodes: bool = True
+    ) -> None:
         self.wire = wire
         self.rule = rule
         self.decimals = decimals
+        self.encodes = encodes
         cases = (Case(None, None, rule),) if isinstance(rule, Rule) else rule
         names = [name for case in cases for name in (case.point, *(factor.point for factor in case.rule.factors))]
         self.needs = tuple(dict.fromkeys(name for name in names if name is not None))
+
+    def _counted(self) -> int:
+        """The decimals of the counts; raises WrongTypeError where there are none."""
+        if self.decimals is None:
+            raise WrongTypeError("no 64-bit integer holds the counts, so there are none: use raw numbers or values")
+        return self.decimals
 
     def _rule(self, raws: Raws) -> Rule:
         return self.rule if isinstance(self.rule, Rule) else chosen(self.rule, raws)
@@ -48,6 +61,8 @@ class Scaled(Form[float, float]):
 
     def encode(self, value: float, allowed: Allowed, raws: Raws) -> int | None:
         """Rounded to nearest, halves away from zero, then checked."""
+        if not self.encodes:
+            raise WrongTypeError("raw numbers have more than 53 bits, so values are only decoded: use raw numbers")
         try:
             if _is_nan(value):
                 raise NotANumberError("the value is NaN")
@@ -58,11 +73,11 @@ class Scaled(Form[float, float]):
 
     def decode_count(self, raw: int, raws: Raws) -> int:
         """The count nearest to the exact value, by integers alone."""
-        return self._rule(raws).decode_count(raw, self.decimals, raws)
+        return self._rule(raws).decode_count(raw, self._counted(), raws)
 
     def encode_count(self, count: int, allowed: Allowed, raws: Raws) -> int | None:
         """As `encode`, by integers alone."""
-        raw = self._rule(raws).encode_count(whole(count), self.decimals, raws)
+        raw = self._rule(raws).encode_count(whole(count), self._counted(), raws)
         return self.checked(raw, allowed, raws)
 
     def shown(self, raw: int, raws: Raws) -> str:

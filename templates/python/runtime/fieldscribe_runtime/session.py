@@ -48,6 +48,13 @@ def _about(point: Point) -> Iterator[None]:
         raise
 
 
+def check_unit(unit: int, units: tuple[int, int]) -> None:
+    """Raises RequestError (bad_unit) for a unit number that the device cannot have."""
+    low, high = units
+    if not isinstance(unit, int) or not low <= unit <= high:
+        raise RequestError("bad_unit", f"the device can be unit {low} to {high}, not {unit!r}")
+
+
 class PointTable:
     """A device's points, with what its bus needs to know."""
 

@@ -7,7 +7,7 @@ use fieldscribe_runtime::can::{
     self, AsyncClient, Client, ClientError, Frame, Message, Parameter, ParseError, Profile,
     Received, Receiver, Telegram,
 };
-use fieldscribe_runtime::{BitGroup, Decoded, Error, Readable, Whole, Writable};
+use fieldscribe_runtime::{BitGroup, Decoded, Encodable, Error, Readable, Whole, Writable};
 
 use super::{bytes, exchanged, now, same, Number, Outcome, Script, Vector};
 
@@ -125,7 +125,7 @@ pub fn write<P>(
     with: P::With,
 ) -> Outcome
 where
-    P: Readable<Raw: Number, Value: Copy> + Writable<With: Copy> + Whole + Parameter,
+    P: Readable<Raw: Number, Value: Copy> + Encodable<With: Copy> + Whole + Parameter,
 {
     let value = P::decode_with(vector.raw("raw"), factors)
         .into_result()
@@ -138,7 +138,7 @@ where
 /// A text is written.
 pub fn write_text<P>(vector: &Vector, profile: &'static Profile) -> Outcome
 where
-    P: Readable<Factors = (), Value: Copy> + Writable<With = ()> + Whole + Parameter,
+    P: Readable<Factors = (), Value: Copy> + Encodable<With = ()> + Whole + Parameter,
 {
     let words: Vec<u16> = vector.numbers("words");
     let raw = P::from_received(words.into_iter()).map_err(Error::name)?;

@@ -5,7 +5,7 @@ use fieldscribe_runtime::modbus::{
     AsyncClient, Block, BuildError, Client, ClientError, Command, Framing, Profile, ReplyError,
     Request, LONGEST,
 };
-use fieldscribe_runtime::{BitGroup, Decoded, Error, Readable, Whole, Writable};
+use fieldscribe_runtime::{BitGroup, Decoded, Encodable, Error, Readable, Whole, Writable};
 
 use super::{exchanged, now, same, Number, Outcome, Script, Vector};
 
@@ -115,7 +115,7 @@ pub fn write<P>(
     with: P::With,
 ) -> Outcome
 where
-    P: Readable<Raw: Number, Value: Copy> + Writable<With: Copy> + Whole,
+    P: Readable<Raw: Number, Value: Copy> + Encodable<With: Copy> + Whole,
 {
     let value = P::decode_with(vector.raw("raw"), factors)
         .into_result()
@@ -128,7 +128,7 @@ where
 /// A text is written.
 pub fn write_text<P>(vector: &Vector, profile: &'static Profile) -> Outcome
 where
-    P: Readable<Factors = (), Value: Copy> + Writable<With = ()> + Whole,
+    P: Readable<Factors = (), Value: Copy> + Encodable<With = ()> + Whole,
 {
     let words: Vec<u16> = vector.numbers("words");
     let raw = P::from_received(words.into_iter()).map_err(Error::name)?;
@@ -140,7 +140,7 @@ where
 /// A group of bits is written into its word.
 pub fn update<P>(vector: &Vector, profile: &'static Profile) -> Outcome
 where
-    P: Readable<Raw: Number, Factors = (), Value: Copy> + Writable<With = ()> + BitGroup,
+    P: Readable<Raw: Number, Factors = (), Value: Copy> + Encodable<With = ()> + BitGroup,
 {
     let value = P::decode(vector.raw("raw"))
         .into_result()

@@ -5,7 +5,7 @@ use fieldscribe_runtime::uss::{
     self, AsyncClient, BuildError, Client, ClientError, Link, Parameter, ParseError, Profile,
     Received, Request, Sent, Value, LONGEST,
 };
-use fieldscribe_runtime::{BitGroup, Decoded, Error, Readable, Whole, Writable};
+use fieldscribe_runtime::{BitGroup, Decoded, Encodable, Error, Readable, Whole, Writable};
 
 use super::{exchanged, now, same, Number, Outcome, Script, Vector};
 
@@ -131,7 +131,7 @@ pub fn write<P>(
     with: P::With,
 ) -> Outcome
 where
-    P: Readable<Raw: Number, Value: Copy> + Writable<With: Copy> + Whole + Parameter,
+    P: Readable<Raw: Number, Value: Copy> + Encodable<With: Copy> + Whole + Parameter,
 {
     let value = P::decode_with(vector.raw("raw"), factors)
         .into_result()
@@ -164,7 +164,7 @@ pub fn store<P>(
     with: P::With,
 ) -> Outcome
 where
-    P: Readable<Raw: Number, Value: Copy> + Writable<With: Copy> + Whole + Parameter,
+    P: Readable<Raw: Number, Value: Copy> + Encodable<With: Copy> + Whole + Parameter,
 {
     let value = P::decode_with(vector.raw("raw"), factors)
         .into_result()
@@ -263,7 +263,7 @@ pub fn send<P>(
     with: P::With,
 ) -> Outcome
 where
-    P: Readable<Raw: Number, Value: Copy> + Writable<With: Copy> + Whole + Sent,
+    P: Readable<Raw: Number, Value: Copy> + Encodable<With: Copy> + Whole + Sent,
 {
     let value = P::decode_with(vector.raw("raw"), factors)
         .into_result()

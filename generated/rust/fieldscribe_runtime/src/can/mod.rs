@@ -5,7 +5,7 @@
 //! use fieldscribe_runtime::can::{Frame, Message, Profile, Role};
 //!
 //! const ASK: Message = Message::new("ask", 0x33F, false, [
-//!     Role::Constant(0xFF), Role::Unit, Role::Address(8), Role::Address(0),
+//!     Role::Constant(0xFF), Role::Unit(0), Role::Address(8), Role::Address(0),
 //!     Role::Constant(0), Role::Constant(0), Role::Xor(0b0011_1111), Role::Constant(0),
 //! ]);
 //! static PROFILE: Profile = Profile::new((0, 30), 11, None, None);

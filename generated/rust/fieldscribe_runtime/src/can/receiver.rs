@@ -3,7 +3,7 @@
 
 use core::fmt;
 
-use super::{Frame, Message, ReceiveError, LENGTH};
+use super::{Frame, Message, Profile, ReceiveError, LENGTH};
 use crate::point::joined;
 use crate::{Decoded, Raw, Readable};
 
@@ -15,6 +15,8 @@ pub trait Telegram {
     const WORDS: u16;
     /// The message whose frames carry them.
     const MESSAGE: &'static Message;
+    /// The device that sends them.
+    const PROFILE: &'static Profile;
     /// A slot for each frame that the words fill.
     type Slots: Copy + AsRef<[Slot]> + AsMut<[Slot]> + fmt::Debug;
     /// The slots before anything came.
@@ -79,8 +81,12 @@ impl<T: Telegram> Receiver<T> {
         }
     }
 
-    /// Whether the frame belongs to the telegram; if so its words are kept.
+    /// Whether the frame belongs to the telegram; if so its words are kept. To a unit that the device cannot have
+    /// nothing belongs.
     pub fn take(&mut self, frame: &Frame) -> bool {
+        if !T::PROFILE.has_unit(self.unit) {
+            return false;
+        }
         let Some((multiplexer, words)) = T::MESSAGE.part(self.unit, frame) else {
             return false;
         };

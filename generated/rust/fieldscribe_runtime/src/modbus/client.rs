@@ -5,7 +5,7 @@ use core::fmt;
 
 use super::{BuildError, Framing, Profile, Reply, ReplyError, Request, LONGEST};
 use crate::client::{AsyncTransport, Transport};
-use crate::{BitGroup, Decoded, Error, Readable, Whole, Writable};
+use crate::{BitGroup, Decoded, Encodable, Error, Readable, Whole};
 
 /// Why a point could not be read or written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -197,7 +197,7 @@ macro_rules! client {
             /// Whatever [`ClientError`] tells.
             pub $($async)? fn write<P>(&mut self, value: P::Value) -> Result<(), ClientError<T::Error>>
             where
-                P: Writable<With = ()> + Whole,
+                P: Encodable<With = ()> + Whole,
             {
                 self.write_with::<P>(value, ())$($wait)*
             }
@@ -206,7 +206,7 @@ macro_rules! client {
             ///
             /// # Errors
             /// Whatever [`ClientError`] tells.
-            pub $($async)? fn write_with<P: Writable + Whole>(
+            pub $($async)? fn write_with<P: Encodable + Whole>(
                 &mut self,
                 value: P::Value,
                 with: P::With,
@@ -223,7 +223,7 @@ macro_rules! client {
             /// Whatever [`ClientError`] tells.
             pub $($async)? fn update<P>(&mut self, value: P::Value) -> Result<(), ClientError<T::Error>>
             where
-                P: Readable + Writable<With = ()> + BitGroup,
+                P: Readable + Encodable<With = ()> + BitGroup,
             {
                 let raw = P::encode(value)?;
                 let read = Request::read::<P>(self.unit.number);

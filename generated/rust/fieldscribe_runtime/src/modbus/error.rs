@@ -7,6 +7,8 @@ use core::fmt;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum BuildError {
+    /// The device speaks the other framing alone.
+    BadFraming,
     /// The unit is outside the device's range, or is the broadcast unit and the function does not go to all.
     BadUnit,
     /// The device does not know the function.
@@ -26,6 +28,7 @@ impl BuildError {
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
+            Self::BadFraming => "bad_framing",
             Self::BadUnit => "bad_unit",
             Self::BadFunction => "bad_function",
             Self::BadCount => "bad_count",
@@ -39,6 +42,7 @@ impl BuildError {
 impl fmt::Display for BuildError {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.write_str(match self {
+            Self::BadFraming => "the device does not speak this framing",
             Self::BadUnit => "the device has no such unit number",
             Self::BadFunction => "the device does not know the function",
             Self::BadCount => "the device does not take that many items",

@@ -157,6 +157,9 @@ impl<'a> Request<'a> {
     }
 
     fn check(&self, profile: &Profile) -> Result<(), BuildError> {
+        if !profile.speaks(self.framing) {
+            return Err(BuildError::BadFraming);
+        }
         let most = profile.most(self.function).ok_or(BuildError::BadFunction)?;
         let (least, greatest) = profile.units;
         let fits = if profile.is_broadcast(self.unit) {

@@ -9,8 +9,8 @@ use std::collections::BTreeMap;
 use std::process::ExitCode;
 
 use fieldscribe_runtime::{
-    BitGroup, CountReadable, CountWritable, Decoded, Error, Point, Raw, Readable, Text, Whole,
-    Writable,
+    BitGroup, CountReadable, CountWritable, Decoded, Encodable, Error, Point, Raw, Readable, Text,
+    Whole, Writable,
 };
 use serde_json::Value;
 
@@ -305,7 +305,7 @@ where
 /// A value to a raw number.
 pub fn encode<P>(vector: &Vector, with: P::With) -> Outcome
 where
-    P: Writable<Raw: Number, Value = f64>,
+    P: Encodable<Raw: Number, Value = f64>,
 {
     let found = P::encode_with(vector.float(), with);
     vector.expect(found.map(Number::to_value), "raw")
@@ -347,7 +347,7 @@ where
 /// A count to a raw number, and the value that has that number.
 pub fn encode_plain<P>(vector: &Vector, with: P::With) -> Outcome
 where
-    P: CountWritable<Raw: Number, Count: Number, Value: From<P::Raw>>,
+    P: CountWritable<Raw: Number, Count: Number> + Encodable<Value: From<P::Raw>>,
 {
     if let Some(raw) = vector.number("count").and_then(P::Raw::from_number) {
         let found = P::encode_with(P::Value::from(raw), with);
@@ -479,7 +479,7 @@ where
 /// A text to words.
 pub fn text_encode<P, const N: usize, const W: usize>(vector: &Vector) -> Outcome
 where
-    P: Writable<Raw = [u16; W], Value = Text<N>, With = ()> + Whole,
+    P: Encodable<Raw = [u16; W], Value = Text<N>, With = ()> + Whole,
 {
     let bytes = bytes(vector.text("text"));
     let latin: String = bytes.iter().copied().map(char::from).collect();
@@ -511,7 +511,7 @@ where
 /// Digits to a number.
 pub fn digits_encode<P, E, C, const N: usize>(vector: &Vector) -> Outcome
 where
-    P: Writable<Raw: Number, Value = [E; N], With = ()>,
+    P: Encodable<Raw: Number, Value = [E; N], With = ()>,
     E: From<C> + Copy,
     C: Number,
 {

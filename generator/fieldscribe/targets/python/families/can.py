@@ -45,7 +45,7 @@ def _message(message: Message, scope: Scope) -> Node:
 
 
 def _role(role: Role) -> Node:
-    if role.kind in ("unit", "multiplexer"):
+    if role.kind in ("unit", "multiplexer") and role.number == 0:
         return call("Role", (python_string(role.kind),))
     number = f"0x{role.number:02X}" if role.kind in ("constant", "xor") else str(role.number)
     return call("Role", (python_string(role.kind), number))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.families.modbus import BROADCAST, profile_of
+from fieldscribe.families.modbus import BROADCAST, FRAMINGS, profile_of
 from fieldscribe.targets.python.families.family import RUNTIME, Family, Flavour, usual_maker
 from fieldscribe.targets.python.layout import Group, Node, call
 from fieldscribe.text import python_string
@@ -30,6 +30,8 @@ def _profile(device: Device, scope: Scope) -> Node:
         arguments.append("pad_coil_bytes_even=True")
     if taken.broadcasts != BROADCAST:
         arguments.append(Group("broadcasts=(", tuple(f"0x{one:02X}" for one in sorted(taken.broadcasts))))
+    if taken.framings != FRAMINGS:
+        arguments.append(Group("framings=(", tuple(python_string(one) for one in taken.framings)))
     if exceptions:
         arguments.append(Group("exceptions={", tuple(exceptions), "}"))
     return call("Profile", arguments)

@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from fieldscribe.model import Device, Message, Role, Telegram
     from fieldscribe.targets.rust.subjects import Scope, Subject
 
-_NUMBERED = {"address": "Address", "raw": "Raw", "word": "Word"}
-_PLAIN = {"unit": "Unit", "multiplexer": "Multiplexer"}
+_NUMBERED = {"unit": "Unit", "address": "Address", "raw": "Raw", "word": "Word"}
+_PLAIN = {"multiplexer": "Multiplexer"}
 
 
 @dataclass(frozen=True, slots=True)

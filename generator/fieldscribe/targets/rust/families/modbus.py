@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fieldscribe.families.modbus import framings_of
 from fieldscribe.targets.rust.documentation import sentence
 from fieldscribe.targets.rust.families.numbers import code_names
 from fieldscribe.targets.rust.families.spaces import space
@@ -28,6 +29,7 @@ def modbus_context(device: Device) -> dict[str, object]:
     ]
     return {
         "functions": array(functions),
+        "framings": ", ".join(f"Framing::{one.capitalize()}" for one in framings_of(bus)),
         "exception_type": "u8",
         "exception_names": code_names(bus.exceptions),
         "units": f"({bus.units[0]}, {bus.units[1]})",

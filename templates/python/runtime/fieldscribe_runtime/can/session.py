@@ -16,7 +16,7 @@ from ..errors import (
     TelegramError,
 )
 from ..facts import Place
-from ..session import Session
+from ..session import Session, check_unit
 from .frames import Frame, Message, Profile, build, parse
 from .receiver import Receiver
 
@@ -53,6 +53,7 @@ class CanSession(Session):
     fresh_for: float = 1.0
 
     def __init__(self, unit: int, variants: Mapping[str, str | None]) -> None:
+        check_unit(unit, self.PROFILE.units)
         super().__init__(unit, variants)
         self._receivers = {one.name: Receiver(self.PROFILE, one.name, unit) for one in self.PROFILE.telegrams}
         self._since: float | None = None

@@ -28,7 +28,8 @@ RTU, TCP = "rtu", "tcp"
 class Profile:
     """What a device takes: functions with the most items of one request, unit numbers, and its peculiarities.
 
-    `broadcast` is the unit number that means all units, `broadcasts` the functions that may be sent to it.
+    `broadcast` is the unit number that means all units, `broadcasts` the functions that may be sent to it. `framings`
+    is what the device speaks: where a gateway translates, a subclass of the device may have a PROFILE with both.
     """
 
     functions: Mapping[int, int]
@@ -37,6 +38,7 @@ class Profile:
     pad_coil_bytes_even: bool = False
     exceptions: Mapping[int, str] = field(default_factory=dict)
     broadcasts: Collection[int] = WRITES
+    framings: tuple[str, ...] = (RTU, TCP)
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,6 +76,12 @@ def crc(data: bytes) -> int:
     for byte in data:
         value = value >> 8 ^ _CRC[(value ^ byte) & 0xFF]
     return value
+
+
+def check_framing(framing: str, profile: Profile) -> None:
+    """Raises RequestError (bad_framing) if the device does not frame its telegrams so."""
+    if framing not in profile.framings:
+        raise RequestError("bad_framing", f"the device speaks {' and '.join(profile.framings)}, not {framing!r}")
 
 
 def check_request(request: Request, profile: Profile) -> None:
@@ -119,6 +127,7 @@ def _pdu(request: Request, profile: Profile) -> bytes:
 
 def build(request: Request, profile: Profile, framing: str = RTU, transaction: int = 0) -> bytes:
     """The bytes of a request; raises RequestError if the device does not take it."""
+    check_framing(framing, profile)
     check_request(request, profile)
     pdu = _pdu(request, profile)
     if framing == TCP:

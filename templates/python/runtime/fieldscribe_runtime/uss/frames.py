@@ -239,7 +239,7 @@ def _check_answer(request: Request, part: tuple[int, ...], profile: Profile) -> 
         raise RefusedError(part[2], profile.errors.get(part[2]))
     if response == _NO_RIGHTS:
         raise FrameError("no_rights", "the device does not let this master change parameters")
-    if response not in profile.tasks[request.task]:
+    if response not in profile.tasks.get(request.task, ()):
         raise FrameError("wrong_response", f"response {response} does not belong to task {request.task}")
     if response in _DOUBLE and len(part) < 4:
         raise FrameError("wrong_length", "the reply has no room for the double word that it announces")

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, ClassVar, TypeVar
 
 from ..errors import EchoError, FrameError, NoReplyError, RequestError
 from ..facts import Place
-from ..session import Session
+from ..session import Session, check_unit
 from .frames import (
     NO_TASK,
     RAM,
@@ -52,6 +52,7 @@ class UssSession(Session):
     repeats: int = 20
 
     def __init__(self, link: Link, unit: int, variants: Mapping[str, str | None]) -> None:
+        check_unit(unit, self.PROFILE.units)
         super().__init__(unit, variants)
         check_link(self.PROFILE, link, variants)
         self.link = link

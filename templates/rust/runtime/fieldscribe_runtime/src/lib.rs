@@ -7,6 +7,10 @@
 #![no_std]
 #![forbid(unsafe_code)]
 
+// x87 arithmetic rounds twice, and values would not be exact to the bit.
+#[cfg(all(target_arch = "x86", not(target_feature = "sse2")))]
+compile_error!("floating point needs SSE2 here: build for i686, or with -C target-feature=+sse2");
+
 pub mod arithmetic;
 pub mod can;
 pub mod client;
@@ -23,7 +27,7 @@ pub mod uss;
 pub use flags::{Flag, Flags};
 pub use point::{
     allowed, has_value, in_address_order, in_reading_order, listed, BitGroup, CountReadable,
-    CountWritable, Decoded, Digits, Point, Readable, Scaled, Space, Whole, Writable,
+    CountWritable, Decoded, Digits, Encodable, Point, Readable, Scaled, Space, Whole, Writable,
 };
 pub use raw::Raw;
 pub use rule::Rule;

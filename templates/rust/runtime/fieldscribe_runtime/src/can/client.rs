@@ -9,7 +9,7 @@ use super::{
     Telegram,
 };
 use crate::point::joined;
-use crate::{BitGroup, Decoded, Error, Raw, Readable, Whole, Writable};
+use crate::{BitGroup, Decoded, Encodable, Error, Raw, Readable, Whole};
 
 /// Sends frames and waits for frames.
 pub trait Transport {
@@ -371,7 +371,7 @@ macro_rules! client {
             /// Whatever [`ClientError`] tells.
             pub $($async)? fn write<P>(&mut self, value: P::Value) -> Result<(), ClientError<T::Error>>
             where
-                P: Writable<With = ()> + Whole + Parameter,
+                P: Encodable<With = ()> + Whole + Parameter,
             {
                 self.write_with::<P>(value, ())$($wait)*
             }
@@ -388,7 +388,7 @@ macro_rules! client {
                 with: P::With,
             ) -> Result<(), ClientError<T::Error>>
             where
-                P: Writable + Whole + Parameter,
+                P: Encodable + Whole + Parameter,
             {
                 let words = P::encode_with(value, with)?.into_words();
                 for (word, address) in words.as_ref().iter().zip(P::ADDRESSES) {
@@ -403,7 +403,7 @@ macro_rules! client {
             /// Whatever [`ClientError`] tells.
             pub $($async)? fn update<P>(&mut self, value: P::Value) -> Result<(), ClientError<T::Error>>
             where
-                P: Readable + Writable<With = ()> + BitGroup + Parameter,
+                P: Readable + Encodable<With = ()> + BitGroup + Parameter,
             {
                 let raw = P::encode(value)?;
                 let word = self.read_word(P::ADDRESS)$($wait)*?;

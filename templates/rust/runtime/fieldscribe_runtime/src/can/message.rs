@@ -8,8 +8,8 @@ use super::{BuildError, Frame, ParseError, LENGTH};
 pub enum Role {
     /// Always this byte.
     Constant(u8),
-    /// The unit number.
-    Unit,
+    /// Bits of the unit number from this one on.
+    Unit(u8),
     /// Bits of the address from this one on.
     Address(u8),
     /// Bits of the raw number from this one on.
@@ -79,13 +79,12 @@ impl Message {
         address: u16,
         raw: u16,
     ) -> Result<Frame, BuildError> {
-        let (least, greatest) = profile.units;
-        if !(least..=greatest).contains(&unit) {
+        if !profile.has_unit(unit) {
             return Err(BuildError::BadUnit);
         }
         let mut data = self.roles.map(|role| match role {
             Role::Constant(byte) => byte,
-            Role::Unit => unit,
+            Role::Unit(shift) => byte_of(u16::from(unit), shift),
             Role::Address(shift) => byte_of(address, shift),
             Role::Raw(shift) => byte_of(raw, shift),
             Role::Multiplexer | Role::Word(_) | Role::Xor(_) => 0,
@@ -110,9 +109,6 @@ impl Message {
         let mut content = Content::default();
         for (role, byte) in self.roles.iter().zip(data) {
             match *role {
-                Role::Xor(mask) if byte != combined(data, mask) => {
-                    return Err(ParseError::WrongCheck);
-                }
                 Role::Address(shift) => content.address |= word_of(byte, shift),
                 Role::Raw(shift) => content.raw |= word_of(byte, shift),
                 _ => {}
@@ -158,7 +154,7 @@ impl Message {
         Some((multiplexer, words))
     }
 
-    /// The bytes of a frame that has the message's identifier, length, constants and unit.
+    /// The bytes of a frame that is this message of that unit; the one place that says so.
     fn laid_out(&self, unit: u8, frame: &Frame) -> Result<[u8; LENGTH], ParseError> {
         if frame.id() != self.id(unit) {
             return Err(ParseError::WrongId);
@@ -168,8 +164,14 @@ impl Message {
         if bytes().any(|(role, byte)| matches!(role, Role::Constant(own) if *own != byte)) {
             return Err(ParseError::WrongConstant);
         }
-        if bytes().any(|(role, byte)| *role == Role::Unit && byte != unit) {
+        let is_other = |(role, byte): (&Role, u8)| matches!(role, Role::Unit(shift) if byte_of(u16::from(unit), *shift) != byte);
+        if bytes().any(is_other) {
             return Err(ParseError::WrongUnit);
+        }
+        if bytes()
+            .any(|(role, byte)| matches!(role, Role::Xor(mask) if combined(data, *mask) != byte))
+        {
+            return Err(ParseError::WrongCheck);
         }
         Ok(data)
     }
@@ -236,6 +238,13 @@ impl Profile {
             read,
             write,
         }
+    }
+
+    /// Whether the device can have that unit number.
+    #[must_use]
+    pub fn has_unit(&self, unit: u8) -> bool {
+        let (least, greatest) = self.units;
+        (least..=greatest).contains(&unit)
     }
 
     /// How many bits an identifier has: 11, or 29 in extended frames.

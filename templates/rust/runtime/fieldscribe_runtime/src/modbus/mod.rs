@@ -2,9 +2,10 @@
 //! Modbus frames without input or output: a request into the caller's buffer, a reply out of one.
 //!
 //! ```
-//! use fieldscribe_runtime::modbus::{Function, Profile, Request};
+//! use fieldscribe_runtime::modbus::{Framing, Function, Profile, Request};
 //!
-//! static PROFILE: Profile = Profile::new(&[Function::new(3, 4)], (1, 32), Some(0), false);
+//! const FUNCTIONS: &[Function] = &[Function::new(3, 4)];
+//! static PROFILE: Profile = Profile::new(FUNCTIONS, &[Framing::Rtu], (1, 32), Some(0), false);
 //! let request = Request::new(1, 3, 0x1028, 1);
 //! let mut frame = [0; 256];
 //! assert_eq!(request.build(&PROFILE, &mut frame), Ok(8));

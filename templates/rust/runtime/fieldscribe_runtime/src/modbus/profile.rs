@@ -2,6 +2,7 @@
 //! What the frames need to know of a device, as constants of the generated code.
 
 use super::function::{longest_count, writes};
+use super::Framing;
 use crate::{Readable, Space};
 
 /// A function that a device knows.
@@ -40,26 +41,36 @@ impl Function {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Profile {
     functions: &'static [Function],
+    framings: &'static [Framing],
     pub(super) units: (u8, u8),
     broadcast: Option<u8>,
     pub(super) pad_coil_bytes_even: bool,
 }
 
 impl Profile {
-    /// The functions, the least and the greatest unit, the unit that means all, whether 0Fh pads its bytes to an even count.
+    /// The functions, the framings, the least and the greatest unit, the unit that means all, whether 0Fh pads its bytes
+    /// to an even count. Where a gateway translates, give a profile of your own with both framings.
     #[must_use]
     pub const fn new(
         functions: &'static [Function],
+        framings: &'static [Framing],
         units: (u8, u8),
         broadcast: Option<u8>,
         pad_coil_bytes_even: bool,
     ) -> Self {
         Self {
             functions,
+            framings,
             units,
             broadcast,
             pad_coil_bytes_even,
         }
+    }
+
+    /// Whether the device speaks the framing.
+    #[must_use]
+    pub fn speaks(&self, framing: Framing) -> bool {
+        self.framings.contains(&framing)
     }
 
     /// Whether the device knows the function.

@@ -9,7 +9,7 @@ use super::{
 };
 use crate::client::{AsyncTransport, Transport};
 use crate::point::joined;
-use crate::{BitGroup, Decoded, Error, Raw, Readable, Whole, Writable};
+use crate::{BitGroup, Decoded, Encodable, Error, Raw, Readable, Whole};
 
 /// The most words of process data that a client keeps.
 const WORDS: usize = 16;
@@ -284,7 +284,7 @@ macro_rules! client {
             /// What encoding says; [`Error::WrongLength`] if the link has not so many words.
             pub fn set<P>(&mut self, value: P::Value) -> Result<(), Error>
             where
-                P: Writable<With = ()> + Whole + Sent,
+                P: Encodable<With = ()> + Whole + Sent,
             {
                 self.set_with::<P>(value, ())
             }
@@ -295,7 +295,7 @@ macro_rules! client {
             /// The same.
             pub fn set_with<P>(&mut self, value: P::Value, with: P::With) -> Result<(), Error>
             where
-                P: Writable + Whole + Sent,
+                P: Encodable + Whole + Sent,
             {
                 let words = P::encode_with(value, with)?.into_words();
                 self.drive.process = self.drive.with_words::<P>(words.as_ref())?;
@@ -308,7 +308,7 @@ macro_rules! client {
             /// What encoding says; [`Error::WrongLength`] if the link has not so many words.
             pub fn set_bits<P>(&mut self, value: P::Value) -> Result<(), Error>
             where
-                P: Writable<With = ()> + BitGroup + Sent,
+                P: Encodable<With = ()> + BitGroup + Sent,
             {
                 self.drive.process = self.drive.with_bits::<P>(P::encode(value)?)?;
                 Ok(())
@@ -423,7 +423,7 @@ macro_rules! client {
             /// Whatever [`ClientError`] tells.
             pub $($async)? fn send<P>(&mut self, value: P::Value) -> Result<(), ClientError<T::Error>>
             where
-                P: Writable<With = ()> + Whole + Sent,
+                P: Encodable<With = ()> + Whole + Sent,
             {
                 self.send_with::<P>(value, ())$($wait)*
             }
@@ -438,7 +438,7 @@ macro_rules! client {
                 with: P::With,
             ) -> Result<(), ClientError<T::Error>>
             where
-                P: Writable + Whole + Sent,
+                P: Encodable + Whole + Sent,
             {
                 let words = P::encode_with(value, with)?.into_words();
                 let process = self.drive.with_words::<P>(words.as_ref())?;
@@ -453,7 +453,7 @@ macro_rules! client {
             /// Whatever [`ClientError`] tells.
             pub $($async)? fn send_bits<P>(&mut self, value: P::Value) -> Result<(), ClientError<T::Error>>
             where
-                P: Writable<With = ()> + BitGroup + Sent,
+                P: Encodable<With = ()> + BitGroup + Sent,
             {
                 let process = self.drive.with_bits::<P>(P::encode(value)?)?;
                 let request = Request::cyclic(self.drive.unit);
@@ -532,7 +532,7 @@ macro_rules! client {
             /// Whatever [`ClientError`] tells.
             pub $($async)? fn write<P>(&mut self, value: P::Value) -> Result<(), ClientError<T::Error>>
             where
-                P: Writable<With = ()> + Whole + Parameter,
+                P: Encodable<With = ()> + Whole + Parameter,
             {
                 self.write_with::<P>(value, ())$($wait)*
             }
@@ -547,7 +547,7 @@ macro_rules! client {
                 with: P::With,
             ) -> Result<(), ClientError<T::Error>>
             where
-                P: Writable + Whole + Parameter,
+                P: Encodable + Whole + Parameter,
             {
                 let raw = P::encode_with(value, with)?;
                 self.change::<P>(Request::write::<P>(self.drive.unit, raw))$($wait)*
@@ -559,7 +559,7 @@ macro_rules! client {
             /// Whatever [`ClientError`] tells.
             pub $($async)? fn store<P>(&mut self, value: P::Value) -> Result<(), ClientError<T::Error>>
             where
-                P: Writable<With = ()> + Whole + Parameter,
+                P: Encodable<With = ()> + Whole + Parameter,
             {
                 self.store_with::<P>(value, ())$($wait)*
             }
@@ -574,7 +574,7 @@ macro_rules! client {
                 with: P::With,
             ) -> Result<(), ClientError<T::Error>>
             where
-                P: Writable + Whole + Parameter,
+                P: Encodable + Whole + Parameter,
             {
                 let raw = P::encode_with(value, with)?;
                 self.change::<P>(Request::store::<P>(self.drive.unit, raw))$($wait)*
@@ -586,7 +586,7 @@ macro_rules! client {
             /// Whatever [`ClientError`] tells.
             pub $($async)? fn update<P>(&mut self, value: P::Value) -> Result<(), ClientError<T::Error>>
             where
-                P: Readable + Writable<With = ()> + BitGroup + Parameter,
+                P: Readable + Encodable<With = ()> + BitGroup + Parameter,
             {
                 let raw = P::encode(value)?;
                 let word = self.parameter_word::<P>()$($wait)*?;
@@ -602,7 +602,7 @@ macro_rules! client {
                 value: P::Value,
             ) -> Result<(), ClientError<T::Error>>
             where
-                P: Readable + Writable<With = ()> + BitGroup + Parameter,
+                P: Readable + Encodable<With = ()> + BitGroup + Parameter,
             {
                 let raw = P::encode(value)?;
                 let word = self.parameter_word::<P>()$($wait)*?;

@@ -1,0 +1,56 @@
+"""What a point may hold that others take as an exponent of ten: one bound for every language and the command line."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from fieldscribe.model import Interval, Limit
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from fieldscribe.model import Bound, Factor, Linear, Point
+
+Ends = tuple[int, int]
+
+
+def with_exponents(points: tuple[Point, ...]) -> tuple[Point, ...]:
+    """The points, whose rules now say for which raw numbers their powers of ten are defined."""
+    names = {factor.point for point in points for rule in _rules(point) for factor in rule.factors if factor.ten_to}
+    ends: dict[str, Ends] = {}
+    for point in points:
+        for name in {point.name, point.item} & names:
+            ends[name] = _joined(ends.get(name), point.outer)
+    return tuple([_bounded(point, ends) for point in points]) if ends else points
+
+
+def _joined(one: Ends | None, other: Ends) -> Ends:
+    """Both, for a point that has another range in each variant."""
+    return other if one is None else (min(one[0], other[0]), max(one[1], other[1]))
+
+
+def _rules(point: Point) -> list[Linear]:
+    """The rules of a point's scale and limits."""
+    bounds = [bound for one in point.allowed.intervals for bound in (one.low, one.high)]
+    return [case.rule for case in point.scale or ()] + [one.rule for one in bounds if isinstance(one, Limit)]
+
+
+def _bounded(point: Point, ends: Mapping[str, Ends]) -> Point:
+    if not any(factor.ten_to for rule in _rules(point) for factor in rule.factors):
+        return point
+    intervals = [Interval(_limit(one.low, ends), _limit(one.high, ends)) for one in point.allowed.intervals]
+    cases = point.scale and tuple([replace(case, rule=_rule(case.rule, ends)) for case in point.scale])
+    return replace(point, scale=cases, allowed=replace(point.allowed, intervals=tuple(intervals)))
+
+
+def _limit(bound: Bound, ends: Mapping[str, Ends]) -> Bound:
+    return replace(bound, rule=_rule(bound.rule, ends)) if isinstance(bound, Limit) else bound
+
+
+def _rule(rule: Linear, ends: Mapping[str, Ends]) -> Linear:
+    return replace(rule, factors=tuple([_factor(one, ends) for one in rule.factors]))
+
+
+def _factor(factor: Factor, ends: Mapping[str, Ends]) -> Factor:
+    return replace(factor, exponents=ends.get(factor.point)) if factor.ten_to else factor
