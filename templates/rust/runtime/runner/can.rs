@@ -151,7 +151,7 @@ where
 pub fn update<P>(vector: &Vector, profile: &'static Profile) -> Outcome
 where
     P: Readable<Raw: Number, Factors = (), Value: Copy>
-        + Writable<With = ()>
+        + Encodable<With = ()>
         + BitGroup
         + Parameter,
 {

@@ -145,7 +145,7 @@ where
 pub fn update<P>(vector: &Vector, profile: &'static Profile) -> Outcome
 where
     P: Readable<Raw: Number, Factors = (), Value: Copy>
-        + Writable<With = ()>
+        + Encodable<With = ()>
         + BitGroup
         + Parameter,
 {
@@ -178,7 +178,7 @@ where
 pub fn store_update<P>(vector: &Vector, profile: &'static Profile) -> Outcome
 where
     P: Readable<Raw: Number, Factors = (), Value: Copy>
-        + Writable<With = ()>
+        + Encodable<With = ()>
         + BitGroup
         + Parameter,
 {
