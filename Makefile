@@ -2,7 +2,7 @@
 FIELDSCRIBE = .venv/bin/fieldscribe
 PYTHON = .venv/bin/python
 
-.PHONY: generate test core bench check clean
+.PHONY: generate test core bench check prove fuzz clean
 
 generate:           ## compile all descriptions into generated/
 	@sh generator/setup.sh compiler
@@ -24,6 +24,14 @@ check:              ## validate the descriptions, and say what in generated/ is 
 bench:              ## measure the compiler as whole processes and print a table
 	@sh generator/setup.sh tests
 	$(PYTHON) tests/bench/bench.py
+
+prove:              ## prove that no input makes the frame parsers and builders in C do anything undefined
+	@sh generator/setup.sh tests
+	$(PYTHON) tests/proofs/prove.py
+
+fuzz:               ## throw mutated descriptions, frames and words at everything that reads them (SEED=1)
+	@sh generator/setup.sh tests
+	$(PYTHON) tests/fuzz/run.py --seed $(or $(SEED),1)
 
 clean:              ## remove the virtual environment and caches
 	rm -rf .venv .cache .mypy_cache .pytest_cache .ruff_cache .hypothesis

@@ -47,6 +47,7 @@ if [ "$purpose" = tests ]; then
     need_that gcc-multilib links gcc -m32
     need_that libnewlib-arm-none-eabi has_file /usr/lib/arm-none-eabi/include/stdint.h /usr/include/newlib/stdint.h
     need cargo "cargo-web rustc-web"
+    need frama-c frama-c-base
     need rustfmt rustfmt-web
     need cargo-clippy rust-web-clippy
 fi

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import pytest
 from c_device import SANITIZERS, STANDARDS, WARNINGS, conformance_source, driver, kitchen, rare_device, write_c
 from fieldscribe.targets import c
+from fieldscribe.targets.identifiers import clashes
 from models import FREQUENCY_SOURCE, kitchen_sink, point, sample_device, trip_device
 from toolchains import compiled, run, succeed, tool
 from vector_file import counts_of, spoil
@@ -162,14 +163,14 @@ def frames_header(folder: Path, device: str) -> Path:
 
 @pytest.mark.parametrize("device", ALL, ids=lambda device: str(device.id))
 def test_every_identifier_is_one_thing(device: Device) -> None:
-    assert list(c.clashes(device)) == []
+    assert list(clashes(c.identifiers(device))) == []
 
 
 def test_a_clash_is_found() -> None:
     entries = (replace(FREQUENCY_SOURCE.entries[0], name="words"),)
     points = (point("base", 1, enum=replace(FREQUENCY_SOURCE, name="base", entries=entries)),)
     clash = replace(sample_device(points), frames=(), blocks={})
-    assert [identifier for identifier, *_ in c.clashes(clash)] == ["SAMPLE_DRIVE_BASE_WORDS"]
+    assert [one.name for one in clashes(c.identifiers(clash))] == ["SAMPLE_DRIVE_BASE_WORDS"]
 
 
 FUSED = """

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import pytest
 import wrong_bytes
 from c_device import SANITIZERS, STANDARDS, WARNINGS, driver, kitchen, write_headers
+from fieldscribe.resources import templates_dir
 from toolchains import compiled, run, succeed, tool
 
 if TYPE_CHECKING:
@@ -385,6 +386,81 @@ def test_any_bytes_are_safe_to_parse(noise: str, compiler: str, folder: Path, tm
     (tmp_path / "noise.c").write_text(noise.replace("@DRAW@", DRAW), encoding="utf-8")
     flags = ("-std=c99", "-O1", *WARNINGS, *SANITIZERS[compiler], f"-I{folder}")
     succeed([compiled(compiler, flags, tmp_path / "noise.c", tmp_path / "noise")])
+
+
+# what no generated table holds, and no request that can be sent
+STRANGE = {
+    "can": """
+#include "fieldscribe_can.h"
+int main(void)
+{
+    static const fieldscribe_can_profile profile = {1U, 9U, 11U};
+    static const fieldscribe_can_message message = {0x100U, false, {{FIELDSCRIBE_CAN_ADDRESS, 200U},
+        {FIELDSCRIBE_CAN_RAW, 9U}, {FIELDSCRIBE_CAN_UNIT, 64U}, {FIELDSCRIBE_CAN_WORD, 0U}, {FIELDSCRIBE_CAN_WORD, 1U},
+        {FIELDSCRIBE_CAN_WORD, 255U}, {FIELDSCRIBE_CAN_CONSTANT, 0U}, {FIELDSCRIBE_CAN_CONSTANT, 0U}}};
+    static const fieldscribe_can_telegram none = {&profile, &message, 5U, 0U};
+    static const fieldscribe_can_telegram many = {&profile, &message, 5U, 200U};
+    fieldscribe_can_slot slots[2];
+    fieldscribe_can_frame frame = {0x100U, 8U, {0xFFU, 0xFFU, 1U, 2U, 3U, 4U, 0U, 0U}};
+    fieldscribe_can_receiver receiver = fieldscribe_can_listen(&none, 1U, slots);
+    uint16_t address = 0U;
+    uint16_t raw = 0U;
+    if (fieldscribe_can_slots(&none) != 2U || fieldscribe_can_slots(&many) != 2U ||
+        fieldscribe_can_parse(&message, 1U, &frame, &address, &raw) != FIELDSCRIBE_CAN_OK || raw != 0xFE00U) {
+        return 1;
+    }
+    return fieldscribe_can_take(&receiver, &frame) &&
+            fieldscribe_can_word(&receiver, 0U, &raw) == FIELDSCRIBE_CAN_OK && raw == 0x0203U &&
+            fieldscribe_can_word(&receiver, 4U, &raw) == FIELDSCRIBE_CAN_MISSING
+        ? 0
+        : 2;
+}
+""",
+    "uss": """
+#include <stdlib.h>
+#include <string.h>
+#include "kitchen_uss_uss.h"
+int main(void)
+{
+    static const fieldscribe_uss_link link = {1U, 0U, false}; /* one word: no device has such a parameter part */
+    const fieldscribe_uss_request request = fieldscribe_uss_read(3U, 1U, 0U, 0U);
+    uint8_t *const bytes = malloc(6U);
+    fieldscribe_uss_reply reply;
+    fieldscribe_uss_status status;
+    if (bytes == NULL) {
+        return 1;
+    }
+    memcpy(bytes, "\\x02\\x04\\x03\\x10\\x00\\x15", 6U);
+    status = fieldscribe_uss_parse(&kitchen_uss_uss_profile, &link, &request, bytes, 6U, NULL, 0U, &reply);
+    free(bytes);
+    return status == FIELDSCRIBE_USS_WRONG_LENGTH ? 0 : 2;
+}
+""",
+    "modbus": """
+#include "fieldscribe_modbus.h"
+int main(void)
+{
+    static const uint8_t frame[12] = {0U, 0U, 0U, 0U, 0U, 6U, 1U, 6U, 0U, 0U, 0U, 0U};
+    uint16_t one[1] = {0U};
+    const fieldscribe_modbus_request nothing = fieldscribe_modbus_write(1U, 0x06U, 0U, 0U, one + 1);
+    fieldscribe_modbus_reply reply;
+    return fieldscribe_modbus_parse(FIELDSCRIBE_MODBUS_TCP, &nothing, frame, 12U, NULL, 0U, &reply) ==
+            FIELDSCRIBE_MODBUS_ECHO_MISMATCH
+        ? 0
+        : 1;
+}
+""",
+}
+
+
+@pytest.mark.parametrize("compiler", COMPILERS)
+@pytest.mark.parametrize("family", sorted(STRANGE))
+def test_strange_tables_and_requests_are_safe(family: str, compiler: str, folder: Path, tmp_path: Path) -> None:
+    """Numbers that shift too far, frames of no words, links of one word, echoes of no value."""
+    (tmp_path / "strange.c").write_text(STRANGE[family].replace("\\\\", "\\"), "utf-8")
+    runtime = templates_dir() / "c" / "runtime"
+    flags = ("-std=c99", "-g", *WARNINGS, *SANITIZERS[compiler], f"-I{folder}", f"-I{runtime}")
+    succeed([compiled(compiler, flags, tmp_path / "strange.c", tmp_path / "strange")])
 
 
 @pytest.mark.parametrize("family", FAMILIES)

@@ -13,8 +13,7 @@ from fieldscribe.explain import find
 from fieldscribe.export import export_model
 from fieldscribe.model import Factor, Fixed, Limit, Linear, Role, ScaleCase, Text
 from fieldscribe.pipeline import load_device
-from fieldscribe.plain import for_code
-from fieldscribe.resolve.device import digest
+from fieldscribe.plain import digest, for_code
 
 if TYPE_CHECKING:
     from fieldscribe.model import Device, Point

@@ -221,7 +221,7 @@ def test_points_that_are_only_documented_have_an_address(tmp_path: Path) -> None
         point("known", 1),
         point("ramp", 0x1980, code="P102", **unsettled),
         point("wide", 0x2000, "u32", **unsettled),
-        point("reserved", 0x3000, generated=False, reason="reserved by the maker"),
+        point("reserved", 0x3000, generated=False, reserved=True, reason="reserved by the maker"),
         point("nowhere", None),
     )
     folder = write_package(replace(sample_device(points), errata=(), blocks={}, id="open_ends"), tmp_path)
@@ -413,8 +413,8 @@ def test_names_that_are_taken(tmp_path: Path) -> None:
         for name in taken:
             assert getattr(drive, f"{name}_" if name != "match" else name, None) or drive.POINTS[name]
             assert drive.POINTS[name].facts.name == name
-        assert package.Word(2).class_ is True
-        assert package.Word.value_.number(1) == 1
+        assert package.WordFlags(2).class_ is True
+        assert package.WordFlags.value_.number(1) == 1
 
 
 def test_tables_of_taken_names_are_complete(package: Any) -> None:

@@ -142,3 +142,13 @@ def test_reply_size_has_limits(modbus: Any) -> None:
     for function in (0x07, 0x2B, 0x87):
         assert modbus.reply_size(bytes([5, function, 1])) is None
     assert modbus.reply_size(bytes([5, 0x83, 2])) == 5
+
+
+@pytest.mark.parametrize("values", [(), (1,) * 2100])
+@pytest.mark.parametrize("function", [5, 6, 8, 15, 16])
+def test_answers_to_requests_that_cannot_be_sent(modbus: Any, profile: Any, function: int, values: tuple[int]) -> None:
+    """More values than a frame holds, and none, are no reason for another error than ours."""
+    body = bytes((9, function, 0, 0, 0, 0))
+    request = modbus.Request(9, function, 0, values=values)
+    with pytest.raises(sys.modules["fieldscribe_runtime.errors"].FrameError, match="repeat"):
+        modbus.parse(request, body + modbus.crc(body).to_bytes(2, "little"), profile)

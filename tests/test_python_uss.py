@@ -472,6 +472,18 @@ def test_any_bytes_are_safe(package: Any, uss: Any) -> None:
             uss.parse(request, bytes(reply), profile, link)
 
 
+def test_requests_that_are_of_no_device(package: Any, uss: Any) -> None:
+    """A task that the device has not, and a link of one word, end in errors of ours."""
+    profile = package.SampleUss.PROFILE
+    body = bytes((2, 8, 3, 0x10, 0, 0, 0, 0, 0))
+    answer = body + bytes((2 ^ 8 ^ 3 ^ 0x10,))
+    unknown = error(uss.parse, uss.Request(3, 15), answer, profile, uss.Link(pkw=3, pzd=0))
+    assert unknown.status == "wrong_response"
+    short = bytes((2, 4, 3, 0x10, 0, 2 ^ 4 ^ 3 ^ 0x10))
+    for task in (0, 1):
+        assert error(uss.parse, uss.Request(3, task), short, profile, uss.Link(pkw=1, pzd=0)).status == "wrong_length"
+
+
 def test_printed_examples(package: Any, uss: Any) -> None:
     """Whole telegrams as the MICROMASTER 4's manual prints their parts."""
     profile = package.SampleUss.PROFILE

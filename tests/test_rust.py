@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import re
 import shutil
-from collections import Counter
 from dataclasses import replace
 from fractions import Fraction
 from functools import partial
@@ -21,6 +20,7 @@ from fieldscribe.pipeline import load_device
 from fieldscribe.render import render
 from fieldscribe.resources import templates_dir
 from fieldscribe.targets import rust
+from fieldscribe.targets.identifiers import clashes as found_clashes
 from fieldscribe.targets.rust.documentation import left_out
 from fieldscribe.targets.rust.families import family_traits
 from fieldscribe.targets.rust.identifiers import identifiers
@@ -51,6 +51,7 @@ MODELS: dict[str, Callable[[], Device]] = {
     "kitchen_sink": kitchen_sink,
     "kitchen_can": partial(kitchen, "kitchen_can"),
     "kitchen_uss": partial(kitchen, "kitchen_uss"),
+    "result": partial(kitchen, "odd_names"),
     "odd_can": can_device,
     "odd_uss": uss_device,
 }
@@ -154,8 +155,7 @@ def test_long_lines_break_as_rustfmt_breaks_them() -> None:
 
 
 def clashes(device: Device) -> list[str]:
-    seen = Counter((namespace, name) for namespace, name, _ in identifiers(device))
-    return [name for (_, name), count in seen.items() if count > 1]
+    return [one.name for one in found_clashes(identifiers(device))]
 
 
 def test_clashing_names_are_found() -> None:
@@ -335,7 +335,7 @@ impl Transport for Line {
 def probe_source(device: str) -> str:
     """A crate that calls every function of every point."""
     model = MODELS[device]()
-    names = "BitGroup, CountReadable, CountWritable, Error, Point, Readable, Writable, runtime"
+    names = "BitGroup, CountReadable, CountWritable, Encodable, Error, Point, Readable, Writable, runtime"
     lines = ["#![no_std]", f"use {device}::{{{names}}};", CLIENTS.get(model.family, "")]
     scope = scope_of(model)
     for subject in scope.subjects:
@@ -387,7 +387,8 @@ def probes(subject: Subject, name: str) -> Iterator[tuple[str, str]]:
             yield f"decode_count{head}<{count}::Count>", f"{count}::decode_count_with(raw, with)"
     if subject.point.writable:
         tail = f", with: {write}::With) -> Result<{raw}, Error>"
-        yield f"encode(value: {value}{tail}", f"{write}::encode_with(value, with)"
+        if subject.point.encodes_values:
+            yield f"encode(value: {value}{tail}", f"<{name} as Encodable>::encode_with(value, with)"
         if subject.form not in WITHOUT_COUNTS:
             count = f"<{name} as CountWritable>"
             yield f"encode_count(count: {count}::Count{tail}", f"{count}::encode_count_with(count, with)"

@@ -212,13 +212,16 @@ static inline fieldscribe_uss_status fieldscribe_uss_allows(const fieldscribe_us
 static inline fieldscribe_uss_status fieldscribe_uss_assemble(uint8_t address, const uint8_t *head, size_t head_bytes,
     const uint16_t *pzd, size_t pzd_count, uint8_t *buffer, size_t size, size_t *length)
 {
-    const size_t used = 4U + head_bytes + 2U * pzd_count; /* with start, length, address and check */
+    const size_t most = size < FIELDSCRIBE_USS_MOST ? size : FIELDSCRIBE_USS_MOST;
+    const size_t around = 4U + head_bytes; /* with start, length, address and check */
+    size_t used;
     size_t at;
-    if (used > size || used > FIELDSCRIBE_USS_MOST) {
+    if (most < around || pzd_count > (most - around) / 2U) {
         return FIELDSCRIBE_USS_BUFFER_TOO_SMALL;
     }
+    used = around + 2U * pzd_count;
     buffer[0] = 0x02U;
-    buffer[1] = (uint8_t)(used - 2U);
+    buffer[1] = (uint8_t)((used - 2U) & 0xFFU);
     buffer[2] = address;
     for (at = 0U; at < head_bytes; ++at) {
         buffer[3U + at] = head[at];
@@ -249,7 +252,7 @@ static inline fieldscribe_uss_status fieldscribe_uss_build(const fieldscribe_uss
     if (request->width == 1U && !fieldscribe_uss_single_last(link)) {
         value <<= 16; /* into the first of the two words */
     }
-    fieldscribe_uss_put(head, (uint16_t)((uint32_t)request->task << 12 | request->parameter % 2000U));
+    fieldscribe_uss_put(head, (uint16_t)(((uint32_t)request->task & 0xFU) << 12 | request->parameter % 2000U));
     fieldscribe_uss_put(head + 2, fieldscribe_uss_index_word(request->parameter, request->index));
     fieldscribe_uss_put(head + 4, (uint16_t)(value >> 16));
     fieldscribe_uss_put(head + 6, (uint16_t)(value & 0xFFFFU)); /* left out where the part has 3 words */
@@ -278,23 +281,31 @@ static inline fieldscribe_uss_status fieldscribe_uss_build_broadcast(const field
         (uint8_t)profile->broadcast, head, sizeof head, pzd, pzd_count, buffer, size, length);
 }
 
-/* Whether that many words of data can come over the link. */
+/* Whether a parameter part of that many words can come over the link. */
 static inline bool fieldscribe_uss_fits(const fieldscribe_uss_link *link, size_t words)
 {
-    return link->pkw == FIELDSCRIBE_USS_VARIABLE ? words >= 3U + (size_t)link->pzd : words == (size_t)link->pkw + link->pzd;
+    return link->pkw == FIELDSCRIBE_USS_VARIABLE ? words >= 3U : words == link->pkw;
 }
 
-/* Reads the parameter part of an answer, which has `words` words (at least 3). */
+/* Reads the parameter part of an answer, which has `words` words. */
 static inline fieldscribe_uss_status fieldscribe_uss_take(const fieldscribe_uss_profile *profile,
     const fieldscribe_uss_link *link, const fieldscribe_uss_request *request, const uint8_t *part, size_t words,
     fieldscribe_uss_reply *reply)
 {
-    const uint16_t head = fieldscribe_uss_get(part);
-    const uint8_t response = (uint8_t)(head >> 12);
-    const uint16_t first = fieldscribe_uss_get(part + 4);
-    const uint16_t second = words > 3U ? fieldscribe_uss_get(part + 6) : 0U;
-    const bool is_double = response == 2U || response == 5U;
     const fieldscribe_uss_task *const task = fieldscribe_uss_find(profile, request->task);
+    uint16_t head;
+    uint16_t first;
+    uint16_t second;
+    uint8_t response;
+    bool is_double;
+    if (words < 3U) {
+        return FIELDSCRIBE_USS_WRONG_LENGTH; /* of no link that a device has */
+    }
+    head = fieldscribe_uss_get(part);
+    first = fieldscribe_uss_get(part + 4);
+    second = words > 3U ? fieldscribe_uss_get(part + 6) : 0U;
+    response = (uint8_t)(head >> 12);
+    is_double = response == 2U || response == 5U;
     if (request->task == 0U) {
         reply->response = response; /* nothing was asked: there is no value */
         return FIELDSCRIBE_USS_OK;
@@ -342,16 +353,22 @@ static inline fieldscribe_uss_status fieldscribe_uss_parse(const fieldscribe_uss
 {
     static const fieldscribe_uss_reply nothing = {0U, 0U, 0U, 0U};
     fieldscribe_uss_status status = FIELDSCRIBE_USS_OK;
-    size_t words;
+    size_t all; /* words of data */
+    size_t words; /* of them in the parameter part */
+    size_t from;
     size_t at;
     *reply = nothing;
     if (length == 0U || bytes[0] != 0x02U) {
         return FIELDSCRIBE_USS_WRONG_START;
     }
-    if (length < 4U || (size_t)bytes[1] + 2U != length || length % 2U != 0U ||
-        !fieldscribe_uss_fits(link, (length - 4U) / 2U)) {
+    if (length < 4U || (size_t)bytes[1] + 2U != length || length % 2U != 0U) {
         return FIELDSCRIBE_USS_WRONG_LENGTH;
     }
+    all = (length - 4U) / 2U;
+    if (all < link->pzd || !fieldscribe_uss_fits(link, all - link->pzd)) {
+        return FIELDSCRIBE_USS_WRONG_LENGTH;
+    }
+    words = all - link->pzd;
     if (fieldscribe_uss_check(bytes, length - 1U) != bytes[length - 1U]) {
         return FIELDSCRIBE_USS_WRONG_CHECK;
     }
@@ -361,13 +378,12 @@ static inline fieldscribe_uss_status fieldscribe_uss_parse(const fieldscribe_uss
     if (room < link->pzd) {
         return FIELDSCRIBE_USS_BUFFER_TOO_SMALL;
     }
-    words = (length - 4U) / 2U - link->pzd; /* of the parameter part */
     if (link->pkw != 0U) {
         status = fieldscribe_uss_take(profile, link, request, bytes + 3, words, reply);
     }
     if (status != FIELDSCRIBE_USS_WRONG_LENGTH) {
-        for (at = 0U; at < link->pzd; ++at) {
-            pzd[at] = fieldscribe_uss_get(bytes + 3U + 2U * words + 2U * at);
+        for (at = 0U, from = words; at < link->pzd && from < all; ++at, ++from) {
+            pzd[at] = fieldscribe_uss_get(bytes + 3U + 2U * from);
         }
     }
     return status;

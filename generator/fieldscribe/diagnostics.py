@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 if TYPE_CHECKING:
@@ -57,6 +57,13 @@ class Report:
     def extend(self, other: Report) -> None:
         """Add everything that another report found."""
         self._findings.update(other._findings)
+
+    def also(self, span: Span, text: str) -> Report:
+        """The same findings, each with another place that matters, unless it stands there itself."""
+        result = Report()
+        for one in self._findings:
+            result._add(one if one.span[:3] == span[:3] else replace(one, related=(*one.related, (span, text))))
+        return result
 
     @property
     def findings(self) -> tuple[Diagnostic, ...]:

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from fractions import Fraction
 
+    from fieldscribe.existence import Condition
+
 Titles = Mapping[str, str]
 """Text for people by language code; `en` is always there."""
 
@@ -202,10 +204,6 @@ class Flag:
     values: tuple[Entry, ...]
 
 
-UNSETTLED_TYPE = "the manual does not settle its type"
-"""The reason why a point is not generated whose `type` means nothing."""
-
-
 @dataclass(frozen=True, slots=True)
 class Point:
     """One addressable datum.
@@ -243,7 +241,7 @@ class Point:
     changes: str | None
     keeps: str | None
     conditions: tuple[str, ...]
-    when: str | None
+    when: Condition | None
     since: str | None
     until: str | None
     was: tuple[str, ...]
@@ -259,6 +257,13 @@ class Point:
     fixed: Fixed | None = None
     changes_with: tuple[str, ...] = ()
     encodes_values: bool = True
+    untyped: str | None = None
+    """What stands in place of a type: the manual's words for what no type says; empty where it does not settle it."""
+
+    @property
+    def raw_only(self) -> bool:
+        """Whether nobody says what the words mean, but where they are: they are reached raw, by their address."""
+        return not (self.generated or self.reserved) and self.access != "none" and bool(self.places)
 
     @property
     def info(self) -> TypeInfo:
@@ -270,6 +275,8 @@ class Point:
         """How many 16-bit words (or single bits) the point takes; a bit group lies in one word."""
         if self.text is not None:
             return self.text.characters // 2
+        if self.untyped is not None:
+            return max(1, len(self.addresses))
         return 1 if self.bits else max(1, self.info.bits // 16)
 
     @property

@@ -61,13 +61,12 @@ def load_device(device_file: Path, report: Report, inputs: Inputs | None = None)
     `inputs` takes note of the files, with what they held.
     """
     from fieldscribe.language.files import read_files
-    from fieldscribe.resolve.device import build_device
 
     own = Report()
     files = read_files(device_file, own, inputs)
     subject = None if files is None else _checked(files, own)
     report.extend(own)
-    return None if subject is None else build_device(subject)
+    return None if subject is None else subject.models[0]
 
 
 def load_subject(device_file: Path, report: Report) -> Subject | None:

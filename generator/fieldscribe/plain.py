@@ -5,6 +5,7 @@ What is for people changes often, and must not touch vendored code when it does;
 
 from __future__ import annotations
 
+import hashlib
 from dataclasses import replace
 from functools import lru_cache
 
@@ -24,6 +25,8 @@ def for_code(device: Device) -> Device:
         bus=replace(
             device.bus,
             note={},
+            timing={},
+            serial={},
             functions=tuple(replace(code, title=_plain(code.name)) for code in device.bus.functions),
             exceptions=tuple(replace(code, title=_plain(code.name)) for code in device.bus.exceptions),
             responses=tuple(replace(code, title=_plain(code.name)) for code in device.bus.responses),
@@ -39,6 +42,18 @@ def for_code(device: Device) -> Device:
     )
 
 
+def digest(device: Device) -> str:
+    """A checksum of what code is made of: every field of all that code may know, but for the digest itself."""
+    return with_digest(device)[0].digest
+
+
+def with_digest(device: Device) -> tuple[Device, Device]:
+    """The device with its digest, and the same as code may know it."""
+    plain = replace(for_code(device), digest="")
+    found = hashlib.sha256(repr(plain).encode("utf-8", "surrogatepass")).hexdigest()
+    return replace(device, digest=found), replace(plain, digest=found)
+
+
 def _point(point: Point, enums: dict[int, Enum]) -> Point:
     digits = point.digits
     return replace(
@@ -49,6 +64,11 @@ def _point(point: Point, enums: dict[int, Enum]) -> Point:
         enum=point.enum and (enums.get(id(point.enum)) or _enum(point.enum)),
         digits=digits and replace(digits, enum=enums.get(id(digits.enum)) or _enum(digits.enum)),
         flags=tuple(_flag(flag) for flag in point.flags),
+        unit=replace(point.unit, name="", quantity=""),
+        since=None,
+        until=None,
+        record=None,
+        untyped=None if point.untyped is None else "",
         specials=tuple(_special(special) for special in point.specials),
     )
 

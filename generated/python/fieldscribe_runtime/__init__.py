@@ -31,6 +31,7 @@ from .errors import (
     ZeroFactorError,
 )
 from .facts import (
+    Documented,
     Place,
     Telegram,
     coil,
@@ -102,6 +103,7 @@ __all__ = [
     "Command",
     "Device",
     "Digits",
+    "Documented",
     "EchoError",
     "ExceptionReplyError",
     "Factor",

@@ -11,11 +11,13 @@ if TYPE_CHECKING:
 
 
 def run_checks(subject: Subject) -> None:
-    """All checks, in this order; errata come last because the others use them."""
+    """All checks, in this order; errata come late because the others use them, and names of sound devices last."""
     from fieldscribe.checks import (
         addresses_do_not_overlap,
         codes_agree,
+        conditions_can_hold,
         defaults_are_allowed,
+        emitted_names_do_not_clash,
         enums_fit_their_range,
         errata_are_used,
         every_point_has_a_source,
@@ -36,6 +38,7 @@ def run_checks(subject: Subject) -> None:
         every_point_has_a_source.check,
         lines_run_upwards.check,
         meanings_do_not_compete.check,
+        conditions_can_hold.check,
         addresses_do_not_overlap.check,
         groups_use_what_they_say.check,
         enums_fit_their_range.check,
@@ -50,6 +53,7 @@ def run_checks(subject: Subject) -> None:
         frames_agree.check,
         names_do_not_clash.check,
         errata_are_used.check,
+        emitted_names_do_not_clash.check,
     )
     for check in checks:
         check(subject)

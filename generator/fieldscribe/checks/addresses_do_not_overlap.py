@@ -5,6 +5,7 @@ from __future__ import annotations
 from bisect import bisect_right
 from typing import TYPE_CHECKING
 
+from fieldscribe.checks.meetings import Meetings
 from fieldscribe.checks.subject import inside
 from fieldscribe.resolve.points import Resolved
 
@@ -13,6 +14,8 @@ if TYPE_CHECKING:
     from fieldscribe.model import Command, Point
 
 _WHOLE = (15, 0)
+_MOST = 512
+_APART = ", or say by `when`, `variants`, `since` or `until` that they are never there at once"
 _Key = tuple[str, str | None, int, int]
 """Space, telegram, index (0 where addresses have none beside them) and address."""
 
@@ -23,6 +26,7 @@ def check(subject: Subject) -> None:
     """Overlapping points, points in gaps, commands on points or in gaps."""
     taken: Taken = {}
     told: set[int] = set()
+    meetings = Meetings(subject)
     for resolved in subject.resolved:
         if subject.report.full:
             return
@@ -30,12 +34,15 @@ def check(subject: Subject) -> None:
             continue
         for address in resolved.point.addresses:
             others = taken.setdefault(_key(subject, resolved.point, address), [])
-            for other in others:
-                row = _row(resolved, other)
-                if row not in told and _compare(subject, resolved, other, address) and row is not None:
-                    told.add(row)
-            if len(others) < 64:  # more than the bits of a word and its variants: compared enough
-                others.append(resolved)
+            fresh = [one for one in others if (row := _row(resolved, one)) is None or row not in told]
+            rivals = [one for one in fresh if _overlap(resolved.point, one.point) and not meetings.never(resolved, one)]
+            if rivals:
+                _tell(subject, resolved, rivals, address)
+            told.update(row for one in rivals if (row := _row(resolved, one)) is not None)
+            if len(fresh) == _MOST:
+                message = f"more than {_MOST} points stand at {_place(subject, resolved.point, address)}"
+                subject.report.error("too-many-items", message, resolved.draft.span("at"), "nobody needs so many")
+            others.append(resolved)
             _gap(subject, resolved, address)
     _commands(subject, taken)
 
@@ -60,36 +67,37 @@ def _row(mine: Resolved, other: Resolved) -> int | None:
     return id(one.at) if one is not None and another is not None and one.at is another.at else None
 
 
-def _compare(subject: Subject, mine: Resolved, other: Resolved, address: int) -> bool:
-    """Report it if the two take the same bits; whether they do."""
-    if _never_meet(mine.point, other.point):
-        return False
-    high, low = mine.point.bits or _WHOLE
-    other_high, other_low = other.point.bits or _WHOLE
-    if low > other_high or other_low > high:
-        return False
-    related = [(other.draft.span("at"), f"`{other.point.name}` stands here")]
+def _overlap(mine: Point, other: Point) -> bool:
+    """Whether the two take the same bits of a word that both take."""
+    return (mine.bits or _WHOLE)[1] <= (other.bits or _WHOLE)[0] and (other.bits or _WHOLE)[1] <= (mine.bits or _WHOLE)[
+        0
+    ]
+
+
+def _tell(subject: Subject, mine: Resolved, others: list[Resolved], address: int) -> None:
+    """One finding that names all the points that are there at once."""
+    together = [mine, *others]
+    related = [(other.draft.span("at"), f"`{other.point.name}` stands here") for other in others]
     place = _place(subject, mine.point, address)
-    if mine.point.bits and other.point.bits:
-        message = f"`{mine.point.name}` and `{other.point.name}` both take bit {max(low, other_low)} of {place}"
-        hint = "points may share a word, but not its bits"
-        subject.report.error("bits-overlap", message, mine.draft.span("bits"), hint, related)
-    else:
-        message = f"`{mine.point.name}` and `{other.point.name}` both stand at {place}"
-        hint = "correct one `at`, or give both `bits` of the word"
-        if len(mine.point.addresses) > 1 or len(other.point.addresses) > 1:
-            hint = "a point of 32 bits takes two addresses, one of 64 bits four: correct one `at` or `type`"
-        elif _row(mine, other) is not None:
-            hint = "`addressing` must give each set and index an address of its own: correct it, or the row"
-        subject.report.error("address-taken", message, mine.draft.span("at"), hint, related)
-    return True
+    what = f"{_listed([one.point.name for one in together])} {'both' if len(together) == 2 else 'all'}"
+    if all(one.point.bits for one in together):
+        bit = max(one.point.bits[1] for one in (mine, others[0]) if one.point.bits)
+        hint = f"points may share a word, but not its bits: correct one{_APART}"
+        subject.report.error(
+            "bits-overlap", f"{what} take bit {bit} of {place}", mine.draft.span("bits"), hint, related
+        )
+        return
+    hint = f"correct one `at`, give each `bits` of the word{_APART}"
+    if any(len(one.point.addresses) > 1 for one in together):
+        hint = "a point of 32 bits takes two addresses, one of 64 bits four: correct one `at` or `type`"
+    elif any(_row(mine, other) is not None for other in others):
+        hint = "`addressing` must give each set and index an address of its own: correct it, or the row"
+    subject.report.error("address-taken", f"{what} stand at {place}", mine.draft.span("at"), hint, related)
 
 
-def _never_meet(mine: Point, other: Point) -> bool:
-    """Whether the two are never there at once: two values of one variant axis, or two conditions of the author."""
-    if mine.variant is not None and other.variant is not None and mine.variant != other.variant:
-        return mine.variant.partition("=")[0] == other.variant.partition("=")[0]
-    return mine.when is not None and other.when is not None and mine.when != other.when
+def _listed(names: list[str]) -> str:
+    quoted = [f"`{name}`" for name in dict.fromkeys(names)]
+    return " and ".join(filter(None, (", ".join(quoted[:-1]), quoted[-1])))
 
 
 def _gap(subject: Subject, resolved: Resolved, address: int) -> None:

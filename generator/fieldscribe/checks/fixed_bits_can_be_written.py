@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fieldscribe.checks.meetings import Meetings
+
 if TYPE_CHECKING:
     from fieldscribe.checks.subject import Subject
     from fieldscribe.model import Fixed, Point
@@ -18,6 +20,7 @@ _MOST = 64
 
 def check(subject: Subject) -> None:
     """Fixed bits that no allowed number has, that two points write differently, or that another point takes."""
+    meetings = Meetings(subject)
     words: dict[tuple[str, str | None, int, int], list[Resolved]] = {}
     fixed = [one for one in subject.resolved if one.point.fixed is not None]
     for one in subject.resolved if fixed else ():
@@ -36,7 +39,7 @@ def check(subject: Subject) -> None:
             others = words[_word(subject, point, point.address)][:_MOST]
             behind = False
             for other in others:
-                if other is not one:
+                if other is not one and not meetings.never(one, other):
                     _compare(subject, one, point.fixed, other, behind=behind)
                 behind = behind or other is one
 
@@ -48,10 +51,6 @@ def _word(subject: Subject, point: Point, address: int) -> tuple[str, str | None
 
 def _compare(subject: Subject, one: Resolved, fixed: Fixed, other: Resolved, *, behind: bool) -> None:
     """Findings about two bit groups of one word; what is about both alike only once, for the other `behind`."""
-    if one.point.variant is not None and other.point.variant not in (None, one.point.variant):
-        return
-    if one.point.when is not None and other.point.when is not None and one.point.when != other.point.when:
-        return
     high, low = other.point.bits or (15, 0)
     own = ((1 << high - low + 1) - 1) << low
     theirs = other.point.fixed

@@ -12,7 +12,7 @@ from fieldscribe.language.numbers import NumberError, parse_number
 
 if TYPE_CHECKING:
     from fieldscribe.diagnostics import Report, Span
-    from fieldscribe.model import Allowed, Bus, Command, Frame, Message
+    from fieldscribe.model import Allowed, Bus, Command, Device, Frame, Message
     from fieldscribe.resolve.addresses import Places
     from fieldscribe.resolve.allowed import Ranges
     from fieldscribe.resolve.errata import OpenErratum
@@ -61,6 +61,7 @@ class Subject:
     errata: list[OpenErratum]
     frames: list[Frame] = field(default_factory=list)
     cited: dict[str, list[OpenErratum]] = field(default_factory=dict)
+    _models: tuple[Device, Device] | None = None
 
     def __post_init__(self) -> None:
         for erratum in self.errata:
@@ -71,6 +72,15 @@ class Subject:
     def bus_is_whole(self) -> bool:
         """Whether all that was written under `bus` could be read: else what rests on it cannot be judged."""
         return self.scope.bus is not None and not _lost(self.scope.bus)
+
+    @property
+    def models(self) -> tuple[Device, Device]:
+        """The model and what code may know of it, made when first asked for: only of a device without errors."""
+        if self._models is None:
+            from fieldscribe.resolve.device import build_device
+
+            self._models = build_device(self)
+        return self._models
 
     @property
     def report(self) -> Report:

@@ -9,7 +9,6 @@ from fieldscribe import wording
 from fieldscribe.explain.lookup import Match, find, near
 from fieldscribe.explain.requests import read_text, write_text
 from fieldscribe.families import FAMILIES
-from fieldscribe.model import UNSETTLED_TYPE
 from fieldscribe.text import line
 from fieldscribe.wording.exact import hex_text, number_text
 
@@ -110,9 +109,7 @@ def _where(device: Device, point: Point) -> str:
 
 
 def _type_text(point: Point) -> str:
-    if point.reason == UNSETTLED_TYPE:
-        return "not settled by the manual"
-    if point.type == "bit" or point.text is not None:
+    if point.untyped is not None or point.type == "bit" or point.text is not None:
         return wording.type_text(point)
     kind = f"{_KINDS[point.type[0]]}, {point.width} bits"
     if point.digits is not None:
@@ -163,7 +160,7 @@ def _names_rows(point: Point) -> Iterator[Row]:
 def _behaviour_rows(device: Device, point: Point) -> Iterator[Row]:
     yield "Kept", wording.keeps_text(device, point)
     yield "Write only when", ", ".join(point.conditions)
-    yield "Exists when", point.when or ""
+    yield "Exists when", wording.condition_text(point.when, {one.name: one for one in device.points})
     yield "Since", point.since or ""
     yield "Until", point.until or ""
     yield "Changes", point.changes or ""

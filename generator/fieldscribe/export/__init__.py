@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from fieldscribe.export.rules import PointsByName
     from fieldscribe.model import Bus, Code, Command, Device, Document, Erratum, Frame, Message, Point, Telegram
 
-FORMAT = 1
+FORMAT = 2
 """The number of this contract."""
 
 

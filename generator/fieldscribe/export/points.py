@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.export.rules import PointsByName, bound_of, scale_of
-from fieldscribe.model import UNSETTLED_TYPE
 from fieldscribe.wording.exact import fixed_rule, number_text
 
 if TYPE_CHECKING:
+    from fieldscribe.existence import Comparison, Condition
     from fieldscribe.model import Allowed, Entry, Enum, Flag, Place, Point, Source, Special
 
 _MOST_VALUES = 4096
@@ -34,12 +34,12 @@ def export_point(
         "addresses": list(point.addresses),
         "references": dict(point.references),
         "places": [_place(one) for one in places or point.places],
-        "type": None if point.reason == UNSETTLED_TYPE else point.type,
+        "type": point.type if point.untyped is None else None,
         "words": point.words,
         "access": point.access,
         "bits": None if point.bits is None else list(point.bits),
         "variant": point.variant,
-        "when": point.when,
+        "when": None if point.when is None else _condition(point.when),
         "since": point.since,
         "until": point.until,
         "record": point.record,
@@ -84,6 +84,15 @@ def _default(point: Point) -> int | str | None:
     multiply, add, divide = rule
     raw = (point.default * divide - add) / multiply
     return int(raw) if raw.denominator == 1 else number_text(raw)
+
+
+def _condition(condition: Condition) -> dict[str, object]:
+    """Any of clauses whose comparisons all hold: of variant axes with names, of points with raw numbers."""
+    return {"any": [{"all": [_comparison(one) for one in clause]} for clause in condition.clauses]}
+
+
+def _comparison(one: Comparison) -> dict[str, object]:
+    return {"of": one.of, "is": one.test, "than": list(one.than) if one.test == "in" else one.than[0]}
 
 
 def _place(place: Place) -> dict[str, object]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -17,16 +17,16 @@ class Family:
     last_address: int
     indexed: frozenset[str] = frozenset()
     """The spaces where an address has an index beside it."""
-    single: frozenset[str] = frozenset()
-    """The spaces whose words travel one by one, so that no number may take two."""
+    words: Mapping[str, int] = field(default_factory=dict)
+    """The spaces whose numbers travel one by one, with the most words of one."""
 
     def widest(self, space: str) -> int:
         """The most bits of a number in the space."""
-        return 16 if space in self.single else 64
+        return 16 * self.words.get(space, 4)
 
 
 FAMILIES: Mapping[str, Family] = {
     "modbus": Family({"coil": "bit", "discrete": "bit", "holding": "word", "input": "word"}, 0xFFFF),
-    "can": Family({"parameter": "word", "telegram": "word"}, 0xFFFF, single=frozenset({"parameter"})),
-    "uss": Family({"parameter": "word", "telegram": "word"}, 31999, frozenset({"parameter"})),
+    "can": Family({"parameter": "word", "telegram": "word"}, 0xFFFF, words={"parameter": 1}),
+    "uss": Family({"parameter": "word", "telegram": "word"}, 31999, frozenset({"parameter"}), {"parameter": 2}),
 }

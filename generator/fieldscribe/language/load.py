@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 
 import yaml
 
-from fieldscribe.language.nodes import Map, Seq, Value
+from fieldscribe.language.nodes import Map, Seq, Value, share
 from fieldscribe.language.scalars import scalar
 
 if TYPE_CHECKING:
@@ -203,6 +203,7 @@ class _Builder:
         if self.nodes > MOST_NODES:
             hint = "aliases count each time; write out what repeats, or share it under `formats`"
             self._refuse("yaml-size", f"more than {MOST_NODES} values", event, hint)
+        share(value)
         return value
 
     def _span(self, event: Any) -> Span:

@@ -17,11 +17,11 @@ Place = tuple[int, int]
 class Map(dict[str, Any]):
     """A YAML mapping. `at` is where it starts; `places` give line and column of the key, then of the value, by key.
 
-    `broken` are the keys whose values had the wrong shape; they are gone from the mapping. `verdict` is what the check
-    of its shape said, so that a mapping that aliases repeat is checked once.
+    `broken` are the keys whose values had the wrong shape; they are gone from the mapping. `uses` is there for what
+    aliases repeat: one copy for each shape that is expected of it, and whether it has that shape.
     """
 
-    __slots__ = ("at", "broken", "file", "places", "verdict")
+    __slots__ = ("at", "broken", "file", "places", "uses")
 
     def __init__(self, file: SourceFile, at: Place) -> None:
         super().__init__()
@@ -29,7 +29,14 @@ class Map(dict[str, Any]):
         self.at = at
         self.places: dict[str, tuple[int, int, int, int]] = {}
         self.broken: tuple[str, ...] = ()
-        self.verdict: tuple[object, bool] | None = None
+        self.uses: dict[object, tuple[Map, bool]] | None = None
+
+    def copied(self) -> Map:
+        """The same mapping once more, of which keys can be dropped; its values are the same ones."""
+        copy = Map(self.file, self.at)
+        copy.update(self)
+        copy.places = self.places
+        return copy
 
     def span(self, key: str | None = None) -> Span:
         """Where the value of `key` stands, or the whole mapping."""
@@ -44,16 +51,23 @@ class Map(dict[str, Any]):
 
 
 class Seq(list[Any]):
-    """A YAML sequence. `item_at` gives places by index; `verdict` as in `Map`."""
+    """A YAML sequence. `item_at` gives places by index; `uses` as in `Map`."""
 
-    __slots__ = ("at", "file", "item_at", "verdict")
+    __slots__ = ("at", "file", "item_at", "uses")
 
     def __init__(self, file: SourceFile, at: Place) -> None:
         super().__init__()
         self.file = file
         self.at = at
         self.item_at: list[Place] = []
-        self.verdict: tuple[object, bool] | None = None
+        self.uses: dict[object, tuple[Seq, bool]] | None = None
+
+    def copied(self) -> Seq:
+        """The same sequence once more, of which items can be dropped."""
+        copy = Seq(self.file, self.at)
+        copy.extend(self)
+        copy.item_at = list(self.item_at)
+        return copy
 
     def span(self, index: int | None = None) -> Span:
         """Where the item stands, or the whole sequence."""
@@ -62,3 +76,13 @@ class Seq(list[Any]):
 
 
 Value: TypeAlias = Map | Seq | int | Decimal | bool | str | None
+
+
+def share(value: Value) -> None:
+    """Mark all that an alias repeats: it must have the shape of each place, and what one drops stays in the others."""
+    waiting = [value]
+    while waiting:
+        one = waiting.pop()
+        if isinstance(one, Map | Seq) and one.uses is None:
+            one.uses = {}
+            waiting.extend(one.values() if isinstance(one, Map) else one)

@@ -117,8 +117,8 @@ def array(item: Check, least: int) -> Check:
     """Items that are each fine; `least` of them."""
 
     def check(value: Seq, holder: Map | Seq, at: Any, report: Report) -> bool:
-        if value.verdict is not None and value.verdict[0] is check:
-            return value.verdict[1]
+        if value.uses is not None:
+            return _of_this_shape(check, value, holder, at, report)
         if report.full:
             return False
         if len(value) < least:
@@ -128,7 +128,6 @@ def array(item: Check, least: int) -> Check:
         for index in reversed(broken):
             _lose(value[index], value.file.lost)
             del value[index], value.item_at[index]
-        value.verdict = (check, len(value) >= least)
         return len(value) >= least
 
     return check
@@ -155,8 +154,8 @@ class ObjectCheck:
 
     def __call__(self, value: Map, holder: Map | Seq, at: Any, report: Report) -> bool:
         """Whether the mapping has the shape, as every `Check`."""
-        if value.verdict is not None and value.verdict[0] is self:
-            return value.verdict[1]
+        if value.uses is not None:
+            return _of_this_shape(self, value, holder, at, report)
         if report.full:
             return False
         broken = []
@@ -175,9 +174,7 @@ class ObjectCheck:
         complete = self._complete(value, holder, at, report)
         for key in broken:
             self._drop(value, key, holder is value)
-        fine = complete and not any(key in broken for key in self.required) and len(value) >= self.least
-        value.verdict = (self, fine)
-        return fine
+        return complete and not any(key in broken for key in self.required) and len(value) >= self.least
 
     def _pattern(self, key: str) -> Check | None:
         for _, pattern, found in self.patterns:
@@ -206,6 +203,19 @@ class ObjectCheck:
         _lose(value[key], lost)
         del value[key]
         value.broken += (key,)
+
+
+def _of_this_shape(check: Check, value: Any, holder: Any, at: Any, report: Report) -> bool:
+    """The check of what aliases repeat: once for each shape, on a copy that holds what is left of it there."""
+    if report.full:
+        return False
+    if check not in value.uses:
+        copy, own = value.copied(), Report()
+        fine = check(copy, holder, at, own)
+        report.extend(own if value.span() == holder.span(at) else own.also(holder.span(at), "used here"))
+        value.uses[check] = copy, fine
+    holder[at], fine = value.uses[check]
+    return bool(fine)
 
 
 def _lose(value: Any, lost: set[str]) -> None:

@@ -110,13 +110,14 @@ class Places:
         if first is None:
             return None
         alone = bits is not None or space in self.scope.family.indexed  # there a number names values of any width
-        return tuple(range(first, first + (1 if alone else max(1, TYPES[type_name].bits // 16))))
+        words = max(1, TYPES[type_name].bits // 16) if draft.untyped is None else int(draft.get("takes", 1))
+        return tuple(range(first, first + (1 if alone else words)))
 
     def _text_words(self, draft: Draft, last: int | None) -> tuple[int, ...] | None:
         """The words of a text in reading order, which may run down: `739..732`, or the first word alone."""
         raw = self._said(draft)
         characters: int | None = draft.get("characters")
-        if raw is None or characters is None:
+        if raw is None or characters is None or "characters" in draft.failed:
             return None
         first_text, dots, last_text = str(raw).partition("..") if isinstance(raw, str) else ("", "", "")
         first = self._number(draft, first_text.strip()) if dots else self._address(draft)

@@ -121,10 +121,13 @@ def _numbers(scope: Scope, raw: Map, key: str, wrong: str, last: int) -> tuple[i
     if key not in raw:
         return 0, 0
     found = interval(str(raw[key]), raw.span(key), scope.report)
-    if found is not None and not 0 <= found[0] <= found[1] <= last:
+    if found is not None and 0 <= found[0] <= found[1] <= last:
+        return found
+    if found is not None:
         message = f"{key} {found[0]}..{found[1]} {wrong}"
         scope.report.error("address-outside-space", message, raw.span(key), f"they lie in 0..{last}")
-    return found or (0, 0)
+    raw.broken += (key,)
+    return 0, 0
 
 
 def codes(scope: Scope, raw: Map | None, first: int, last: int) -> tuple[Code, ...]:

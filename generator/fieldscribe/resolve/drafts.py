@@ -69,6 +69,18 @@ class Draft:
         """Whether the point says that it is a text."""
         return bool(self.get("type") == "text")
 
+    @property
+    def untyped(self) -> str | None:
+        """What stands in place of a type: the manual's words for it, or nothing where it does not settle it."""
+        words, typed = self.layer("untyped"), self.layer("type")
+        if words is not None and (typed is None or self._rank(words) <= self._rank(typed)):
+            return str(words["untyped"])
+        return "" if typed is not None and typed["type"] is None else None
+
+    def _rank(self, layer: Map) -> int:
+        """Whose word it is: own facts come before those of formats and of the group."""
+        return next((place for place, one in enumerate(self.layers) if one is layer), len(self.layers))
+
     def layer(self, key: str) -> Map | None:
         """The layer that says this fact."""
         return self._where.get(key)

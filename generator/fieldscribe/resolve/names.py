@@ -142,17 +142,30 @@ def type_of(scope: Scope, draft: Draft, space: str, bits: tuple[int, int] | None
     single = scope.family.spaces[space] == "bit"
     width = bits[0] - bits[1] + 1 if bits else None
     default = "bit" if single or width == 1 else "u8" if width is not None and width <= 8 else "u16"
-    said = str(draft.get("type") or default)
+    said = str(draft.get("type") or default) if draft.untyped is None else default
     fault = None if "space" in draft.failed else _type_fault(said, space, single, width, default)
-    if fault is None and said != "text" and not bits and TYPES[said].bits > scope.family.widest(space):
-        message = f"`{said}` does not fit into a message, which carries one word"
-        fault = "type-outside-space", message, "give each address a point of its own"
+    fault = fault or (None if bits else _carrier_fault(scope, said, space))
     if fault is None:
         return said
     draft.failed.add("type")
     span = draft.span("type" if draft.layer("type") is not None else "space")
     scope.report.error(fault[0], fault[1], span, fault[2])
     return default
+
+
+def _carrier_fault(scope: Scope, said: str, space: str) -> tuple[str, str, str] | None:
+    """What is wrong with a type that nothing on the bus could carry, or None."""
+    widest = scope.family.widest(space)
+    if said == "text" and space in scope.family.indexed:
+        message = f"a text does not fit an address of `{space}`, which carries {widest} bits"
+        return "type-outside-space", message, "write `type: ~` and say under `unsaid` what it is"
+    if said == "text" or TYPES[said].bits <= widest:
+        return None
+    if space in scope.family.indexed:
+        message = f"`{said}` does not fit an address of `{space}`, which carries {widest} bits"
+        return "type-outside-space", message, "use u32, s32 or f32, or correct `space`"
+    message = f"`{said}` does not fit into a message, which carries one word"
+    return "type-outside-space", message, "give each address a point of its own"
 
 
 def _type_fault(said: str, space: str, single: bool, width: int | None, default: str) -> tuple[str, str, str] | None:

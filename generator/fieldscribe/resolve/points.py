@@ -6,19 +6,19 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from fieldscribe.language.formula import FormulaError, condition_comparisons, parse_condition
 from fieldscribe.language.units import unit_hint
-from fieldscribe.model import TYPES, UNSETTLED_TYPE, Allowed, Enum, Place, Point, ScaleCase, Special, Unit
+from fieldscribe.model import TYPES, Allowed, Enum, Place, Point, ScaleCase, Special, Unit
 from fieldscribe.resolve.addresses import Places
 from fieldscribe.resolve.allowed import Ranges
 from fieldscribe.resolve.bounds import Bounds
 from fieldscribe.resolve.enums import enum_of, flags_of, specials_of
+from fieldscribe.resolve.existence import existence_of
 from fieldscribe.resolve.integer_path import paths_of
 from fieldscribe.resolve.names import Index, bits_of, space_of, type_of
 from fieldscribe.resolve.rules import Scales
 from fieldscribe.resolve.scope import PLAIN, Scope, source_of, titles
 from fieldscribe.resolve.telegrams import SPACE
-from fieldscribe.resolve.values import formula_finding, integer, number
+from fieldscribe.resolve.values import integer, number
 from fieldscribe.resolve.word_facts import allowed_digits, digits_of, fixed_of, text_of
 
 if TYPE_CHECKING:
@@ -98,7 +98,6 @@ def _point(scope: Scope, draft: Draft, shape: Shape, places: Places, ranges: Ran
     access = places.access(draft, shape.space)
     writable = "w" in access
     reason = _reason(draft, place is not None, access)
-    _existence(scope, draft, ranges.bounds.scales.index)
     return Point(
         name=draft.name,
         variant=draft.variant,
@@ -127,7 +126,7 @@ def _point(scope: Scope, draft: Draft, shape: Shape, places: Places, ranges: Ran
         changes=get("changes"),
         keeps=get("keeps") if writable else None,
         conditions=tuple(get("conditions", ())) if writable else (),
-        when=get("when"),
+        when=existence_of(scope, draft, ranges.bounds.scales),
         since=get("since"),
         until=get("until"),
         was=tuple(f"{name}{draft.suffix}" for name in get("was", ())),
@@ -142,6 +141,7 @@ def _point(scope: Scope, draft: Draft, shape: Shape, places: Places, ranges: Ran
         digits=digits,
         fixed=fixed_of(scope, draft, shape.bits, shape.width) if writable else None,
         changes_with=_changes_with(draft, ranges.bounds.scales.index),
+        untyped=_untyped(scope, draft),
     )
 
 
@@ -164,11 +164,23 @@ def _reason(draft: Draft, has_place: bool, access: str) -> str | None:
         return "the manual prints no address"
     if draft.get("reserved", False):
         return "reserved by the maker"
-    if draft.layer("type") is not None and draft.get("type") is None:
-        return UNSETTLED_TYPE
+    if draft.untyped is not None:
+        return "no type says its encoding" if draft.untyped else "the manual does not settle its type"
     if draft.layer("scale") is not None and draft.get("scale") is None:
         return "the manual does not settle its scale"
     return "not reachable over the bus" if access == "none" else None
+
+
+def _untyped(scope: Scope, draft: Draft) -> str | None:
+    """What stands in place of a type; a finding where something is said twice, or of nothing."""
+    words, typed = draft.layer("untyped"), draft.layer("type")
+    if words is not None and words is typed and words["type"] is not None:
+        message, hint = f"`{draft.name}` has a type, and words that stand in place of one", "leave one of them out"
+        scope.report.error("two-meanings", message, words.span("untyped"), hint)
+    elif draft.untyped is None and "takes" in draft.own and not draft.failed & {"type", "untyped"}:
+        hint = "its type says how many words it takes: leave `takes` out"
+        scope.report.error("two-meanings", f"`{draft.name}` has a type", draft.span("takes"), hint)
+    return draft.untyped
 
 
 def _unit(scope: Scope, draft: Draft) -> Unit:
@@ -234,25 +246,3 @@ def _changes_with(draft: Draft, index: Index) -> tuple[str, ...]:
             index.scope.report.error("two-meanings", message, words.span(place), "name the points that change it")
         found.update(dict.fromkeys(one.name for one in used))
     return tuple(found)
-
-
-def _existence(scope: Scope, draft: Draft, index: Index) -> None:
-    text = draft.get("when")
-    if text is None:
-        return
-    span = draft.span("when")
-    try:
-        comparisons = condition_comparisons(parse_condition(text))
-    except FormulaError as error:
-        formula_finding(error, span, scope.report)
-        return
-    for one in comparisons:
-        name = one.name.name
-        if name in scope.axes:
-            values = scope.axes[name]["values"]
-            for given in one.constants:
-                if not isinstance(given.value, str) or given.value not in values:
-                    place = span._replace(column=span.column + given.column)
-                    scope.unknown("variant", str(given.value), place, [*values])
-        elif index.find(name) is None:
-            index.unknown(name, span._replace(column=span.column + one.name.column))

@@ -74,6 +74,8 @@ class Scales:
         """A finding unless the point is a number, and one that the manual settles."""
         if used.text:
             self._refuse(place, f"`{name}` is a text", "name a number")
+        if used.untyped:
+            self._refuse(place, f"no type says what `{name}` is", "a formula needs a number: say its `type`")
         for key in ("type",) if part == "raw" else ("type", "scale"):
             if used.layer(key) is not None and used.get(key) is None and key not in used.failed:
                 hint = "a formula needs what is settled: write `scale: ~` here too, or settle it"

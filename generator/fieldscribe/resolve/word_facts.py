@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from fieldscribe.resolve.scope import Scope
 
 WORD_BITS = 16
+_MOST_CHARACTERS = 250
 _LARGEST_DIGIT = 9
 _DEFAULT_ENCODING = "ascii"
 
@@ -36,6 +37,12 @@ def text_of(scope: Scope, draft: Draft) -> Text | None:
     if characters % 2:
         hint = f"two characters stand in a word: write {characters + 1}, or {characters - 1}"
         message = f"{characters} characters leave half a word"
+        scope.report.error("text-length", message, draft.span("characters"), hint)
+        draft.failed.add("characters")
+        return None
+    if characters > _MOST_CHARACTERS:
+        message = f"{characters} characters are more than 125 words hold, the most that travel at once"
+        hint = f"make it several texts of at most {_MOST_CHARACTERS} characters"
         scope.report.error("text-length", message, draft.span("characters"), hint)
         draft.failed.add("characters")
         return None

@@ -11,6 +11,7 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Device
     from fieldscribe.render import Render
+    from fieldscribe.targets.identifiers import Identifier
 
     class Target(Protocol):
         """What a target's module offers."""
@@ -21,12 +22,19 @@ if TYPE_CHECKING:
         def runtime(self, device: Device) -> Iterable[tuple[str, str]]:
             """Real source that goes beside them: path below the output folder, and path below the templates folder."""
 
+        def identifiers(self, device: Device) -> Iterable[Identifier]:
+            """Every name that the device gets in generated code; only targets with namespaces of their own have it."""
+
 
 TARGETS = ("c", "python", "rust", "docs", "vectors")
 """All targets by name, in the order in which they are written."""
 
 FOR_PEOPLE = ("docs",)
 """Targets that also see titles, notes and sources; the others see names only (plain.py)."""
+
+
+NAMESPACES = ("c", "python", "rust")
+"""Targets in which names of the description become identifiers, which can meet."""
 
 
 def target(name: str) -> Target:

@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.wording.exact import exact, fixed_rule, hex_text, number_text
 from fieldscribe.wording.rules import RAW, Points, inverse_text, ranges_text, shown
+from fieldscribe.wording.rules import clause_text as clause_text
+from fieldscribe.wording.rules import condition_text as condition_text
 
 if TYPE_CHECKING:
     from fieldscribe.model import Device, Entry, Flag, Point, Special, Titles
@@ -48,6 +50,8 @@ def title_text(titles: Titles) -> str:
 
 def type_text(point: Point) -> str:
     """The wire type, with the bits of a bit group: `u8, bits 15..14`."""
+    if point.untyped is not None:
+        return point.untyped or "not settled by the manual"
     if point.text is not None:
         return f"text, {point.text.characters} characters, {point.text.encoding}"
     if point.digits is not None:
@@ -141,6 +145,8 @@ def scale_text(point: Point, points: Points | None = None) -> str:
 
 def range_text(point: Point, points: Points | None = None) -> str:
     """Which values may be written, in the unit: `0..400 Hz`; empty where only the raw numbers can be said."""
+    if _is_unbounded(point):
+        return ""
     if point.info.floating:
         ends = [f"{number_text(low)}..{number_text(high)}" for low, high in point.allowed.units]
         return with_unit(" or ".join(ends), point) if ends else "any number"
@@ -150,13 +156,20 @@ def range_text(point: Point, points: Points | None = None) -> str:
 
 def raw_range_text(point: Point) -> str:
     """Which raw numbers may be written: `0..4000`; empty for f32 and f64, whose limits are values."""
-    return "" if point.info.floating or point.text is not None else ranges_text(point, RAW, None, "")
+    nothing = point.info.floating or point.text is not None or _is_unbounded(point)
+    return "" if nothing else ranges_text(point, RAW, None, "")
+
+
+def _is_unbounded(point: Point) -> bool:
+    """Whether nothing is known of the numbers: no type, and no range that the manual prints."""
+    ends = [(one.low, one.high) for one in point.allowed.intervals]
+    return point.untyped is not None and ends == [(point.least, point.greatest)]
 
 
 def outer_raw(point: Point) -> tuple[int, int] | None:
     """The least and the greatest raw number that can ever be allowed."""
     intervals = point.allowed.intervals
-    if not intervals:
+    if not intervals or _is_unbounded(point):
         return None
     lows = [one.low if isinstance(one.low, int) else one.low.least for one in intervals]
     highs = [one.high if isinstance(one.high, int) else one.high.greatest for one in intervals]

@@ -4,15 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from fractions import Fraction
+from typing import TYPE_CHECKING
 
 from fieldscribe.model import Bound, Factor, Interval, Limit, Linear, Point
-from fieldscribe.wording.exact import exact, inverse, number_text, plus_text, times_text, value_multiple
+from fieldscribe.wording.exact import exact, fixed_rule, inverse, number_text, plus_text, times_text, value_multiple
+
+if TYPE_CHECKING:
+    from fieldscribe.existence import Clause, Comparison, Condition
 
 Points = Mapping[str, Point]
 """Points by name, for wording that looks at the points a limit refers to."""
 
 Rule = tuple[int, int, int]
 """(multiply, add, divide): what is shown is (raw * multiply + add) / divide."""
+
+_TURNED = str.maketrans("<>", "><")
 
 RAW: Rule = (1, 0, 1)
 """Shows the raw number itself."""
@@ -50,6 +56,33 @@ def ranges_text(point: Point, rule: Rule, points: Points | None, unit: str) -> s
     if unit and last >= 0:
         parts[last] = f"{parts[last]} {unit}"
     return (", " if listed else " or ").join(parts) + "".join(remarks)
+
+
+def condition_text(condition: Condition | None, points: Points | None = None) -> str:
+    """When a point exists: `model == large and speed.raw > 600`; empty for always."""
+    return " or ".join(clause_text(one, points) for one in condition.clauses) if condition is not None else ""
+
+
+def clause_text(clause: Clause, points: Points | None = None) -> str:
+    """Comparisons that hold together, in values where `points` are given."""
+    return " and ".join(_comparison_text(one, points) for one in clause)
+
+
+def _comparison_text(one: Comparison, points: Points | None) -> str:
+    numbers = [each for each in one.than if isinstance(each, int)]
+    if not numbers:
+        return _test_text(one.of, one.test, [str(each) for each in one.than])
+    point = None if points is None else points.get(one.of)
+    rule = None if point is None else fixed_rule(point)
+    if point is None or rule is None:
+        return _test_text(f"{one.of}.raw", one.test, [str(each) for each in numbers])
+    names = {} if point.enum is None else {entry.raw: entry.name for entry in point.enum.entries}
+    test = one.test.translate(_TURNED) if rule[0] < 0 else one.test
+    return _test_text(one.of, test, [names.get(each) or shown(each, rule) for each in numbers])
+
+
+def _test_text(name: str, test: str, than: list[str]) -> str:
+    return f"{name} in ({', '.join(than)})" if test == "in" else f"{name} {test} {than[0]}"
 
 
 def _special_name(point: Point, interval: Interval) -> str:

@@ -107,6 +107,12 @@ static inline uint32_t fieldscribe_can_id(const fieldscribe_can_message *message
     return message->id + (message->adds_unit ? unit : 0U);
 }
 
+/* How far the byte of a role lies above bit 0 of its number; whatever a table says, less than the bits of a word. */
+static inline unsigned fieldscribe_can_shift(fieldscribe_can_role role)
+{
+    return role.number & 0xFU;
+}
+
 /* The bytes in `mask`, combined by exclusive or. */
 static inline uint8_t fieldscribe_can_xor(const uint8_t data[FIELDSCRIBE_CAN_BYTES], uint8_t mask)
 {
@@ -142,11 +148,11 @@ static inline fieldscribe_can_status fieldscribe_can_build(const fieldscribe_can
         if (role.kind == FIELDSCRIBE_CAN_CONSTANT) {
             byte = role.number;
         } else if (role.kind == FIELDSCRIBE_CAN_UNIT) {
-            byte = unit >> role.number;
+            byte = unit >> fieldscribe_can_shift(role);
         } else if (role.kind == FIELDSCRIBE_CAN_ADDRESS) {
-            byte = address >> role.number;
+            byte = address >> fieldscribe_can_shift(role);
         } else if (role.kind == FIELDSCRIBE_CAN_RAW) {
-            byte = raw >> role.number;
+            byte = raw >> fieldscribe_can_shift(role);
         }
         frame->data[at] = (uint8_t)(byte & 0xFFU);
     }
@@ -164,15 +170,15 @@ static inline bool fieldscribe_can_agrees(
 {
     unsigned at;
     for (at = 0U; at < FIELDSCRIBE_CAN_BYTES; ++at) {
-        const uint8_t number = message->roles[at].number;
-        uint8_t expected = number; /* a constant */
-        if (message->roles[at].kind != kind) {
+        const fieldscribe_can_role role = message->roles[at];
+        uint8_t expected = role.number; /* a constant */
+        if (role.kind != kind) {
             continue;
         }
         if (kind == FIELDSCRIBE_CAN_UNIT) {
-            expected = (uint8_t)((uint32_t)unit >> number);
+            expected = (uint8_t)((uint32_t)unit >> fieldscribe_can_shift(role));
         } else if (kind == FIELDSCRIBE_CAN_XOR) {
-            expected = fieldscribe_can_xor(data, number);
+            expected = fieldscribe_can_xor(data, role.number);
         }
         if (data[at] != expected) {
             return false;
@@ -217,9 +223,9 @@ static inline fieldscribe_can_status fieldscribe_can_parse(const fieldscribe_can
     for (at = 0U; at < FIELDSCRIBE_CAN_BYTES; ++at) {
         const fieldscribe_can_role role = message->roles[at];
         if (role.kind == FIELDSCRIBE_CAN_ADDRESS) {
-            *address = (uint16_t)(*address | ((uint32_t)frame->data[at] << role.number));
+            *address = (uint16_t)((*address | ((uint32_t)frame->data[at] << fieldscribe_can_shift(role))) & 0xFFFFU);
         } else if (role.kind == FIELDSCRIBE_CAN_RAW) {
-            *raw = (uint16_t)(*raw | ((uint32_t)frame->data[at] << role.number));
+            *raw = (uint16_t)((*raw | ((uint32_t)frame->data[at] << fieldscribe_can_shift(role))) & 0xFFFFU);
         }
     }
     return FIELDSCRIBE_CAN_OK;
@@ -266,10 +272,18 @@ static inline fieldscribe_can_status fieldscribe_can_confirm(const fieldscribe_c
 
 /* ---- Cyclic telegrams ---- */
 
+/* How many words a frame carries: whatever a table says, as many as a slot has room for, and not none. */
+static inline uint8_t fieldscribe_can_per_frame(const fieldscribe_can_telegram *telegram)
+{
+    return telegram->per_frame == 0U || telegram->per_frame > FIELDSCRIBE_CAN_WORDS ? (uint8_t)FIELDSCRIBE_CAN_WORDS
+                                                                                    : telegram->per_frame;
+}
+
 /* How many frames, and so slots, a telegram consists of. */
 static inline size_t fieldscribe_can_slots(const fieldscribe_can_telegram *telegram)
 {
-    return ((size_t)telegram->words + telegram->per_frame - 1U) / telegram->per_frame;
+    const uint8_t per_frame = fieldscribe_can_per_frame(telegram);
+    return (size_t)telegram->words / per_frame + (telegram->words % per_frame != 0U ? 1U : 0U);
 }
 
 /* A receiver that has not heard anything yet. */
@@ -329,20 +343,27 @@ static inline bool fieldscribe_can_take(fieldscribe_can_receiver *receiver, cons
     return true;
 }
 
+/* The slot of a word, into which something came; NULL if nothing did, or the telegram has no such word. */
+static inline const fieldscribe_can_slot *fieldscribe_can_heard(
+    const fieldscribe_can_receiver *receiver, uint16_t position)
+{
+    const fieldscribe_can_slot *slot;
+    if (position >= receiver->telegram->words) {
+        return NULL;
+    }
+    slot = &receiver->slots[position / fieldscribe_can_per_frame(receiver->telegram)];
+    return slot->now == 0U ? NULL : slot;
+}
+
 /* The newest word at a position of the telegram, which counts from 0. */
 static inline fieldscribe_can_status fieldscribe_can_word(
     const fieldscribe_can_receiver *receiver, uint16_t position, uint16_t *word)
 {
-    const uint8_t per_frame = receiver->telegram->per_frame;
-    const fieldscribe_can_slot *slot;
-    if (position >= receiver->telegram->words) {
+    const fieldscribe_can_slot *const slot = fieldscribe_can_heard(receiver, position);
+    if (slot == NULL) {
         return FIELDSCRIBE_CAN_MISSING;
     }
-    slot = &receiver->slots[position / per_frame];
-    if (slot->now == 0U) {
-        return FIELDSCRIBE_CAN_MISSING;
-    }
-    *word = slot->words_now[position % per_frame];
+    *word = slot->words_now[position % fieldscribe_can_per_frame(receiver->telegram)];
     return FIELDSCRIBE_CAN_OK;
 }
 
@@ -353,17 +374,16 @@ static inline fieldscribe_can_status fieldscribe_can_word(
 static inline fieldscribe_can_status fieldscribe_can_pair(
     const fieldscribe_can_receiver *receiver, uint16_t high, uint16_t low, uint16_t *high_word, uint16_t *low_word)
 {
-    const uint8_t per_frame = receiver->telegram->per_frame;
-    const fieldscribe_can_slot *a;
-    const fieldscribe_can_slot *b;
-    uint16_t found_high = 0U;
-    uint16_t found_low = 0U;
-    if (fieldscribe_can_word(receiver, high, &found_high) != FIELDSCRIBE_CAN_OK ||
-        fieldscribe_can_word(receiver, low, &found_low) != FIELDSCRIBE_CAN_OK) {
+    const uint8_t per_frame = fieldscribe_can_per_frame(receiver->telegram);
+    const fieldscribe_can_slot *const a = fieldscribe_can_heard(receiver, high);
+    const fieldscribe_can_slot *const b = fieldscribe_can_heard(receiver, low);
+    uint16_t found_high;
+    uint16_t found_low;
+    if (a == NULL || b == NULL) {
         return FIELDSCRIBE_CAN_MISSING;
     }
-    a = &receiver->slots[high / per_frame];
-    b = &receiver->slots[low / per_frame];
+    found_high = a->words_now[high % per_frame];
+    found_low = b->words_now[low % per_frame];
     if (a != b) {
         const bool around = a->before != 0U && a->words_before[high % per_frame] == found_high;
         if (a->now > b->now) {

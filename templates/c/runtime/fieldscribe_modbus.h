@@ -160,11 +160,17 @@ static inline uint16_t fieldscribe_modbus_single(const fieldscribe_modbus_reques
     return request->values[0];
 }
 
-/* How many data bytes a request or an answer carries for `count` items. */
-static inline size_t fieldscribe_modbus_data_bytes(uint8_t function, uint16_t count)
+/* What the device knows of a function; NULL when it does not know it. */
+static inline const fieldscribe_modbus_function *fieldscribe_modbus_find(
+    const fieldscribe_modbus_profile *profile, uint8_t code)
 {
-    const bool bits = fieldscribe_modbus_reads_bits(function) || function == 0x0FU;
-    return bits ? ((size_t)count + 7U) / 8U : (size_t)count * 2U;
+    size_t at;
+    for (at = 0U; at < profile->function_count; ++at) {
+        if (profile->functions[at].code == code) {
+            return &profile->functions[at];
+        }
+    }
+    return NULL;
 }
 
 /* Whether this device takes the request. */
@@ -172,21 +178,19 @@ static inline fieldscribe_modbus_status fieldscribe_modbus_allows(
     const fieldscribe_modbus_profile *profile, const fieldscribe_modbus_request *request)
 {
     const uint8_t function = request->function;
+    const fieldscribe_modbus_function *const known = fieldscribe_modbus_find(profile, function);
     const bool writes = function == 0x05U || function == 0x06U || function == 0x0FU || function == 0x10U;
     const bool single = function == 0x05U || function == 0x06U || function == 0x08U;
     bool to_one;
-    size_t at = 0U;
-    while (at < profile->function_count && profile->functions[at].code != function) {
-        ++at;
-    }
-    if (at == profile->function_count || !(fieldscribe_modbus_reads(function) || writes || single)) {
+    uint16_t at;
+    if (known == NULL || !(fieldscribe_modbus_reads(function) || writes || single)) {
         return FIELDSCRIBE_MODBUS_BAD_FUNCTION;
     }
     to_one = request->unit >= profile->first_unit && request->unit <= profile->last_unit;
-    if (request->unit == profile->broadcast ? !(writes && profile->functions[at].broadcast) : !to_one) {
+    if (request->unit == profile->broadcast ? !(writes && known->broadcast) : !to_one) {
         return FIELDSCRIBE_MODBUS_BAD_UNIT;
     }
-    if (request->count == 0U || request->count > profile->functions[at].most || (single && request->count != 1U) ||
+    if (request->count == 0U || request->count > known->most || (single && request->count != 1U) ||
         (!fieldscribe_modbus_reads(function) && request->values == NULL)) {
         return FIELDSCRIBE_MODBUS_BAD_COUNT;
     }
@@ -203,24 +207,45 @@ static inline fieldscribe_modbus_status fieldscribe_modbus_allows(
     return FIELDSCRIBE_MODBUS_OK;
 }
 
+/* How many data bytes 0Fh and 10h carry. */
+static inline uint32_t fieldscribe_modbus_data_bytes(
+    const fieldscribe_modbus_profile *profile, const fieldscribe_modbus_request *request)
+{
+    uint32_t bytes = (uint32_t)request->count * 2U;
+    if (request->function == 0x0FU) {
+        bytes = ((uint32_t)request->count + 7U) / 8U;
+        bytes += profile->pads_coil_bytes ? bytes % 2U : 0U;
+    }
+    return bytes;
+}
+
+/* Eight coils from one of them on, as a byte; 0 for those behind the last. */
+static inline uint8_t fieldscribe_modbus_coils(const fieldscribe_modbus_request *request, uint32_t first)
+{
+    uint8_t byte = 0U;
+    uint32_t at;
+    for (at = 0U; at < 8U; ++at) {
+        const uint32_t place = first + at;
+        if (place < request->count && request->values[place] != 0U) {
+            byte = (uint8_t)(byte | ((uint32_t)1U << at));
+        }
+    }
+    return byte;
+}
+
 /* Writes the data of 0Fh and 10h behind their byte count. */
 static inline void fieldscribe_modbus_put_values(
-    const fieldscribe_modbus_request *request, uint8_t *data, size_t data_bytes)
+    const fieldscribe_modbus_request *request, uint8_t *data, uint32_t data_bytes)
 {
-    size_t at;
+    uint32_t at;
     if (request->function == 0x10U) {
-        for (at = 0U; at < request->count; ++at) {
+        for (at = 0U; at < data_bytes / 2U; ++at) {
             fieldscribe_modbus_put(data + 2U * at, request->values[at]);
         }
         return;
     }
     for (at = 0U; at < data_bytes; ++at) {
-        data[at] = 0U;
-    }
-    for (at = 0U; at < request->count; ++at) {
-        if (request->values[at] != 0U) {
-            data[at / 8U] = (uint8_t)(data[at / 8U] | ((uint32_t)1U << (at % 8U)));
-        }
+        data[at] = fieldscribe_modbus_coils(request, 8U * at);
     }
 }
 
@@ -232,8 +257,10 @@ static inline fieldscribe_modbus_status fieldscribe_modbus_build(const fieldscri
     const fieldscribe_modbus_status status = fieldscribe_modbus_allows(profile, request);
     const bool several = request->function == 0x0FU || request->function == 0x10U;
     const size_t head = framing == FIELDSCRIBE_MODBUS_TCP ? 6U : 0U;
-    size_t data_bytes = 0U;
-    size_t used = head + 6U; /* with the unit, up to the checksum */
+    const size_t before = head + (several ? 7U : 6U); /* the data */
+    const size_t behind = framing == FIELDSCRIBE_MODBUS_TCP ? 0U : 2U;
+    const uint32_t data_bytes = several ? fieldscribe_modbus_data_bytes(profile, request) : 0U;
+    size_t used; /* with the unit, up to the checksum */
     uint8_t *const frame = buffer;
     *length = 0U;
     if (!(framing == FIELDSCRIBE_MODBUS_TCP ? profile->tcp : profile->rtu)) {
@@ -242,14 +269,7 @@ static inline fieldscribe_modbus_status fieldscribe_modbus_build(const fieldscri
     if (status != FIELDSCRIBE_MODBUS_OK) {
         return status;
     }
-    if (several) {
-        data_bytes = fieldscribe_modbus_data_bytes(request->function, request->count);
-        if (request->function == 0x0FU && profile->pads_coil_bytes) {
-            data_bytes += data_bytes % 2U;
-        }
-        used += 1U + data_bytes;
-    }
-    if (size < used + (framing == FIELDSCRIBE_MODBUS_TCP ? 0U : 2U) || data_bytes > 0xFFU) {
+    if (data_bytes > 0xFFU || size < before + behind || data_bytes > size - before - behind) {
         return FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL;
     }
     frame[head] = request->unit;
@@ -264,6 +284,7 @@ static inline fieldscribe_modbus_status fieldscribe_modbus_build(const fieldscri
         frame[head + 6U] = (uint8_t)data_bytes;
         fieldscribe_modbus_put_values(request, frame + head + 7U, data_bytes);
     }
+    used = before + (size_t)data_bytes;
     if (framing == FIELDSCRIBE_MODBUS_TCP) {
         fieldscribe_modbus_put(frame, request->transaction);
         fieldscribe_modbus_put(frame + 2U, 0U);
@@ -278,37 +299,68 @@ static inline fieldscribe_modbus_status fieldscribe_modbus_build(const fieldscri
     return FIELDSCRIBE_MODBUS_OK;
 }
 
-/* Reads the answer's data: `pdu` starts at the function; its length is already that of the function. */
+/* Stores the words that an answer brings in `bytes` bytes of data. */
+static inline fieldscribe_modbus_status fieldscribe_modbus_take_words(
+    const uint8_t *data, uint8_t bytes, uint16_t count, uint16_t *values, size_t room)
+{
+    uint16_t at;
+    if (bytes % 2U != 0U || count != bytes / 2U) {
+        return FIELDSCRIBE_MODBUS_BAD_BYTE_COUNT;
+    }
+    if (room < count) {
+        return FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL;
+    }
+    for (at = 0U; at < count; ++at) {
+        values[at] = fieldscribe_modbus_get(data + 2U * at);
+    }
+    return FIELDSCRIBE_MODBUS_OK;
+}
+
+/* Stores the bits that an answer brings in `bytes` bytes of data. */
+static inline fieldscribe_modbus_status fieldscribe_modbus_take_bits(
+    const uint8_t *data, uint8_t bytes, uint16_t count, uint16_t *values, size_t room)
+{
+    const uint32_t most = (uint32_t)bytes * 8U;
+    uint16_t at;
+    if (count > most || (uint32_t)count + 7U < most) {
+        return FIELDSCRIBE_MODBUS_BAD_BYTE_COUNT;
+    }
+    if (room < count) {
+        return FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL;
+    }
+    for (at = 0U; at < count; ++at) {
+        values[at] = (uint16_t)(((uint32_t)data[at / 8U] >> (at % 8U)) & 1U);
+    }
+    return FIELDSCRIBE_MODBUS_OK;
+}
+
+/* Reads an answer: `pdu` starts at the function, which is that of the request, and has `size` bytes (at least 2). */
 static inline fieldscribe_modbus_status fieldscribe_modbus_take(const fieldscribe_modbus_request *request,
-    const uint8_t *pdu, uint16_t *values, size_t room, fieldscribe_modbus_reply *reply)
+    const uint8_t *pdu, size_t size, uint16_t *values, size_t room, fieldscribe_modbus_reply *reply)
 {
     const uint8_t function = request->function;
-    size_t at;
+    const uint16_t count = request->count;
     if (fieldscribe_modbus_reads(function)) {
-        if (pdu[1] != fieldscribe_modbus_data_bytes(function, request->count)) {
-            return FIELDSCRIBE_MODBUS_BAD_BYTE_COUNT;
+        fieldscribe_modbus_status status = FIELDSCRIBE_MODBUS_BAD_BYTE_COUNT;
+        const uint8_t bytes = pdu[1];
+        if (size == 2U + (size_t)bytes) {
+            status = fieldscribe_modbus_reads_bits(function)
+                ? fieldscribe_modbus_take_bits(pdu + 2, bytes, count, values, room)
+                : fieldscribe_modbus_take_words(pdu + 2, bytes, count, values, room);
         }
-        if (room < request->count) {
-            return FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL;
-        }
-        for (at = 0U; at < request->count; ++at) {
-            if (fieldscribe_modbus_reads_bits(function)) {
-                values[at] = (uint16_t)(((uint32_t)pdu[2U + at / 8U] >> (at % 8U)) & 1U);
-            } else {
-                values[at] = fieldscribe_modbus_get(pdu + 2U + 2U * at);
-            }
-        }
-        reply->count = request->count;
-        return FIELDSCRIBE_MODBUS_OK;
+        reply->count = status == FIELDSCRIBE_MODBUS_OK ? count : 0U;
+        return status;
+    }
+    if (size != 5U) {
+        return size < 5U ? FIELDSCRIBE_MODBUS_SHORT_FRAME : FIELDSCRIBE_MODBUS_LONG_FRAME;
     }
     if (fieldscribe_modbus_get(pdu + 1) != request->address) {
         return FIELDSCRIBE_MODBUS_ECHO_MISMATCH;
     }
     if (function == 0x0FU || function == 0x10U) {
-        return fieldscribe_modbus_get(pdu + 3) == request->count ? FIELDSCRIBE_MODBUS_OK
-                                                                 : FIELDSCRIBE_MODBUS_ECHO_MISMATCH;
+        return fieldscribe_modbus_get(pdu + 3) == count ? FIELDSCRIBE_MODBUS_OK : FIELDSCRIBE_MODBUS_ECHO_MISMATCH;
     }
-    if (request->values == NULL || fieldscribe_modbus_get(pdu + 3) != fieldscribe_modbus_single(request)) {
+    if (request->values == NULL || count == 0U || fieldscribe_modbus_get(pdu + 3) != fieldscribe_modbus_single(request)) {
         return FIELDSCRIBE_MODBUS_ECHO_MISMATCH;
     }
     if (room > 0U) {
@@ -351,14 +403,13 @@ static inline fieldscribe_modbus_status fieldscribe_modbus_parse_rtu(const field
         reply->exception = bytes[2];
         return FIELDSCRIBE_MODBUS_EXCEPTION;
     }
-    return fieldscribe_modbus_take(request, bytes + 1, values, room, reply);
+    return fieldscribe_modbus_take(request, bytes + 1, length - 3U, values, room, reply);
 }
 
 static inline fieldscribe_modbus_status fieldscribe_modbus_parse_tcp(const fieldscribe_modbus_request *request,
     const uint8_t *bytes, size_t length, uint16_t *values, size_t room, fieldscribe_modbus_reply *reply)
 {
     size_t expected;
-    size_t pdu;
     if (length < 9U) {
         return FIELDSCRIBE_MODBUS_SHORT_FRAME;
     }
@@ -385,15 +436,7 @@ static inline fieldscribe_modbus_status fieldscribe_modbus_parse_tcp(const field
     if (bytes[7] != request->function) {
         return FIELDSCRIBE_MODBUS_WRONG_FUNCTION;
     }
-    pdu = length - 7U;
-    if (fieldscribe_modbus_reads(request->function)) {
-        if (pdu != 2U + (size_t)bytes[8]) {
-            return FIELDSCRIBE_MODBUS_BAD_BYTE_COUNT;
-        }
-    } else if (pdu != 5U) {
-        return pdu < 5U ? FIELDSCRIBE_MODBUS_SHORT_FRAME : FIELDSCRIBE_MODBUS_LONG_FRAME;
-    }
-    return fieldscribe_modbus_take(request, bytes + 7, values, room, reply);
+    return fieldscribe_modbus_take(request, bytes + 7, length - 7U, values, room, reply);
 }
 
 /*

@@ -4,6 +4,19 @@
 use crate::arithmetic::insert;
 use crate::{Error, Raw, Rule};
 
+/// Where the words of a point are that is documented only: nothing says what they mean.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Documented {
+    /// Where its address counts.
+    pub space: Space,
+    /// The lowest address.
+    pub address: u16,
+    /// How many words it takes.
+    pub words: u16,
+    /// Its index in an array.
+    pub index: Option<u16>,
+}
+
 /// Where an address counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]

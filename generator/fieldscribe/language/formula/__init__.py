@@ -7,10 +7,11 @@ from fieldscribe.language.formula.conditions import (
     Condition,
     Constant,
     Not,
-    condition_comparisons,
+    clauses_of,
     condition_names,
     parse_case,
     parse_condition,
+    wrong_number,
 )
 from fieldscribe.language.formula.errors import FormulaError
 from fieldscribe.language.formula.evaluation import evaluate
@@ -50,7 +51,7 @@ __all__ = [
     "Range",
     "Resolve",
     "Scale",
-    "condition_comparisons",
+    "clauses_of",
     "condition_names",
     "constant",
     "cut_off",
@@ -66,4 +67,5 @@ __all__ = [
     "parse_range",
     "parse_scale",
     "scale_rule",
+    "wrong_number",
 ]

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+import re
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -10,7 +11,7 @@ from fieldscribe.language.formula.errors import FormulaError
 from fieldscribe.language.formula.meant import condition_meant
 from fieldscribe.language.formula.parser import VARIABLES, Parser
 from fieldscribe.language.formula.syntax import Name
-from fieldscribe.language.formula.tokens import number
+from fieldscribe.language.formula.tokens import Token, number
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -19,14 +20,18 @@ if TYPE_CHECKING:
 _COMPARISONS = ("==", "!=", "<", "<=", ">", ">=")
 _NO_ARITHMETIC = "a condition compares a name with constants: P1 == 2, P1 in (1, 2), P1 >= 3 and not P2 == 0"
 _WORDS = ("and", "or", "not", "in")
+_OPPOSITES = {"==": "!=", "!=": "==", "<": ">=", ">=": "<", ">": "<=", "<=": ">"}
+_NAME = re.compile(r"[A-Za-z0-9_]+")
+_MOST_CLAUSES = 64
 
 
 @dataclass(frozen=True, slots=True)
 class Constant:
-    """A number, or a word that names one (an entry of an enum)."""
+    """A number, or a word that names one (an entry of an enum); `text` is how it is written (`550`, `400V`)."""
 
     value: Fraction | str
     column: int = field(compare=False)
+    text: str = field(compare=False, default="")
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,11 +106,6 @@ def parse_case(text: str) -> tuple[Name, int]:
 def condition_names(condition: Condition) -> tuple[Name, ...]:
     """All names that a condition compares, in the order of the text, each time they occur."""
     return tuple(one.name for one in _comparisons(condition))
-
-
-def condition_comparisons(condition: Condition) -> tuple[Comparison, ...]:
-    """All comparisons of a condition, in the order of the text."""
-    return tuple(_comparisons(condition))
 
 
 def _comparisons(condition: Condition) -> Iterator[Comparison]:
@@ -191,8 +191,60 @@ def _constant(parser: Parser) -> Constant:
     elif parser.token.kind == "name" and parser.token.text not in _WORDS:
         if parser.token.part:
             parser.refuse("a constant", "a condition compares with constants, not with other points")
-        return Constant(parser.take().text, column)
+        word = parser.take().text
+        return Constant(word, column, word)
     if parser.token.kind != "number":
         parser.refuse("a constant", _NO_ARITHMETIC)
-    given = number(parser.take())
-    return Constant(-given if negative else given, column)
+    token = parser.take()
+    try:
+        given = number(token)
+    except FormulaError:
+        if negative or not _NAME.fullmatch(token.text):
+            raise
+        return Constant(token.text, column, token.text)  # `400V` may name the value of a variant
+    return Constant(-given if negative else given, column, f"-{token.text}" if negative else token.text)
+
+
+def wrong_number(text: str, column: int) -> FormulaError:
+    """What is wrong with a word that begins with a digit, where no name of that kind can stand."""
+    try:
+        number(Token("number", text, "", column))
+    except FormulaError as error:
+        return error
+    return FormulaError(f"`{text}` is a number", column)
+
+
+def clauses_of(condition: Condition) -> tuple[tuple[Comparison, ...], ...]:
+    """The condition as any of clauses, each of comparisons that hold together. Raises FormulaError for too many."""
+    return _clauses(condition, turned=False)
+
+
+def _clauses(condition: Condition, *, turned: bool) -> tuple[tuple[Comparison, ...], ...]:
+    """The clauses of the condition, or of its opposite."""
+    match condition:
+        case Comparison():
+            return _turned(condition) if turned else ((condition,),)
+        case Not(operand):
+            return _clauses(operand, turned=not turned)
+        case AllOf(parts) | AnyOf(parts):
+            found = [_clauses(part, turned=turned) for part in parts]
+            if isinstance(condition, AnyOf) != turned:
+                return tuple(clause for clauses in found for clause in clauses)
+            return _all_of(found)
+
+
+def _all_of(parts: list[tuple[tuple[Comparison, ...], ...]]) -> tuple[tuple[Comparison, ...], ...]:
+    clauses: tuple[tuple[Comparison, ...], ...] = ((),)
+    for part in parts:
+        if len(clauses) * len(part) > _MOST_CLAUSES:
+            column = part[0][0].column
+            raise FormulaError(f"written out, this is more than {_MOST_CLAUSES} cases", column, "simplify it")
+        clauses = tuple(first + second for first in clauses for second in part)
+    return clauses
+
+
+def _turned(one: Comparison) -> tuple[tuple[Comparison, ...], ...]:
+    """The opposite of a comparison: of `in` that none of its constants is equal."""
+    if one.op == "in":
+        return (tuple(replace(one, op="!=", constants=(each,)) for each in one.constants),)
+    return ((replace(one, op=_OPPOSITES[one.op]),),)

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.targets.c.clashes import clashes
 from fieldscribe.targets.c.conformance import conformance_view
 from fieldscribe.targets.c.device import device_view
 from fieldscribe.targets.c.families import FAMILIES
+from fieldscribe.targets.c.identifiers import identifiers
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -34,4 +34,4 @@ def runtime(device: Device) -> Iterator[tuple[str, str]]:
     yield "c/fieldscribe_conformance.h", "c/runtime/fieldscribe_conformance.h"
 
 
-__all__ = ["clashes", "outputs", "runtime"]
+__all__ = ["identifiers", "outputs", "runtime"]

@@ -9,6 +9,7 @@ from fieldscribe.names import upper
 from fieldscribe.targets.c.literals import hexadecimal, raw_type
 from fieldscribe.targets.c.modbus import exceptions_of
 from fieldscribe.targets.c.places import fixed_number, fixes
+from fieldscribe.targets.identifiers import Owner
 from fieldscribe.text import c_comment
 
 if TYPE_CHECKING:
@@ -142,26 +143,26 @@ def can_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
     )
 
 
-def identifiers(bus: BusView, view: DeviceView) -> Iterator[tuple[str, str]]:
+def identifiers(bus: BusView, view: DeviceView) -> Iterator[tuple[str, Owner]]:
     """Every identifier of the header, with what it belongs to."""
-    yield f"{view.prefix}_can_profile", "the header"
-    yield f"{view.upper}_CAN_BITRATE", "the header"
+    yield f"{view.prefix}_can_profile", Owner("target")
+    yield f"{view.upper}_CAN_BITRATE", Owner("target")
     for message in bus.messages:
-        yield message.array, f"message {message.name}"
+        yield message.array, Owner("message", message.name)
     for telegram in bus.telegrams:
-        owner = f"telegram {telegram.name}"
+        owner = Owner("telegram", telegram.name)
         yield from ((name, owner) for name in (telegram.constant, telegram.listen, telegram.slots_name))
-    yield from ((name, f"exception {title}") for name, _, title in bus.exceptions)
+    yield from ((name, Owner("code", name)) for name, _, _ in bus.exceptions)
     for group in bus.groups:
-        yield from ((name, f"the addresses of {group.title}") for name in (group.array, group.count_name))
+        yield from ((name, Owner("group", group.title)) for name in (group.array, group.count_name))
     for point in bus.parameters:
         item = point.function[len(view.prefix) + 1 :]
         tails = ["_read_request", "_read_answer"] if point.read else []
         tails += ["_read_word"] if point.read and point.shares else []
         tails += ["_write_request", "_write_answer"] if point.write else []
-        yield from ((point.function + tail, item) for tail in tails)
+        yield from ((point.function + tail, Owner("point", item, f"function {tail}")) for tail in tails)
     for one in bus.cyclic:
-        yield f"{one.function}_received", one.function[len(view.prefix) + 1 :]
+        yield f"{one.function}_received", Owner("point", one.function[len(view.prefix) + 1 :], "function")
 
 
 def adapters(bus: BusView) -> Iterator[tuple[str, str]]:

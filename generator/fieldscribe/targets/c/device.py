@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe import __version__
-from fieldscribe.model import UNSETTLED_TYPE
 from fieldscribe.names import upper
 from fieldscribe.targets.c.defines import place_defines
 from fieldscribe.targets.c.points import comment_lines, point_view
@@ -28,7 +27,7 @@ def device_view(device: Device) -> tuple[DeviceView, Scope]:
     for point in device.points:
         if not point.generated:
             by_group.setdefault(point.group, []).append((None, _remark(point, scope)))
-            if _is_placed(point):
+            if point.raw_only:
                 spaces.setdefault(point.space)
             continue
         one = point_view(point, scope)
@@ -100,18 +99,14 @@ def _aliases(view: PointView, function: str, macro: str) -> list[tuple[str, str]
     return [*((macro + name[len(view.macro) :], name) for name, _ in view.defines), *renamed]
 
 
-def _is_placed(point: Point) -> bool:
-    """Whether the manual leaves open what the words mean but says where they are; others are nobody's to touch."""
-    return point.reason == UNSETTLED_TYPE and point.address is not None and bool(point.places)
-
-
 def _remark(point: Point, scope: Scope) -> RemarkView:
     lines = [
         *comment_lines(point, scope),
         c_comment(f"Not generated ({point.item}): {point.reason or 'documented only'}."),
     ]
-    places = place_defines(point, f"{scope.upper}_{upper(point.item)}", scope) if _is_placed(point) else ()
-    return RemarkView(point.item, tuple(lines), tuple(places))
+    macro = f"{scope.upper}_{upper(point.item)}"
+    places = (*place_defines(point, macro, scope), (f"{macro}_WORDS", f"{point.words}U")) if point.raw_only else ()
+    return RemarkView(point.item, tuple(lines), places)
 
 
 def _needs(scope: Scope) -> Needs:

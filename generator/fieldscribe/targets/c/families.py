@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from fieldscribe.model import Device
     from fieldscribe.targets.c.scope import Scope
     from fieldscribe.targets.c.views import DeviceView
+    from fieldscribe.targets.identifiers import Owner
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,7 +24,7 @@ class Family:
     """
 
     view: Callable[[Device, DeviceView, Scope], Any]
-    identifiers: Callable[[Any, DeviceView], Iterator[tuple[str, str]]]
+    identifiers: Callable[[Any, DeviceView], Iterator[tuple[str, Owner]]]
     adapters: Callable[[Any], Iterator[tuple[str, str]]]
 
 

@@ -9,6 +9,7 @@ from fieldscribe.families.modbus import framings_of
 from fieldscribe.names import upper
 from fieldscribe.targets.c.literals import hexadecimal, raw_type, unsigned
 from fieldscribe.targets.c.places import fixed_number, fixes
+from fieldscribe.targets.identifiers import Owner
 from fieldscribe.text import c_comment
 
 if TYPE_CHECKING:
@@ -130,17 +131,18 @@ def exceptions_of(device: Device, scope: Scope) -> tuple[tuple[str, str, str], .
     )
 
 
-def identifiers(bus: BusView, view: DeviceView) -> Iterator[tuple[str, str]]:
+def identifiers(bus: BusView, view: DeviceView) -> Iterator[tuple[str, Owner]]:
     """Every identifier of the header, with what it belongs to."""
     for blocks in bus.blocks:
-        yield from ((name, f"the blocks of {blocks.name}") for name in (blocks.array, blocks.count_name))
+        yield from ((name, Owner("group", blocks.name)) for name in (blocks.array, blocks.count_name))
     for command in bus.commands:
         names = (command.function, *(name for name, _ in command.defines))
-        yield from ((name, f"command {command.function}") for name in names)
-    yield from ((name, f"exception {title}") for name, _, title in bus.exceptions)
+        yield from ((name, Owner("command", command.function)) for name in names)
+    yield from ((name, Owner("code", name)) for name, _, _ in bus.exceptions)
     for request in bus.requests:
         item = request.function[len(view.prefix) + 1 :]
-        yield from ((f"{request.function}{tail}", item) for tail in ("_read_request", "_write_request"))
+        for tail in ("_read_request", "_write_request"):
+            yield f"{request.function}{tail}", Owner("point", item, f"function {tail}")
 
 
 def adapters(bus: BusView) -> Iterator[tuple[str, str]]:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import textwrap
 from typing import TYPE_CHECKING
 
-from fieldscribe.model import UNSETTLED_TYPE
 from fieldscribe.names import upper
 from fieldscribe.targets.c.defines import defines
 from fieldscribe.targets.c.limits import any_of, check_view, interval_test
@@ -95,7 +94,7 @@ def value_type(point: Point) -> str:
 def comment_lines(point: Point, scope: Scope) -> tuple[str, ...]:
     """The comment above a point: code, title, range, access, default, and what is wrong in the manual."""
     head = f"{point.code}: {point.title['en']}" if point.code else point.title["en"]
-    facts = [_range(point) if point.reason != UNSETTLED_TYPE else "", access_text(point.access)]
+    facts = ["" if point.untyped is not None else _range(point), access_text(point.access)]
     if point.default is not None:
         facts.append(f"default {with_unit(number_text(point.default), point)}")
     lines = [*_wrapped(head), *_wrapped("; ".join(fact for fact in facts if fact) + ".")]

@@ -9,6 +9,7 @@ from fieldscribe.names import upper
 from fieldscribe.targets.c.can import raw_of_word, word_of_raw
 from fieldscribe.targets.c.literals import hexadecimal
 from fieldscribe.targets.c.places import fixed_number, fixes
+from fieldscribe.targets.identifiers import Owner
 from fieldscribe.text import c_comment, c_string
 
 if TYPE_CHECKING:
@@ -125,23 +126,23 @@ def uss_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
     )
 
 
-def identifiers(bus: BusView, view: DeviceView) -> Iterator[tuple[str, str]]:
+def identifiers(bus: BusView, view: DeviceView) -> Iterator[tuple[str, Owner]]:
     """Every identifier of the header, with what it belongs to."""
-    yield from ((f"{view.prefix}_{name}", "the header") for name in ("uss_tasks", "uss_pkw", "uss_profile"))
+    yield from ((f"{view.prefix}_{name}", Owner("target")) for name in ("uss_tasks", "uss_pkw", "uss_profile"))
     for codes in bus.codes:
-        yield codes.function, f"the names of {codes.title}"
-        yield from ((name, f"{codes.title}: {text}") for name, _, text, _ in codes.entries)
+        yield codes.function, Owner("target")
+        yield from ((name, Owner("code", name)) for name, _, _, _ in codes.entries)
     for start in bus.starts:
-        yield start.function, f"telegram {start.name}"
+        yield start.function, Owner("telegram", start.name)
     for request in bus.requests:
         item = request.function[len(view.prefix) + 1 :]
         tails = ["_read_request", "_from_reply"] if request.read else []
         tails += ["_write_request"] if request.ram else []
         tails += ["_write_eeprom_request"] if request.eeprom else []
-        yield from ((request.function + tail, item) for tail in tails)
+        yield from ((request.function + tail, Owner("point", item, f"function {tail}")) for tail in tails)
     for word in bus.words:
         item = word.function[len(view.prefix) + 1 :]
-        yield from ((word.function + tail, item) for tail in ("_to_pzd", "_from_pzd"))
+        yield from ((word.function + tail, Owner("point", item)) for tail in ("_to_pzd", "_from_pzd"))
 
 
 def adapters(bus: BusView) -> Iterator[tuple[str, str]]:

@@ -113,7 +113,7 @@ def _point_table(
             ("Raw range", [cell(wording.raw_range_text(point)) if _has_rule(point) else "" for point in points]),
             ("Scale", [cell(wording.scale_text(point, by_name)) for point in points]),
             ("Default", [_default_cell(point) for point in points]),
-            ("Remarks", ["; ".join(_remarks(device, point)) for point in points]),
+            ("Remarks", ["; ".join(_remarks(device, point, by_name)) for point in points]),
             ("Source", [cell(source_text(point.source, several)) for point in points]),
         ]
     )
@@ -137,7 +137,7 @@ def _default_cell(point: Point) -> str:
     return "" if point.default is None else cell(wording.with_unit(number_text(point.default), point))
 
 
-def _remarks(device: Device, point: Point) -> Iterator[str]:
+def _remarks(device: Device, point: Point, by_name: Mapping[str, Point]) -> Iterator[str]:
     """What else there is to know, shortest facts first, errata last."""
     if point.variant:
         yield cell(f"only {point.variant}")
@@ -148,7 +148,7 @@ def _remarks(device: Device, point: Point) -> Iterator[str]:
         yield cell("steps: " + wording.steps_text(point))
     yield from (cell(f"{one.purpose}: {one.space} {_words(one.addresses)}") for one in point.places[1:])
     yield from map(cell, wording.width_texts(point))
-    yield from _conditions(device, point)
+    yield from _conditions(device, point, by_name)
     if point.note:
         yield cell(wording.title_text(point.note).rstrip("."))
     yield from (f"erratum {link('erratum', one)}" for one in point.errata)
@@ -184,7 +184,7 @@ def _names(point: Point) -> Iterator[str]:
         yield f"names: {link('names', point.enum.name)}"
 
 
-def _conditions(device: Device, point: Point) -> Iterator[str]:
+def _conditions(device: Device, point: Point, by_name: Mapping[str, Point]) -> Iterator[str]:
     if point.keeps in _KEEPS:
         yield _KEEPS[point.keeps]
     elif point.keeps is not None:
@@ -193,7 +193,7 @@ def _conditions(device: Device, point: Point) -> Iterator[str]:
     if point.conditions:
         yield cell("write only when: " + ", ".join(point.conditions))
     if point.when:
-        yield cell(f"exists when {point.when}")
+        yield cell(f"exists when {wording.condition_text(point.when, by_name)}")
     if point.since:
         yield cell(f"since {point.since}")
     if point.until:

@@ -26,7 +26,7 @@ def sheet_of(device: Device) -> list[str]:
         titles = [_cell(point.title.get(key, "")) for key in languages]
         printed = [_cell(str(point.references.get(key, ""))) for key in references]
         cells = [*_identity(point), *titles, *_place(point), *printed]
-        cells += [*_meaning(point, by_name), *_names(point), *_behaviour(device, point), *_origin(point)]
+        cells += [*_meaning(point, by_name), *_names(point), *_behaviour(device, point, by_name), *_origin(point)]
         lines.append(",".join(cells))
     return lines
 
@@ -62,7 +62,7 @@ def _hexes(addresses: tuple[int, ...]) -> str:
 def _meaning(point: Point, by_name: dict[str, Point]) -> tuple[str, ...]:
     outer = None if point.info.floating else wording.outer_raw(point)
     return (
-        point.type,
+        point.type if point.untyped is None else _cell(wording.type_text(point)),
         str(point.words),
         f"{point.bits[0]}..{point.bits[1]}" if point.bits else "",
         point.access,
@@ -86,11 +86,11 @@ def _names(point: Point) -> tuple[str, ...]:
     return _cell(names), _cell(flags), _cell(specials), _cell(wording.fixed_text(point))
 
 
-def _behaviour(device: Device, point: Point) -> tuple[str, ...]:
+def _behaviour(device: Device, point: Point, by_name: dict[str, Point]) -> tuple[str, ...]:
     return (
         _cell(wording.keeps_text(device, point)),
         _cell("; ".join(point.conditions)),
-        _cell(point.when or ""),
+        _cell(wording.condition_text(point.when, by_name)),
         _cell(point.since or ""),
         _cell(point.until or ""),
         _cell(point.changes or ""),

@@ -9,6 +9,7 @@ from fieldscribe.targets.python.device import device_view
 from fieldscribe.targets.python.enums import enums_view
 from fieldscribe.targets.python.identifiers import Identifiers
 from fieldscribe.targets.python.layout import comment
+from fieldscribe.targets.python.names import identifiers
 from fieldscribe.targets.python.points import points_view
 from fieldscribe.text import python_doc
 
@@ -86,3 +87,6 @@ def _head(device: Device) -> Mapping[str, object]:
         ),
         "product": python_doc(f"{device.vendor} {device.model}"),
     }
+
+
+__all__ = ["identifiers", "outputs", "runtime"]

@@ -58,6 +58,9 @@ WORD_MEMBERS = frozenset(
 )
 """Public members of IntFlag and of words of flags, which no flag may hide."""
 
+_CLASS_TAKEN = PYTHON_RESERVED | {"Field", "Flag", "Literal", "Points", "Self", "Word"}
+"""What no class may be called: the modules of enums and of the device refer to these."""
+
 _ATTRIBUTE_TAKEN = PYTHON_RESERVED | DEVICE_MEMBERS | HELPERS
 _WORD_TAKEN = PYTHON_RESERVED | WORD_MEMBERS
 _PARAMETER_TAKEN = PYTHON_RESERVED | {"link", "self", "transport", "unit", "variants"}
@@ -102,9 +105,10 @@ class Identifiers:
 
     def __init__(self, device: Device) -> None:
         self.package = attribute(device.id) if device.id in PYTHON_RESERVED else device.id
-        self.device_class = pascal(device.id)
+        own = pascal(device.id)
+        self.device_class = f"{own}Device" if own in _CLASS_TAKEN else own
         self.async_class = f"{self.device_class}Async"
-        self._taken = {self.device_class, self.async_class}
+        self._taken = {self.device_class, self.async_class, *_CLASS_TAKEN}
         self._enums = {one.name: self._class(pascal(one.name), "Enum") for one in device.enums}
         self._words: dict[str, str] = {}
         self._fields: dict[tuple[str, str], str] = {}

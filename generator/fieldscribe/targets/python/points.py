@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import textwrap
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from fieldscribe.targets.python.commands import commands, variants
@@ -12,7 +12,7 @@ from fieldscribe.targets.python.families import FAMILIES
 from fieldscribe.targets.python.families.family import RUNTIME, Family
 from fieldscribe.targets.python.forms import NUMBERED, allowed, form, number, place, spans
 from fieldscribe.targets.python.identifiers import Identifiers, attribute, sorted_imports
-from fieldscribe.targets.python.layout import WIDTH, Group, Node, assigned, comment, laid_out
+from fieldscribe.targets.python.layout import WIDTH, Group, Node, assigned, call, comment, laid_out
 from fieldscribe.targets.python.scope import Scope
 from fieldscribe.text import python_doc, python_string
 from fieldscribe.wording import range_text
@@ -23,7 +23,6 @@ if TYPE_CHECKING:
     from fieldscribe.model import Device, Erratum, Point
 
 _DOC = WIDTH - 4 - 6  # what an indentation and two triple quotes leave
-_UNSETTLED = "the manual does not settle"
 _BODY = 8  # the indentation of an attribute's arguments
 
 
@@ -61,6 +60,7 @@ class PointsView:
     profile: str
     blocks: str
     variants: str
+    documented: str
     groups: list[GroupView]
     commands: tuple[PointView, ...]
 
@@ -83,6 +83,7 @@ def points_view(device: Device, names: Identifiers) -> PointsView:
     for same in by_name.values():
         groups[same[0].group].points.append(_by_variant(same, scope))
     made = tuple(PointView(*one, ()) for one in commands(device, scope))
+    documented = tuple(_documented(point, scope) for point in device.points if not point.generated)
     profile, blocks = family.profile(device, scope), family.blocks(device, scope)
     return PointsView(
         imports=_imports(scope.used - {"enums"}, family),
@@ -91,9 +92,18 @@ def points_view(device: Device, names: Identifiers) -> PointsView:
         profile=laid_out(profile, 4),
         blocks="" if blocks is None else laid_out(blocks, 4),
         variants=laid_out(assigned("VARIANTS: ClassVar", variants(device)), 4) if device.variants else "",
+        documented=laid_out(assigned("DOCUMENTED: ClassVar", Group("{", documented, "}")), 4) if documented else "",
         groups=[group for group in groups.values() if group.points or group.left_out],
         commands=made,
     )
+
+
+def _documented(point: Point, scope: Scope) -> Group:
+    """Why there is no attribute, and where the words are, if a master can reach them."""
+    scope.used.add("Documented")
+    where = [place("at", replace(point.places[0], function=None), scope, point)] if point.raw_only else []
+    why = python_string(point.reason or "no reason given")
+    return call(f"{python_string(attribute(point.item))}: Documented", (why, *where))
 
 
 def _imports(used: set[str], family: Family) -> list[tuple[str, list[str]]]:
@@ -106,7 +116,7 @@ def _imports(used: set[str], family: Family) -> list[tuple[str, list[str]]]:
 def _point(point: Point, family: Family, scope: Scope, errata: Mapping[str, Erratum]) -> PointView:
     maker = family.maker(point)
     scope.used.add(maker)
-    old_names = point.was if point.variant is None else ()
+    old_names = tuple(map(attribute, point.was)) if point.variant is None else ()
     if old_names:
         scope.used.add("renamed")
     arguments = tuple([laid_out(argument, _BODY) for argument in _arguments(point, scope)])
@@ -207,7 +217,7 @@ def _labelled(point: Point) -> str:
 def _open_points(device: Device) -> Iterable[str]:
     """Names and wire addresses of the points that are there but for their type or scale; item by item in a list."""
     for point in device.points:
-        if point.generated or not point.places or not (point.reason or "").startswith(_UNSETTLED):
+        if not point.raw_only:
             continue
         numbered = point.space in NUMBERED
         where = ", ".join(str(address) if numbered else f"0x{address:04X}" for address in point.addresses)

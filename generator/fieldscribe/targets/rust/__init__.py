@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.targets.rust.conformance import arms, conformance_tables
 from fieldscribe.targets.rust.device import device_context
+from fieldscribe.targets.rust.identifiers import identifiers
 from fieldscribe.targets.rust.subjects import scope_of
 
 if TYPE_CHECKING:
@@ -67,3 +68,6 @@ def runtime(device: Device) -> Iterator[tuple[str, str]]:
         yield f"rust/fieldscribe_runtime/{name}", f"rust/runtime/fieldscribe_runtime/{name}"
     yield f"rust/{device.id}/tests/runner/mod.rs", "rust/runtime/runner/mod.rs"
     yield f"rust/{device.id}/tests/runner/frames.rs", f"rust/runtime/runner/{device.family}.rs"
+
+
+__all__ = ["identifiers", "outputs", "runtime"]

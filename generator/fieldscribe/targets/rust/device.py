@@ -6,14 +6,16 @@ import re
 from typing import TYPE_CHECKING
 
 from fieldscribe import __version__
+from fieldscribe.names import upper
 from fieldscribe.targets.rust.documentation import left_out
 from fieldscribe.targets.rust.families import family_context
+from fieldscribe.targets.rust.families.spaces import space
 from fieldscribe.targets.rust.points import point_view
 from fieldscribe.targets.rust.words import arguments_views, enum_views, flags_views, is_long
 from fieldscribe.text import line, rust_code, rust_string
 
 if TYPE_CHECKING:
-    from fieldscribe.model import Device
+    from fieldscribe.model import Device, Point
     from fieldscribe.targets.rust.subjects import Scope
     from fieldscribe.targets.rust.views import PointView
 
@@ -31,6 +33,12 @@ def head(device: Device, comment: str) -> str:
     return "\n".join(f"{comment} {one}" for one in lines)
 
 
+def _raw_only(point: Point) -> tuple[str, str, str, int, str]:
+    """Name, space, address, words and index of a point that is reached raw only."""
+    index = "None" if point.index is None else f"Some({point.index})"
+    return upper(point.item), space(point.space), f"0x{point.address or 0:04X}", point.words, index
+
+
 def device_context(device: Device, scope: Scope) -> dict[str, object]:
     """What the templates of the crate's sources see."""
     points = tuple(point_view(subject, scope) for subject in scope.subjects)
@@ -41,6 +49,7 @@ def device_context(device: Device, scope: Scope) -> dict[str, object]:
         "head": head(device, "//"),
         "points": points,
         "left_out": left_out(device),
+        "raw_only": tuple(map(_raw_only, (point for point in device.points if point.raw_only))),
         "enums": enums,
         "long_enums": any(map(is_long, enums)),
         "words": words,

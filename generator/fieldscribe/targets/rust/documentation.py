@@ -8,7 +8,15 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.text import rust_code
-from fieldscribe.wording import access_text, address_text, raw_range_text, resolution_text, scale_text, width_texts
+from fieldscribe.wording import (
+    access_text,
+    address_text,
+    condition_text,
+    raw_range_text,
+    resolution_text,
+    scale_text,
+    width_texts,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -77,4 +85,4 @@ def _facts(point: Point) -> Iterator[str]:
     if point.variant:
         yield f"for {rust_code(point.variant)}"
     if point.when:
-        yield f"only when {rust_code(point.when)}"
+        yield f"only when {rust_code(condition_text(point.when))}"

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fieldscribe.names import upper
+from fieldscribe.targets.identifiers import Identifier, Owner
 from fieldscribe.targets.rust.families import family_identifiers
 from fieldscribe.targets.rust.literals import type_name
 from fieldscribe.targets.rust.subjects import Subject, scope_of
@@ -14,8 +16,12 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Device
 
-Identifier = tuple[str, str, str]
-"""Namespace, identifier, and what in the description it stands for."""
+CONSTANTS = frozenset(
+    {"name", "code", "space", "address", "words", "unit", "raw_min", "raw_max", "shift", "mask"}
+    | {"decimals", "read_function", "write_function", "write_address"}
+    | {"telegram", "index", "addresses", "numbers", "fixed_bits", "fixed_mask", "floating"}
+)
+"""Associated constants of the point traits, which a name of the author would hide."""
 
 
 def identifiers(device: Device) -> Iterator[Identifier]:
@@ -23,39 +29,52 @@ def identifiers(device: Device) -> Iterator[Identifier]:
     scope = scope_of(device)
     for subject in scope.subjects:
         yield from _of_point(subject)
+    for point in device.points:
+        if point.raw_only:
+            yield Identifier("Rust, points::documented", upper(point.item), Owner("point", point.item))
     for enum in device.enums:
         if enum.name in scope.enums:
-            yield "enums", type_name(enum.name), f"enum {enum.name}"
+            owner = Owner("enum", enum.name)
+            yield Identifier("Rust, enums", type_name(enum.name), owner)
             for entry in enum.entries:
-                yield f"enums::{enum.name}", type_name(entry.name), f"entry {entry.name} of enum {enum.name}"
+                part = Owner("enum", enum.name, f"entry {entry.name}")
+                yield Identifier(f"Rust, enums::{enum.name}", type_name(entry.name), part)
     for command in device.commands:
-        yield "commands", command.name.upper(), f"command {command.name}"
+        yield Identifier("Rust, commands", command.name.upper(), Owner("command", command.name))
     for group in device.blocks:
-        yield "blocks", group.upper(), f"group {group}"
+        yield Identifier("Rust, blocks", group.upper(), Owner("group", group))
     for code in device.bus.exceptions:
-        yield "exceptions", code.name.upper(), f"exception {code.name}"
+        yield Identifier("Rust, exceptions", code.name.upper(), Owner("code", code.name))
     yield from family_identifiers(device)
 
 
 def _of_point(subject: Subject) -> Iterator[Identifier]:
-    item, own = subject.point.item, f"point {subject.point.name}"
-    yield "points", subject.name, own
-    for old in subject.point.was:
-        yield "points", type_name(old), f"former name {old} of {own}"
-    for key in subject.point.references:
-        yield f"points::{item}", key.upper(), f"numbering {key} of {own}"
-    for special in subject.point.specials:
-        yield f"points::{item}", special.name.upper(), f"special {special.name} of {own}"
+    point, owner = subject.point, Owner("point", subject.point.item)
+    own = f"Rust, points::{point.item}"
+    yield Identifier("Rust, points", subject.name, owner)
+    for old in point.was if point.variant is None else ():
+        yield Identifier("Rust, points", type_name(old), owner._replace(part=f"old name {old}"))
+    for name in CONSTANTS.intersection((*point.references, *(special.name for special in point.specials))):
+        yield Identifier(own, name.upper(), Owner("target", f"the constant `{name.upper()}` of every point"))
+    for key in point.references:
+        yield Identifier(own, key.upper(), owner._replace(part=f"numbering {key}"))
+    for special in point.specials:
+        yield Identifier(own, special.name.upper(), owner._replace(part=f"code {special.name}"))
     if subject.arguments:
-        yield "with", subject.name, own
+        yield Identifier("Rust, with", subject.name, owner)
     if subject.factors and subject.factors != subject.arguments:
-        yield "with", f"{subject.name}Factors", f"the scale of {own}"
-    if subject.point.flags:
-        yield f"flags::{item}", "ALL_FALSE", f"nothing true in {own}"
+        yield Identifier("Rust, with", subject.factors_name, owner._replace(part="scale"))
+    if point.flags:
+        yield from _of_flags(subject)
+
+
+def _of_flags(subject: Subject) -> Iterator[Identifier]:
+    owner, space = Owner("point", subject.point.item), f"Rust, flags::{subject.point.item}"
+    yield Identifier(space, "ALL_FALSE", Owner("target", "the constant `ALL_FALSE` of every word of flags"))
     for flag in subject.point.flags:
-        named = f"flag {flag.name} of {own}"
-        yield f"flags::{item}", constant_name(flag), named
-        yield f"flags::{item}", getter_name(flag.name), named
-        yield f"flags::{item}", f"with_{flag.name}", named
+        named = owner._replace(part=f"flag {flag.name}")
+        for name in (constant_name(flag), getter_name(flag.name), f"with_{flag.name}"):
+            yield Identifier(space, name, named)
         for value in flag.values if flag.width > 1 else ():
-            yield f"flags::{item}", f"{flag.name}_{value.name}".upper(), f"{value.name} of {named}"
+            constant = f"{flag.name}_{value.name}".upper()
+            yield Identifier(space, constant, named._replace(part=f"flag {flag.name}: {value.name}"))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from fieldscribe.names import pascal
 from fieldscribe.targets.rust.literals import raw_type, type_name
 
 if TYPE_CHECKING:
@@ -40,11 +41,16 @@ class Subject:
         return f"with::{self.name}" if self.arguments else "()"
 
     @property
+    def factors_name(self) -> str:
+        """What the struct of all that the scale needs is called where it is not that of all that writing needs."""
+        return f"{pascal(self.point.item)}Factors"
+
+    @property
     def factors_type(self) -> str:
         """The struct of all that the scale needs."""
         if not self.factors:
             return "()"
-        return f"with::{self.name}" if self.factors == self.arguments else f"with::{self.name}Factors"
+        return f"with::{self.name}" if self.factors == self.arguments else f"with::{self.factors_name}"
 
 
 @dataclass(frozen=True, slots=True)

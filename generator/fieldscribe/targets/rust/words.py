@@ -31,9 +31,32 @@ def is_long(enum: EnumView) -> bool:
     return max(sum(len(one.named) for one in enum.entries), sum(len(one.numbered) for one in enum.entries)) > _LONG
 
 
+_OF_TRAITS = frozenset(
+    {
+        "clone",
+        "cmp",
+        "default",
+        "deref",
+        "drop",
+        "eq",
+        "fmt",
+        "from",
+        "hash",
+        "index",
+        "into",
+        "ne",
+        "neg",
+        "next",
+        "not",
+    }
+)
+"""Methods of traits, which a flag's function would hide or be taken for."""
+
+
 def getter_name(flag: str) -> str:
-    """The function that gets a flag; clippy wants what is named `from_` or `as_` to convert, which a flag does not."""
-    return f"get_{flag}" if flag.startswith(("from_", "as_", "into_", "to_")) else value_name(flag)
+    """The function that gets a flag; what is named `from_` or as a method of a trait would have to be that."""
+    convertible = flag.startswith(("from_", "as_", "into_", "to_"))
+    return f"get_{flag}" if convertible or flag in _OF_TRAITS else value_name(flag)
 
 
 def constant_name(flag: Flag) -> str:
@@ -74,7 +97,7 @@ def arguments_views(scope: Scope) -> Iterator[ArgumentsView]:
             continue
         item = subject.point.item
         parted = bool(subject.factors) and subject.factors != subject.arguments
-        part = f"{subject.name}Factors" if parted else ""
+        part = subject.factors_name if parted else ""
         if parted:
             doc = f"Raw numbers that the scale of `{item}` needs."
             yield ArgumentsView(doc, part, _fields(subject.factors, scope), "", ())

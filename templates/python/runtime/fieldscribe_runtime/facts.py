@@ -43,6 +43,22 @@ class Place:
 
 
 @dataclass(frozen=True, slots=True)
+class Documented:
+    """A point that is documented only: why, and where its words are if a master can reach them."""
+
+    reason: str
+    at: Place | None = None
+
+    def __str__(self) -> str:
+        """The reason, and what still works."""
+        if self.at is None:
+            return self.reason
+        where = f"{self.at.telegram or self.at.space} {', '.join(map(str, self.at.addresses))}"
+        index = "" if self.at.index is None else f", index {self.at.index}"
+        return f"{self.reason}; `read_at` and `write_at` reach its words at {where}{index}"
+
+
+@dataclass(frozen=True, slots=True)
 class Telegram:
     """A layout of words that travel together: `request` to the device, `response` or `cyclic` from it.
 

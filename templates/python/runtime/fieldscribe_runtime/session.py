@@ -25,7 +25,7 @@ from .points import Decoding, Encoding, Point
 from .rules import NO_RAWS
 
 if TYPE_CHECKING:
-    from .facts import Place
+    from .facts import Documented, Place
     from .rules import Raws
 
 T = TypeVar("T")
@@ -62,6 +62,18 @@ class PointTable:
     BLOCKS: ClassVar[Mapping[str, tuple[Any, ...]]] = {}
     """Planned reads by group, where the family plans."""
     VARIANTS: ClassVar[Mapping[str, tuple[str, ...]]] = {}
+    DOCUMENTED: ClassVar[Mapping[str, Documented]] = {}
+    """Points that are no attributes, by name, with the reason."""
+
+    if not TYPE_CHECKING:  # type checkers report names that do not exist
+
+        def __getattr__(self, name: str) -> Any:
+            """Say why a point that the manual has is no attribute."""
+            found = type(self).DOCUMENTED.get(name)
+            message = f"{type(self).__name__!r} object has no attribute {name!r}"
+            raise AttributeError(
+                message if found is None else f"{name} is documented only: {found}", name=name, obj=self
+            )
 
     def __init_subclass__(cls) -> None:
         points = {name: point for name, point in vars(cls).items() if isinstance(point, PointAttribute)}

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from fieldscribe.targets.identifiers import Identifier, Owner
 from fieldscribe.targets.rust.documentation import sentence
 from fieldscribe.targets.rust.families.numbers import code_names, constants
 from fieldscribe.targets.rust.layout import array, assignment, binding
@@ -79,12 +80,12 @@ def can_traits(subject: Subject, scope: Scope) -> Iterator[tuple[str, ...]]:
         yield f"impl runtime::can::Received for {name} {{", *(f"    {line}" for line in telegram), "}"
 
 
-def can_identifiers(device: Device) -> Iterator[tuple[str, str, str]]:
+def can_identifiers(device: Device) -> Iterator[Identifier]:
     """The names of messages and telegrams."""
     for message in device.messages:
-        yield "messages", message.name.upper(), f"message {message.name}"
+        yield Identifier("Rust, messages", message.name.upper(), Owner("message", message.name))
     for telegram in device.telegrams:
-        yield "telegrams", type_name(telegram.name), f"telegram {telegram.name}"
+        yield Identifier("Rust, telegrams", type_name(telegram.name), Owner("telegram", telegram.name))
 
 
 def _dialogues(messages: Sequence[Message]) -> Iterator[tuple[str, str, str]]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fieldscribe.targets.identifiers import Identifier, Owner
 from fieldscribe.targets.rust.families.numbers import code_names, constants
 from fieldscribe.targets.rust.layout import array
 from fieldscribe.targets.rust.literals import type_name
@@ -46,11 +47,11 @@ def uss_traits(subject: Subject, scope: Scope) -> Iterator[tuple[str, ...]]:
     yield (f"impl runtime::uss::{trait} for {subject.name} {{}}",)
 
 
-def uss_identifiers(device: Device) -> Iterator[tuple[str, str, str]]:
+def uss_identifiers(device: Device) -> Iterator[Identifier]:
     """The names of tasks and responses."""
     for module, codes in (("tasks", device.bus.functions), ("responses", device.bus.responses)):
         for code in codes:
-            yield module, code.name.upper(), f"{module} {code.name}"
+            yield Identifier(f"Rust, {module}", code.name.upper(), Owner("code", code.name))
 
 
 def _fixed(device: Device) -> Iterator[str]:

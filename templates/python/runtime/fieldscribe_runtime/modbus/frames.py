@@ -109,20 +109,27 @@ def _words(*words: int) -> bytes:
     return b"".join(word.to_bytes(2, "big") for word in words)
 
 
+def _head(request: Request) -> bytes:
+    """Function, address, and count or value: what a device repeats of a write."""
+    if request.function in ECHOES:
+        value = request.values[0]
+        if request.function == WRITE_COIL:
+            value = 0xFF00 if value else 0
+    else:
+        value = request.items
+    return bytes([request.function]) + _words(request.address, value)
+
+
 def _pdu(request: Request, profile: Profile) -> bytes:
-    head = bytes([request.function]) + _words(request.address)
-    if request.function in READS:
-        return head + _words(request.count)
-    if request.function == WRITE_COIL:
-        return head + _words(0xFF00 if request.values[0] else 0)
+    head = _head(request)
     if request.function not in BLOCK_WRITES:
-        return head + _words(request.values[0])
+        return head
     data = _words(*request.values)
     if request.function == WRITE_COILS:
         size = (len(request.values) + 7) // 8
         size += size % 2 if profile.pad_coil_bytes_even else 0
         data = sum(value << place for place, value in enumerate(request.values)).to_bytes(size, "little")
-    return head + _words(len(request.values)) + bytes([len(data)]) + data
+    return head + bytes([len(data)]) + data
 
 
 def build(request: Request, profile: Profile, framing: str = RTU, transaction: int = 0) -> bytes:
@@ -171,7 +178,7 @@ def parse(
     pdu = _open_tcp(request, reply, transaction & 0xFFFF) if framing == TCP else _open_rtu(request, reply)
     if pdu[0] != request.function:
         raise ExceptionReplyError(pdu[1], profile.exceptions.get(pdu[1]))
-    return _answer(request, pdu, profile)
+    return _answer(request, pdu)
 
 
 def _open_rtu(request: Request, reply: bytes) -> bytes:
@@ -213,7 +220,7 @@ def _check_address(request: Request, unit: int, function: int) -> None:
         raise FrameError("wrong_function", f"the reply is for function {function:02X}h")
 
 
-def _answer(request: Request, pdu: bytes, profile: Profile) -> tuple[int, ...]:
+def _answer(request: Request, pdu: bytes) -> tuple[int, ...]:
     if request.function in READS:
         bits = request.function in BIT_READS
         size = (request.count + 7) // 8 if bits else request.count * 2
@@ -223,6 +230,6 @@ def _answer(request: Request, pdu: bytes, profile: Profile) -> tuple[int, ...]:
         if bits:
             return tuple(data[place >> 3] >> (place & 7) & 1 for place in range(request.count))
         return tuple(int.from_bytes(data[place : place + 2], "big") for place in range(0, size, 2))
-    if pdu != _pdu(request, profile)[:5]:
+    if not request.values or pdu != _head(request):
         raise FrameError("echo_mismatch", "the reply does not repeat the request")
     return request.values if request.function in ECHOES else ()

@@ -24,6 +24,7 @@ EEPROM = {(1, False): 14, (2, False): 13, (1, True): 12, (2, True): 11}
 
 _NO_ANSWER, _REFUSED, _NO_RIGHTS = 0, 7, 8
 _DOUBLE = frozenset({2, 5})
+_LEAST_PART = 3
 _LAST_PARAMETER, _LAST_INDEX = 31999, 255
 _PAGE = 2000
 _PAGE_BITS = (15, 12, 13, 14)
@@ -199,6 +200,8 @@ def parse(request: Request, reply: bytes, profile: Profile, link: Link) -> Reply
     part, data = words[: len(words) - link.pzd], words[len(words) - link.pzd :]
     if not part:
         return Reply(words=data)
+    if len(part) < _LEAST_PART:
+        raise FrameError("wrong_length", f"a parameter part of {len(part)} words is of no link")
     response = part[0] >> 12
     if request.task == NO_TASK:
         return Reply(response, words=data)

@@ -27,7 +27,8 @@ pub mod uss;
 pub use flags::{Flag, Flags};
 pub use point::{
     allowed, has_value, in_address_order, in_reading_order, listed, BitGroup, CountReadable,
-    CountWritable, Decoded, Digits, Encodable, Point, Readable, Scaled, Space, Whole, Writable,
+    CountWritable, Decoded, Digits, Documented, Encodable, Point, Readable, Scaled, Space, Whole,
+    Writable,
 };
 pub use raw::Raw;
 pub use rule::Rule;

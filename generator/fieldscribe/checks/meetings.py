@@ -1,0 +1,78 @@
+"""Which points are there at once: by their variants, their conditions, and the firmware that has them."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from fieldscribe.existence import ANY, Clause, Comparison, Domain, ends_before, possible
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from fieldscribe.checks.subject import Subject
+    from fieldscribe.model import Point
+    from fieldscribe.resolve.points import Resolved
+
+
+class Meetings:
+    """What can occur in one device, found when it is first asked for."""
+
+    def __init__(self, subject: Subject) -> None:
+        self.axes = {axis: tuple(entry["values"]) for axis, entry in subject.scope.axes.items()}
+        self._resolved = subject.resolved
+        self._domains: dict[str, Domain] = {}
+
+    @cached_property
+    def points(self) -> dict[str, list[Point]]:
+        """The points by name: in all variants, and by item."""
+        found: dict[str, list[Point]] = {}
+        for resolved in self._resolved:
+            for name in {resolved.point.name, resolved.point.item}:
+                found.setdefault(name, []).append(resolved.point)
+        return found
+
+    def domain(self, name: str) -> Domain:
+        """The values of an axis, or the raw numbers that a point may hold."""
+        if name not in self._domains:
+            self._domains[name] = self.axes.get(name) or _numbers(self.points.get(name, []))
+        return self._domains[name]
+
+    def possible(self, clause: Clause) -> bool:
+        """Whether the comparisons can be true at once."""
+        return possible(clause, self.domain)
+
+    def never(self, one: Resolved, other: Resolved) -> bool:
+        """Whether no device has both."""
+        if "when" in one.draft.failed or "when" in other.draft.failed:
+            return True  # nobody knows what was meant
+        mine, theirs = one.point, other.point
+        if ends_before(mine.until, theirs.since) or ends_before(theirs.until, mine.since):
+            return True
+        if not (mine.variant or mine.when) or not (theirs.variant or theirs.when):
+            return False
+        return not any(self.possible(first + second) for first in clauses(mine) for second in clauses(theirs))
+
+
+def clauses(point: Point) -> tuple[Clause, ...]:
+    """What must hold for the point to exist: its condition, in its variant."""
+    own: Clause = ()
+    if point.variant is not None:
+        axis, _, value = point.variant.partition("=")
+        own = (Comparison(axis, "==", (value,)),)
+    return (own,) if point.when is None else tuple(own + clause for clause in point.when.clauses)
+
+
+def _numbers(points: list[Point]) -> Domain:
+    return tuple(dict.fromkeys(band for point in points for band in _bands(point))) or ANY
+
+
+def _bands(point: Point) -> Iterator[tuple[int, int]]:
+    """The raw numbers of a point: those that have a name, and those of its range unless names are all that it has."""
+    if point.enum is not None:
+        yield from ((entry.raw, entry.raw) for entry in point.enum.entries)
+    if point.enum is None or not point.enum.closed:
+        for one in point.allowed.intervals:
+            low, high = one.low, one.high
+            yield low if isinstance(low, int) else low.least, high if isinstance(high, int) else high.greatest
+    yield from ((special.low, special.high) for special in point.specials)

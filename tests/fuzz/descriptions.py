@@ -1,0 +1,256 @@
+"""Mutated descriptions: each ends in findings or in a device with files, within bounds, never in an exception."""
+
+from __future__ import annotations
+
+import json
+import re
+import resource
+import shutil
+import signal
+import tempfile
+import time
+import traceback
+from contextlib import contextmanager
+from multiprocessing import get_context
+from pathlib import Path
+from random import Random
+from typing import TYPE_CHECKING, Any
+
+from fieldscribe.diagnostics import Report
+from fieldscribe.pipeline import load_device, outputs
+from fieldscribe.targets import TARGETS
+from test_robust import BAD, DEVICES, HOSTILE, WHOLES, as_yaml, changed, nodes
+
+from fuzz.languages import Result
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+SECONDS, BYTES = 20, 2 << 30
+"""What one mutant may take at most, in time and in memory."""
+COMPILED = 10
+"""Of so many mutants that are fine, one is compiled for all targets."""
+
+PATHS = [sorted(nodes(whole), key=str) for whole in WHOLES]
+FOLDERS = [
+    {path.name: path.read_text("utf-8") for path in sorted(folder.glob("*.yaml"))}
+    for folder in sorted(DEVICES.iterdir())
+]
+SMALL = [path.read_text("utf-8", "replace") for path in sorted(BAD.glob("*.yaml"))]
+WORDS = (
+    *(
+        "",
+        " ",
+        "~",
+        "null",
+        "true",
+        "0",
+        "-1",
+        "1..2",
+        "2..1",
+        "0..65535",
+        "-0",
+        "1e400",
+        "9" * 64,
+        "0x",
+        "FFFFh",
+        "-1h",
+    ),
+    *(
+        "raw",
+        "value = raw",
+        "raw = value * speed",
+        "value = raw * 10 ** power_exponent",
+        "0 | speed..1",
+        "a.raw",
+        "1/0",
+    ),
+    *("f32", "u64", "bit", "s8", "text", "low first", "none", "rw", "w", "holding", "coil", "parameter", "telegram"),
+    *("mode == 0", "mode == 0 and mode == 1", "mode in (0, 1)", "xor 0..5", "multiplexer", "words", "320h + unit"),
+    *(
+        "P2000",
+        "1..15",
+        "739..732",
+        "[1, 2]",
+        "{a: b}",
+        "*a",
+        "&a x",
+        "!!int 3",
+        "<<: {}",
+        "'",
+        '"',
+        "[",
+        "{",
+        "- ",
+        "#",
+    ),
+    *HOSTILE,
+)
+VALUES: tuple[Any, ...] = (
+    ...,
+    None,
+    True,
+    5,
+    -1,
+    70000,
+    10**70,
+    [],
+    {},
+    [1, 2],
+    {"en": "x"},
+    {"0": "a"},
+    {"3..0": 5},
+    *WORDS,
+)
+
+
+def mutant(seed: int, index: int) -> dict[str, str]:
+    """The files of the mutant of that number: always the same texts."""
+    random = Random(f"{seed}/{index}")
+    kind = random.random()
+    if kind < 0.2:
+        return {"device.yaml": _of_structure(random)}
+    if kind < 0.7:
+        return {"device.yaml": _of_text(random, random.choice(SMALL))}
+    files = random.choice(FOLDERS)
+    name = random.choice(sorted(files))
+    return {**files, name: _of_text(random, files[name])}
+
+
+def _of_structure(random: Random) -> str:
+    """A made device, now and then with some of its groups alone, with other values at a few places."""
+    place = random.randrange(len(WHOLES))
+    device: dict[str, Any] = WHOLES[place]
+    for _ in range(random.randint(1, 3)):
+        try:
+            device = changed(device, random.choice(PATHS[place]), random.choice(VALUES))
+        except (KeyError, IndexError, TypeError, ValueError, AttributeError):
+            continue  # an earlier change took the place away
+    if random.random() < 0.3 and isinstance(device.get("groups"), list):
+        device = {**device, "groups": random.sample(device["groups"], min(len(device["groups"]), random.randint(1, 2)))}
+    return as_yaml(json.loads(json.dumps(device)))
+
+
+def _of_text(random: Random, text: str) -> str:
+    """A file with lines, words or characters changed."""
+    lines = text.split("\n")
+    for _ in range(random.choice((1, 1, 2, 4))):
+        place = random.randrange(len(lines))
+        lines[place : place + 1] = random.choice(CHANGES)(random, lines[place], lines)
+        lines = lines or [""]
+    return "\n".join(lines)
+
+
+def _no_line(random: Random, line: str, lines: list[str]) -> list[str]:
+    return []
+
+
+def _foreign_line(random: Random, line: str, lines: list[str]) -> list[str]:
+    return [line, random.choice(random.choice(SMALL).split("\n"))]
+
+
+def _line_of_its_own(random: Random, line: str, lines: list[str]) -> list[str]:
+    return [line, random.choice(lines)]
+
+
+def _word(random: Random, line: str, lines: list[str]) -> list[str]:
+    words = re.split(r"([ ,\[\]{}]+)", line)
+    words[random.randrange(len(words)) // 2 * 2] = random.choice(WORDS)
+    return ["".join(words)]
+
+
+def _word_of_its_own(random: Random, line: str, lines: list[str]) -> list[str]:
+    words = re.split(r"([ ,\[\]{}]+)", line)
+    words[random.randrange(len(words)) // 2 * 2] = random.choice(re.split(r"[ ,\[\]{}]+", random.choice(lines)))
+    return ["".join(words)]
+
+
+def _character(random: Random, line: str, lines: list[str]) -> list[str]:
+    at = random.randint(0, len(line))
+    return [line[:at] + random.choice("\0\t\n\"':[{,&*\u2028é0") + line[at + 1 :]]
+
+
+def _alias(random: Random, line: str, lines: list[str]) -> list[str]:
+    """A value used again behind an alias, in place of another."""
+    place = random.choice([at.end() for at in re.finditer(r": (?=[\[{\w])", line)] or [0])
+    other = random.choice(lines)
+    values = [at.span() for at in re.finditer(r"(?<=: )([^,{}\[\]]+|{[^{}]*}|\[[^\[\]]*\])", other)]
+    if not place or not values:
+        return [line]
+    start, end = random.choice(values)
+    return [line[:place] + "&m " + line[place:], other[:start] + "*m" + other[end:]]
+
+
+CHANGES = (_no_line, _foreign_line, _line_of_its_own, _word, _word, _word_of_its_own, _character, _alias)
+
+
+@contextmanager
+def _bounded() -> Iterator[None]:
+    """Raises when a mutant takes too long."""
+
+    def too_long(number: int, frame: Any) -> None:
+        raise TimeoutError(f"longer than {SECONDS} seconds")
+
+    signal.signal(signal.SIGALRM, too_long)
+    signal.setitimer(signal.ITIMER_REAL, SECONDS)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+
+
+def write(files: dict[str, str], folder: Path) -> Path:
+    """Writes the files of a mutant, and no others; returns its device file."""
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    for name, text in files.items():
+        (folder / name).write_bytes(text.encode("utf-8", "surrogatepass"))
+    return folder / "device.yaml"
+
+
+def trial(file: Path, *, compiled: bool) -> str | None:
+    """What is wrong with how the compiler takes a description; none if nothing is."""
+    try:
+        with _bounded():
+            report = Report()
+            device = load_device(file, report)
+            if (device is None) != report.has_errors:
+                return "a device with errors, or none without"
+            for one in report.findings:
+                if not one.message.isprintable() or not one.hint:
+                    return f"a finding that nobody can print, or without a hint: {one.rule}"
+            if device is not None and compiled:
+                for _ in outputs(device, TARGETS):
+                    pass
+    except Exception:
+        return traceback.format_exc()
+    return None
+
+
+def _part(job: tuple[int, int, int]) -> list[tuple[int, str]]:
+    """The mutants of one process that went wrong."""
+    seed, first, behind = job
+    _, hard = resource.getrlimit(resource.RLIMIT_AS)
+    resource.setrlimit(resource.RLIMIT_AS, (BYTES, hard))
+    wrong = []
+    with tempfile.TemporaryDirectory() as folder:
+        for index in range(first, behind):
+            file = write(mutant(seed, index), Path(folder) / "device")
+            failed = trial(file, compiled=index % COMPILED == 0)
+            if failed is not None:
+                wrong.append((index, failed))
+    return wrong
+
+
+def fuzz_descriptions(count: int, seed: int, keep: Path) -> Result:
+    """So many mutants, in two processes; those that went wrong are kept as files."""
+    started = time.perf_counter()
+    step = max(1, min(250, count // 2))
+    jobs = [(seed, first, min(first + step, count)) for first in range(0, count, step)]
+    with get_context("fork").Pool(2) as pool:
+        wrong = [one for part in pool.imap_unordered(_part, jobs) for one in part]
+    findings = []
+    for index, failed in sorted(wrong):
+        file = write(mutant(seed, index), keep / f"mutant_{seed}_{index}")
+        findings.append(f"mutant {index} of seed {seed}, kept as {file}:\n{failed[-1500:]}")
+    return Result("descriptions, mutated", count, tuple(findings), time.perf_counter() - started)

@@ -1,0 +1,1 @@
+"""Proofs of the C that parses and builds frames."""

@@ -1,0 +1,340 @@
+/*
+ * Proofs of fieldscribe_modbus.h: one harness or more for each of its functions, named prove_FUNCTION or
+ * prove_FUNCTION__WHAT. Where a function is given several arrays, each is exactly as long as it is told in one of the
+ * harnesses. `split` has Frama-C follow each length on its own.
+ */
+#include "arbitrary.h"
+#include "fieldscribe_modbus.h"
+
+#define KNOWN 3U    /* functions of a profile: each is looked at alone */
+#define FRAMES 300U /* longer than the longest frame */
+#define SHORT 32U   /* where build is followed with exact arrays; put_values, which fills in the data, for all lengths */
+#define ITEMS 256U  /* as many are followed exactly; more in arrays that may be longer than told */
+#define WORDS 128U  /* more than a byte count can announce: 255 bytes are 127 words */
+
+static uint8_t frame[FRAMES];
+static uint8_t long_frame[LARGE];
+static uint16_t items[ITEMS];
+static uint16_t many_items[LARGE / 2U];
+static fieldscribe_modbus_function functions[KNOWN];
+static fieldscribe_modbus_profile profile;
+static fieldscribe_modbus_request request;
+static fieldscribe_modbus_reply reply;
+static fieldscribe_modbus_block block;
+static volatile uint8_t number;
+
+/* A profile that knows any functions; `count` of them, and no room for more. */
+static void know(size_t count)
+{
+    size_t at;
+    //@ loop unroll KNOWN;
+    for (at = 0U; at < KNOWN; ++at) {
+        functions[at].broadcast = number % 2U != 0U;
+    }
+    profile.pads_coil_bytes = number % 2U != 0U;
+    profile.rtu = number % 2U != 0U;
+    profile.tcp = number % 2U != 0U;
+    profile.functions = EXACTLY(count, functions);
+    profile.function_count = count;
+}
+
+/* A request of so many items, in an array that has no more. */
+static void ask(uint16_t count)
+{
+    request.count = count;
+    request.values = EXACTLY(count, items);
+}
+
+/* A request of any number of items that fits into the memory of a small machine. */
+static void ask_any(void)
+{
+    if (request.count > sizeof many_items / sizeof many_items[0]) {
+        request.count = 0U;
+    }
+    request.values = many_items;
+}
+
+void prove_read(uint8_t unit, uint8_t function, uint16_t address, uint16_t count)
+{
+    request = fieldscribe_modbus_read(unit, function, address, count);
+}
+
+void prove_write(uint8_t unit, uint8_t function, uint16_t address, uint16_t count)
+{
+    request = fieldscribe_modbus_write(unit, function, address, count, items);
+}
+
+void prove_read_block(uint8_t unit)
+{
+    request = fieldscribe_modbus_read_block(unit, &block);
+}
+
+void prove_crc(size_t length)
+{
+    if (length <= FRAMES) {
+        //@ split length;
+        (void)fieldscribe_modbus_crc(EXACTLY(length, frame), length);
+    }
+}
+
+void prove_crc__long(size_t length)
+{
+    if (length <= LARGE) {
+        (void)fieldscribe_modbus_crc(long_frame, length);
+    }
+}
+
+void prove_get(void)
+{
+    (void)fieldscribe_modbus_get(EXACTLY(2U, frame));
+}
+
+void prove_put(uint16_t number)
+{
+    fieldscribe_modbus_put(EXACTLY(2U, frame), number);
+}
+
+void prove_reads(uint8_t function)
+{
+    (void)fieldscribe_modbus_reads(function);
+}
+
+void prove_reads_bits(uint8_t function)
+{
+    (void)fieldscribe_modbus_reads_bits(function);
+}
+
+void prove_single(void)
+{
+    ask(1U);
+    (void)fieldscribe_modbus_single(&request);
+}
+
+void prove_find(size_t count, uint8_t code)
+{
+    if (count <= KNOWN) {
+        //@ split count;
+        know(count);
+        (void)fieldscribe_modbus_find(&profile, code);
+    }
+}
+
+void prove_allows(size_t count)
+{
+    if (count <= KNOWN) {
+        //@ split count;
+        know(count);
+        ask_any();
+        (void)fieldscribe_modbus_allows(&profile, &request);
+    }
+}
+
+void prove_allows__no_values(void)
+{
+    know(KNOWN);
+    request.values = NULL;
+    if (request.function < 0x05U) {
+        (void)fieldscribe_modbus_allows(&profile, &request);
+    } else {
+        (void)fieldscribe_modbus_allows(&profile, &request);
+    }
+}
+
+void prove_allows__values(uint16_t count)
+{
+    if (count <= ITEMS) {
+        //@ split count;
+        know(1U);
+        ask(count);
+        (void)fieldscribe_modbus_allows(&profile, &request);
+    }
+}
+
+void prove_data_bytes(void)
+{
+    know(0U);
+    (void)fieldscribe_modbus_data_bytes(&profile, &request);
+}
+
+void prove_coils(uint16_t count, uint16_t byte)
+{
+    if (count <= ITEMS) {
+        //@ split count;
+        ask(count);
+        (void)fieldscribe_modbus_coils(&request, 8U * (uint32_t)byte);
+    }
+}
+
+/* There is room for as many bytes as `data_bytes` says. */
+void prove_put_values__data(uint8_t data_bytes)
+{
+    //@ split data_bytes;
+    ask_any();
+    fieldscribe_modbus_put_values(&request, EXACTLY(data_bytes, frame), data_bytes);
+}
+
+/* `data_bytes` is what the count of words makes; coils are proven for any byte above. */
+void prove_put_values__words(uint16_t count)
+{
+    if (count <= WORDS) {
+        //@ split count;
+        ask(count);
+        request.function = 0x10U;
+        fieldscribe_modbus_put_values(&request, frame, 2U * (uint32_t)count);
+    }
+}
+
+/* By kind of function, so that Frama-C knows in each call what the frame consists of. */
+static void build_into(fieldscribe_modbus_framing framing, uint8_t *buffer, size_t size)
+{
+    size_t length;
+    if (request.function == 0x00U) {
+        (void)fieldscribe_modbus_build(&profile, framing, &request, buffer, size, &length);
+    } else if (request.function < 0x05U) {
+        (void)fieldscribe_modbus_build(&profile, framing, &request, buffer, size, &length);
+    } else if (request.function < 0x0FU) {
+        (void)fieldscribe_modbus_build(&profile, framing, &request, buffer, size, &length);
+    } else if (request.function == 0x0FU) {
+        (void)fieldscribe_modbus_build(&profile, framing, &request, buffer, size, &length);
+    } else if (request.function == 0x10U) {
+        (void)fieldscribe_modbus_build(&profile, framing, &request, buffer, size, &length);
+    } else {
+        (void)fieldscribe_modbus_build(&profile, framing, &request, buffer, size, &length);
+    }
+}
+
+void prove_build__rtu(size_t size)
+{
+    if (size <= SHORT) {
+        //@ split size;
+        know(1U);
+        ask_any();
+        build_into(FIELDSCRIBE_MODBUS_RTU, EXACTLY(size, frame), size);
+    }
+}
+
+void prove_build__tcp(size_t size)
+{
+    if (size <= SHORT) {
+        //@ split size;
+        know(1U);
+        ask_any();
+        build_into(FIELDSCRIBE_MODBUS_TCP, EXACTLY(size, frame), size);
+    }
+}
+
+void prove_build__long_buffer(void)
+{
+    know(KNOWN);
+    ask_any();
+    build_into(FIELDSCRIBE_MODBUS_RTU, frame, FRAMES);
+    build_into(FIELDSCRIBE_MODBUS_TCP, frame, FRAMES);
+}
+
+void prove_build__no_values(void)
+{
+    know(KNOWN);
+    request.values = NULL;
+    build_into(FIELDSCRIBE_MODBUS_RTU, frame, FRAMES);
+    build_into(FIELDSCRIBE_MODBUS_TCP, frame, FRAMES);
+}
+
+void prove_build__values(uint16_t count)
+{
+    if (count <= SHORT) {
+        //@ split count;
+        know(1U);
+        ask(count);
+        build_into(FIELDSCRIBE_MODBUS_RTU, frame, FRAMES);
+        build_into(FIELDSCRIBE_MODBUS_TCP, frame, FRAMES);
+    }
+}
+
+void prove_take_words__data(uint8_t bytes, uint16_t count, size_t room)
+{
+    //@ split bytes;
+    (void)fieldscribe_modbus_take_words(EXACTLY(bytes, frame), bytes, count, many_items, room);
+}
+
+void prove_take_words__values(uint8_t bytes, uint16_t count, size_t room)
+{
+    const size_t stored = room < WORDS ? room : WORDS;
+    //@ split stored;
+    (void)fieldscribe_modbus_take_words(frame, bytes, count, EXACTLY(stored, items), stored);
+}
+
+void prove_take_bits__data(uint8_t bytes, uint16_t count, size_t room)
+{
+    //@ split bytes;
+    (void)fieldscribe_modbus_take_bits(EXACTLY(bytes, frame), bytes, count, many_items, room);
+}
+
+void prove_take_bits__values(uint8_t bytes, uint16_t count, size_t room)
+{
+    const size_t stored = room < ITEMS ? room : ITEMS;
+    //@ split stored;
+    (void)fieldscribe_modbus_take_bits(frame, bytes, count, EXACTLY(stored, items), stored);
+}
+
+void prove_take(size_t size, size_t room)
+{
+    if (size >= 2U && size <= FRAMES) {
+        //@ split size;
+        ask_any();
+        (void)fieldscribe_modbus_take(&request, EXACTLY(size, frame), size, many_items, room, &reply);
+    }
+}
+
+void prove_take__request(uint16_t count, size_t size)
+{
+    if (count <= WORDS && size >= 2U && size <= FRAMES) {
+        //@ split count;
+        ask(count);
+        (void)fieldscribe_modbus_take(&request, frame, size, many_items, LARGE / 2U, &reply);
+    }
+}
+
+void prove_parse_rtu(size_t length, size_t room)
+{
+    if (length <= FRAMES) {
+        //@ split length;
+        ask_any();
+        (void)fieldscribe_modbus_parse_rtu(&request, EXACTLY(length, frame), length, many_items, room, &reply);
+    }
+}
+
+void prove_parse_tcp(size_t length, size_t room)
+{
+    if (length <= FRAMES) {
+        //@ split length;
+        ask_any();
+        (void)fieldscribe_modbus_parse_tcp(&request, EXACTLY(length, frame), length, many_items, room, &reply);
+    }
+}
+
+void prove_parse__no_values(fieldscribe_modbus_framing framing, size_t length, size_t room)
+{
+    if (length <= FRAMES) {
+        //@ split length;
+        request.values = NULL;
+        (void)fieldscribe_modbus_parse(framing, &request, EXACTLY(length, frame), length, many_items, room, &reply);
+    }
+}
+
+void prove_parse__long_frame(fieldscribe_modbus_framing framing, size_t length, size_t room)
+{
+    if (length <= LARGE) {
+        ask_any();
+        (void)fieldscribe_modbus_parse(framing, &request, long_frame, length, many_items, room, &reply);
+    }
+}
+
+void prove_parse__values(fieldscribe_modbus_framing framing, size_t length, size_t room)
+{
+    const size_t stored = room < WORDS ? room : WORDS;
+    if (length <= FRAMES) {
+        //@ split stored;
+        ask_any();
+        (void)fieldscribe_modbus_parse(framing, &request, frame, length, EXACTLY(stored, items), stored, &reply);
+    }
+}

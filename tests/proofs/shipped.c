@@ -1,0 +1,70 @@
+/*
+ * Proofs with the tables of shipped devices: any bytes, requests and lengths through builder and parser, as firmware
+ * that vendors these headers calls them.
+ */
+#include "arbitrary.h"
+/* the sources, not the copies beside the devices */
+#include "fieldscribe_can.h"
+#include "fieldscribe_modbus.h"
+#include "fieldscribe_uss.h"
+
+#include "jumo_controller_modbus.h"
+#include "siemens_mm4_uss.h"
+#include "woodward_mpu2s_can.h"
+
+#define FRAMES 300U
+
+static uint8_t bytes[FRAMES];
+static uint16_t items[LARGE / 2U];
+static fieldscribe_modbus_request request;
+static fieldscribe_modbus_reply reply;
+static fieldscribe_uss_request task;
+static fieldscribe_uss_reply answer;
+static fieldscribe_uss_link link;
+static fieldscribe_can_frame frame;
+static fieldscribe_can_slot slots[WOODWARD_MPU2S_TELEGRAM_VISUALISATION_SLOTS];
+static volatile uint8_t number;
+
+void prove_jumo_controller(size_t length, size_t room)
+{
+    size_t used;
+    if (length <= FRAMES) {
+        request.values = items;
+        if (request.count <= LARGE / 2U) {
+            (void)fieldscribe_modbus_build(
+                &jumo_controller_modbus_profile, FIELDSCRIBE_MODBUS_RTU, &request, bytes, FRAMES, &used);
+            //@ split length;
+            (void)fieldscribe_modbus_parse(
+                FIELDSCRIBE_MODBUS_RTU, &request, EXACTLY(length, bytes), length, items, room, &reply);
+        }
+    }
+}
+
+void prove_siemens_mm4(size_t length, size_t room)
+{
+    size_t used;
+    if (length <= FRAMES) {
+        link.single_first = number % 2U != 0U;
+        (void)fieldscribe_uss_build(&siemens_mm4_uss_profile, &link, &task, items, link.pzd, bytes, FRAMES, &used);
+        //@ split length;
+        (void)fieldscribe_uss_parse(
+            &siemens_mm4_uss_profile, &link, &task, EXACTLY(length, bytes), length, items, room, &answer);
+    }
+}
+
+void prove_woodward_mpu2s(uint8_t unit, uint16_t raw, uint16_t high, uint16_t low)
+{
+    fieldscribe_can_receiver receiver = woodward_mpu2s_telegram_visualisation_listen(unit, slots);
+    uint16_t word;
+    uint16_t other;
+    int heard;
+    (void)woodward_mpu2s_password_level_2_write_answer(unit, raw, &frame);
+    (void)woodward_mpu2s_password_level_2_read_answer(unit, &frame, &word);
+    for (heard = 0; heard < 100; ++heard) {
+        frame.data[1] = number;
+        frame.data[2] = number;
+        (void)fieldscribe_can_take(&receiver, &frame);
+        (void)fieldscribe_can_pair(&receiver, high, low, &word, &other);
+    }
+    (void)woodward_mpu2s_password_level_2_write_request(unit, raw, &frame);
+}

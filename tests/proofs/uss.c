@@ -1,0 +1,234 @@
+/*
+ * Proofs of fieldscribe_uss.h: one harness or more for each of its functions, named prove_FUNCTION or
+ * prove_FUNCTION__WHAT. Where a function is given several arrays, each is exactly as long as it is told in one of the
+ * harnesses. `split` has Frama-C follow each length on its own.
+ */
+#include "arbitrary.h"
+#include "fieldscribe_uss.h"
+
+#define FRAMES 300U /* longer than the longest telegram */
+#define SHORT 48U   /* where build is followed with exact arrays; assemble, which fills them, for all lengths */
+#define WORDS 256U  /* more than a link can be set to */
+#define KNOWN 3U    /* tasks and lengths that a profile knows: each is looked at alone */
+
+static uint8_t frame[FRAMES];
+static uint8_t long_frame[LARGE];
+static uint16_t words[WORDS];
+static uint16_t masks[4];
+static uint8_t part[514];
+static uint8_t lengths[KNOWN];
+static fieldscribe_uss_task tasks[KNOWN];
+static fieldscribe_uss_profile profile;
+static fieldscribe_uss_link link;
+static fieldscribe_uss_request request;
+static fieldscribe_uss_reply reply;
+static volatile uint8_t number;
+
+/* A profile of any tasks and lengths, so many of both, and no room for more. */
+static void know(size_t count)
+{
+    profile.tasks = EXACTLY(count, tasks);
+    profile.task_count = count;
+    profile.pkw = EXACTLY(count, lengths);
+    profile.pkw_count = count;
+    link.single_first = number % 2U != 0U;
+}
+
+void prove_exchange(uint8_t unit)
+{
+    request = fieldscribe_uss_exchange(unit);
+}
+
+void prove_read(uint8_t unit, uint8_t task, uint16_t parameter, uint16_t index)
+{
+    request = fieldscribe_uss_read(unit, task, parameter, index);
+}
+
+void prove_write(uint8_t unit, uint8_t task, uint16_t parameter, uint16_t index, uint8_t width, uint32_t value)
+{
+    request = fieldscribe_uss_write(unit, task, parameter, index, width, value);
+}
+
+void prove_get(void)
+{
+    (void)fieldscribe_uss_get(EXACTLY(2U, frame));
+}
+
+void prove_put(uint16_t word)
+{
+    fieldscribe_uss_put(EXACTLY(2U, frame), word);
+}
+
+void prove_check(size_t length)
+{
+    if (length <= FRAMES) {
+        //@ split length;
+        (void)fieldscribe_uss_check(EXACTLY(length, frame), length);
+    }
+}
+
+void prove_check__long(size_t length)
+{
+    if (length <= LARGE) {
+        (void)fieldscribe_uss_check(long_frame, length);
+    }
+}
+
+void prove_find(size_t count, uint8_t task)
+{
+    if (count <= KNOWN) {
+        //@ split count;
+        know(count);
+        (void)fieldscribe_uss_find(&profile, task);
+    }
+}
+
+void prove_index_word(uint16_t parameter, uint16_t index)
+{
+    (void)fieldscribe_uss_index_word(parameter, index);
+}
+
+void prove_single_last(void)
+{
+    know(0U);
+    (void)fieldscribe_uss_single_last(&link);
+}
+
+void prove_allows_pkw(size_t count, uint8_t pkw)
+{
+    if (count <= KNOWN) {
+        //@ split count;
+        know(count);
+        (void)fieldscribe_uss_allows_pkw(&profile, pkw);
+    }
+}
+
+void prove_allows_pzd(size_t count)
+{
+    (void)fieldscribe_uss_allows_pzd(&profile, &link, count);
+}
+
+void prove_allows(size_t count, size_t pzd_count)
+{
+    if (count <= KNOWN) {
+        //@ split count;
+        know(count);
+        (void)fieldscribe_uss_allows(&profile, &link, &request, pzd_count);
+    }
+}
+
+void prove_assemble__buffer(uint8_t address, size_t pzd_count, size_t size)
+{
+    if (pzd_count <= WORDS && size <= FRAMES) {
+        size_t length;
+        //@ split size;
+        (void)fieldscribe_uss_assemble(address, part, 0U, words, pzd_count, EXACTLY(size, frame), size, &length);
+        (void)fieldscribe_uss_assemble(address, part, 6U, words, pzd_count, EXACTLY(size, frame), size, &length);
+        (void)fieldscribe_uss_assemble(address, part, 8U, words, pzd_count, EXACTLY(size, frame), size, &length);
+    }
+}
+
+void prove_assemble__words(uint8_t address, size_t head_bytes, size_t pzd_count, size_t size)
+{
+    if (head_bytes <= 8U && pzd_count <= WORDS && size <= FRAMES) {
+        size_t length;
+        //@ split pzd_count;
+        //@ split head_bytes;
+        (void)fieldscribe_uss_assemble(address, EXACTLY(head_bytes, part), head_bytes, EXACTLY(pzd_count, words), pzd_count,
+            frame, size, &length);
+    }
+}
+
+void prove_build__buffer(size_t pzd_count, size_t size)
+{
+    if (pzd_count <= WORDS && size <= SHORT) {
+        size_t length;
+        //@ split size;
+        know(KNOWN);
+        if (link.pkw == 0U) {
+            (void)fieldscribe_uss_build(&profile, &link, &request, words, pzd_count, EXACTLY(size, frame), size, &length);
+        } else if (link.pkw < 3U) {
+            (void)fieldscribe_uss_build(&profile, &link, &request, words, pzd_count, EXACTLY(size, frame), size, &length);
+        } else if (link.pkw == 3U) {
+            (void)fieldscribe_uss_build(&profile, &link, &request, words, pzd_count, EXACTLY(size, frame), size, &length);
+        } else {
+            (void)fieldscribe_uss_build(&profile, &link, &request, words, pzd_count, EXACTLY(size, frame), size, &length);
+        }
+    }
+}
+
+void prove_build__words(size_t pzd_count, size_t size)
+{
+    if (pzd_count <= SHORT && size <= FRAMES) {
+        size_t length;
+        //@ split pzd_count;
+        know(KNOWN);
+        (void)fieldscribe_uss_build(
+            &profile, &link, &request, EXACTLY(pzd_count, words), pzd_count, frame, size, &length);
+    }
+}
+
+void prove_build_broadcast__buffer(size_t pzd_count, size_t size)
+{
+    if (pzd_count <= WORDS && size <= SHORT) {
+        size_t length;
+        //@ split size;
+        know(KNOWN);
+        (void)fieldscribe_uss_build_broadcast(
+            &profile, &link, masks, words, pzd_count, EXACTLY(size, frame), size, &length);
+    }
+}
+
+void prove_build_broadcast__words(size_t pzd_count, size_t size)
+{
+    if (pzd_count <= SHORT && size <= FRAMES) {
+        size_t length;
+        //@ split pzd_count;
+        know(KNOWN);
+        (void)fieldscribe_uss_build_broadcast(
+            &profile, &link, masks, EXACTLY(pzd_count, words), pzd_count, frame, size, &length);
+    }
+}
+
+void prove_fits(size_t count)
+{
+    (void)fieldscribe_uss_fits(&link, count);
+}
+
+void prove_take(size_t count)
+{
+    if (count <= sizeof part / 2U) {
+        //@ split count;
+        know(KNOWN);
+        (void)fieldscribe_uss_take(&profile, &link, &request, EXACTLY(2U * count, part), count, &reply);
+    }
+}
+
+void prove_parse__frame(size_t length, size_t room)
+{
+    if (length <= FRAMES) {
+        //@ split length;
+        know(KNOWN);
+        (void)fieldscribe_uss_parse(
+            &profile, &link, &request, EXACTLY(length, frame), length, words, room, &reply);
+    }
+}
+
+void prove_parse__long_frame(size_t length, size_t room)
+{
+    if (length <= LARGE) {
+        know(KNOWN);
+        (void)fieldscribe_uss_parse(&profile, &link, &request, long_frame, length, words, room, &reply);
+    }
+}
+
+void prove_parse__words(size_t length, size_t room)
+{
+    const size_t stored = room < WORDS ? room : WORDS;
+    if (length <= FRAMES) {
+        //@ split stored;
+        know(KNOWN);
+        (void)fieldscribe_uss_parse(
+            &profile, &link, &request, frame, length, EXACTLY(stored, words), stored, &reply);
+    }
+}

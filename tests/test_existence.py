@@ -1,0 +1,158 @@
+"""When points exist: what follows from conditions is what trying all values shows."""
+
+from __future__ import annotations
+
+import random
+from itertools import product
+from typing import TYPE_CHECKING, Any
+
+import pytest
+from fieldscribe import wording
+from fieldscribe.diagnostics import Report
+from fieldscribe.existence import Comparison, Condition, Domain, ends_before, possible
+from fieldscribe.export import export_model
+from fieldscribe.language.formula import Comparison as Parsed
+from fieldscribe.language.formula import clauses_of, condition_names, parse_condition
+from fieldscribe.pipeline import load_device
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+    from pathlib import Path
+
+DOMAINS: dict[str, Domain] = {"mode": ((0, 0), (2, 2), (5, 5)), "level": ((-3, 4),), "size": ("small", "large", "550")}
+VALUES: dict[str, list[Any]] = {"mode": [0, 2, 5], "level": list(range(-3, 5)), "size": ["small", "large", "550"]}
+EVERY = [dict(zip(VALUES, one, strict=True)) for one in product(*VALUES.values())]
+
+
+def _comparison(chance: random.Random) -> Comparison:
+    name = chance.choice(list(VALUES))
+    if name == "size":
+        return Comparison(name, chance.choice(("==", "!=")), (chance.choice(VALUES[name]),))
+    test = chance.choice(("==", "!=", "<", "<=", ">", ">=", "in"))
+    numbers = tuple([chance.randint(-5, 7) for _ in range(3 if test == "in" else 1)])
+    return Comparison(name, test, numbers)
+
+
+@pytest.mark.parametrize("seed", range(400))
+def test_possible_is_what_trying_shows(seed: int) -> None:
+    """A clause can be true exactly if some values make it true."""
+    chance = random.Random(seed)
+    clause = tuple([_comparison(chance) for _ in range(chance.randint(1, 5))])
+    tried = any(Condition((clause,)).holds(values) for values in EVERY)
+    assert possible(clause, DOMAINS.__getitem__) == tried
+
+
+def _text(chance: random.Random, depth: int) -> str:
+    if depth == 0:
+        one = _comparison(chance)
+        than = f"({', '.join(map(str, one.than))})" if one.test == "in" else f"{one.than[0]}"
+        return f"{one.of} {one.test} {than}"
+    if chance.random() < 0.3:
+        return f"not ({_text(chance, depth - 1)})"
+    word = chance.choice((" and ", " or "))
+    return "(" + word.join(_text(chance, depth - 1) for _ in range(2)) + ")"
+
+
+def _meant(one: Parsed) -> Any:
+    return tuple([each.text if one.name.name == "size" else int(each.value) for each in one.constants])
+
+
+def _python(text: str, values: Mapping[str, Any]) -> bool:
+    names = {**values, "small": "small", "large": "large"}
+    return bool(eval(text.replace(" 550", " '550'").replace("(550", "('550'"), {"__builtins__": {}}, names))
+
+
+@pytest.mark.parametrize("seed", range(200))
+def test_clauses_mean_what_the_text_means(seed: int) -> None:
+    """The condition of the author, as Python reads it, and its clauses agree for all values."""
+    text = _text(random.Random(seed), 3)
+    condition = parse_condition(text)
+    clauses: Any = tuple(
+        tuple(Comparison(one.name.name, one.op, _meant(one)) for one in clause) for clause in clauses_of(condition)
+    )
+    assert {name.name for name in condition_names(condition)} >= set(Condition(clauses).names)
+    for values in EVERY:
+        assert Condition(clauses).holds(values) == _python(text, values), (text, values)
+
+
+@pytest.mark.parametrize(
+    ("until", "since", "before"),
+    [
+        ("firmware 3.7", "firmware 3.8", True),
+        ("firmware 3.9", "firmware 3.10", True),
+        ("firmware 3.7", "firmware 3.7", False),
+        ("firmware 3.7", "firmware 3.7.0", False),
+        ("firmware 3.7", "firmware 3.7.1", True),
+        ("Firmware  3.7", "firmware 3.8", True),
+        ("firmware 3.7", "hardware 4", False),
+        ("V2.1a", "V2.1b", True),
+        ("V2.1", "v2.1a", True),
+        ("the last one", "firmware 2", False),
+        ("firmware 4", "firmware 3", False),
+        ("2009", "2010", True),
+        (None, "firmware 2", False),
+    ],
+)
+def test_versions_are_compared_as_such(until: str | None, since: str | None, before: bool) -> None:
+    """Number by number, of what counts the same."""
+    assert ends_before(until, since) == before
+
+
+HEAD = """\
+fieldscribe: 1
+device: made_up
+version: 1.0.0
+vendor: Maker
+model: M1
+title: Made up
+family: modbus
+documents: {manual: {title: Manual, language: en}}
+variants:
+  model: {title: Model, values: {"550": {}, 550x: {}, large: {}}}
+bus: {framings: [rtu], units: 1..247, functions: {03h: read_registers, 06h: write_register, 10h: write_registers}}
+groups:
+- group: main
+  space: holding
+  source: {document: manual, section: "1"}
+  points:
+  - {name: mode, at: 0, enum: {0: off, 1: slow, 2: fast}}
+  - {name: level, at: 1, range: 0..100, scale: value = raw * 0.1, unit: V}
+"""
+
+APART = """\
+  - {name: a, at: 10, when: mode == off}
+  - {name: b, at: 10, when: "mode in (1, 2) and level < 5"}
+  - {name: c, at: 10, when: mode != off and not level < 5}
+  - {name: d, at: 11, when: model == 550}
+  - {name: e, at: 11, when: model == 550x}
+  - {name: f, at: 11, variants: {model=large: {range: 0..3}}}
+  - {name: g, at: 12, until: firmware 2.9}
+  - {name: h, at: 12, since: firmware 2.10}
+  - {name: i, at: 13, bits: 3..0, when: mode == 0}
+  - {name: j, at: 13, bits: 7..2, when: mode > 0}
+"""
+
+
+def test_points_apart_share_an_address(tmp_path: Path) -> None:
+    """What is never there at once may stand at one address; the model has the conditions as structure."""
+    file = tmp_path / "device.yaml"
+    file.write_text(HEAD + APART, "utf-8")
+    report = Report()
+    device = load_device(file, report)
+    assert report.findings == ()
+    assert device is not None
+    points = {point.name: point for point in device.points}
+    assert [wording.condition_text(points[name].when, points) for name in "abcde"] == [
+        "mode == off",
+        "mode in (slow, fast) and level < 5",
+        "mode != off and level >= 5",
+        "model == 550",
+        "model == 550x",
+    ]
+    assert wording.condition_text(points["b"].when) == "mode.raw in (1, 2) and level.raw < 50"
+    exported: Any = export_model(device)
+    assert exported["format"] == 2
+    assert {one["name"]: one["when"] for one in exported["points"] if one["name"] in "bd"} == {
+        "b": {"any": [{"all": [{"of": "mode", "is": "in", "than": [1, 2]}, {"of": "level", "is": "<", "than": 50}]}]},
+        "d": {"any": [{"all": [{"of": "model", "is": "==", "than": "550"}]}]},
+    }

@@ -1,0 +1,59 @@
+"""Proofs of the frames in C: all hold, they cover all functions, and they see a planted bug."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+from proofs.prove import FAMILIES, RUNTIME, SOURCES, alarm_lines, functions, harnesses, prove, prove_all, unproven
+from toolchains import tool
+
+HERE = Path(__file__).parent / "proofs"
+
+PLANTED = {
+    "modbus": ("crc", "at < length; ++at", "at <= length; ++at", "crc"),
+    "can": ("listen", "at < fieldscribe_can_slots(telegram)", "at <= fieldscribe_can_slots(telegram)", "listen"),
+    "uss": ("assemble", "at < head_bytes; ++at", "at <= head_bytes; ++at", "assemble__words"),
+}
+"""By family: a function, an end of a loop in it, the same one step too late, and the harness that sees it."""
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+def test_every_function_has_a_harness(family: str) -> None:
+    """A new function of a header without a proof is told."""
+    assert functions(RUNTIME / f"fieldscribe_{family}.h")
+    assert unproven(family) == []
+
+
+def test_a_function_without_a_harness_is_told(tmp_path: Path) -> None:
+    """Which one it is, whatever it gives back."""
+    text = (RUNTIME / "fieldscribe_can.h").read_text("utf-8")
+    added = "static inline const uint8_t *fieldscribe_can_new(\n    uint8_t one)\n{\n    return 0;\n}\n"
+    (tmp_path / "fieldscribe_can.h").write_text(text + added, "utf-8")
+    assert unproven("can", tmp_path) == ["new"]
+
+
+@pytest.mark.full
+@pytest.mark.parametrize("family", SOURCES)
+def test_no_input_makes_frames_do_anything_undefined(family: str) -> None:
+    """Every harness, where int has 16 bits, which is the strictest machine; `make prove` has all of them."""
+    tool("frama-c")
+    proofs = prove_all((family, name, "x86_16") for name in harnesses(HERE / f"{family}.c"))
+    assert [(proof.harness, alarm_lines(proof.said)) for proof in proofs if not proof.holds] == []
+
+
+@pytest.mark.full
+@pytest.mark.parametrize("family", FAMILIES)
+def test_a_planted_bug_is_found(family: str, tmp_path: Path) -> None:
+    """One byte too far in one loop."""
+    tool("frama-c")
+    function, right, wrong, harness = PLANTED[family]
+    shutil.copy(RUNTIME / f"fieldscribe_{family}.h", tmp_path)
+    header = tmp_path / f"fieldscribe_{family}.h"
+    before, name, after = header.read_text("utf-8").partition(f" fieldscribe_{family}_{function}(")
+    assert right in after
+    header.write_text(before + name + after.replace(right, wrong, 1), "utf-8")
+    proof = prove(family, harness, "x86_64", tmp_path)
+    assert proof.alarms
+    assert any("out of bounds" in line for line in alarm_lines(proof.said))
