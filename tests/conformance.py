@@ -302,6 +302,12 @@ class Runner:
         found |= {"write_space": apart and apart.space, "write_addresses": list(apart.addresses) if apart else []}
         return all(vector[key] == value for key, value in found.items())
 
+    def _documented(self, vector: Vector) -> bool:
+        names = {name: one.at for name, one in self.device.DOCUMENTED.items() if name.rstrip("_") == vector["name"]}
+        [at] = names.values()
+        found = at.space, at.address, len(at.addresses), at.index
+        return found == tuple(vector[key] for key in ("space", "address", "words", "index"))
+
     def _group(self, vector: Vector) -> bool:
         members = [one for one in self.device.POINTS.values() if one.facts.group == vector["group"]]
         read = [one.facts.at for one in members if hasattr(one, "decode") and one.facts.at.space == "parameter"]

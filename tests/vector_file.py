@@ -148,7 +148,7 @@ _SETS_OF_LINES = ("pkw", "pzd", "single_first", "unit", "framing")
 def plain(vector: Vector) -> Vector:
     """A vector as tests compare it: without what is absent or about other kinds, numbers and bytes in hexadecimal."""
     about_point = not vector["kind"].startswith(
-        ("uss_", "can_build", "can_parse", "block", "build", "reply", "printed", "co", "can_taken")
+        ("uss_", "can_build", "can_parse", "block", "build", "reply", "printed", "co", "can_taken", "documented")
     )
     found = {key: part for key, part in vector.items() if part not in (None, [], {}, b"")}
     found = {key: part for key, part in found.items() if about_point or key not in _SETS_OF_POINTS}

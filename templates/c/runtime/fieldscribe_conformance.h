@@ -648,6 +648,14 @@ static inline bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
         (void)fieldscribe_exchange(v, 0U, &request, words);                                      \
     }
 
+#define FIELDSCRIBE_DOCUMENTED(point, macro)                                                     \
+    if (fieldscribe_asks_of(v, "documented", "name", point)) {                                   \
+        fieldscribe_is_text(v, "space", v->suite->spaces[macro##_SPACE]);                        \
+        fieldscribe_is_number(v, "address", macro##_ADDRESS);                                    \
+        fieldscribe_is_number(v, "words", macro##_WORDS);                                        \
+        (void)fieldscribe_field(v, "index");                                                     \
+    }
+
 #define FIELDSCRIBE_GROUP(group, array, size)                                                    \
     if (fieldscribe_asks_of(v, "group", "group", group)) {                                       \
         fieldscribe_agree(v, sizeof array / sizeof array[0] == size);                            \
@@ -1500,7 +1508,7 @@ static void fieldscribe_run_vector(fieldscribe_file *file, const char *text)
     v->differs = false;
     v->matched = 0U;
     if (fieldscribe_asks(v, "code") || fieldscribe_asks(v, "constant") || fieldscribe_asks(v, "command") ||
-        fieldscribe_asks(v, "group")) {
+        fieldscribe_asks(v, "group") || fieldscribe_asks(v, "documented")) {
         v->suite->run_code(v);
     } else if (!fieldscribe_run_frame(v)) {
         fieldscribe_run_point(v);
