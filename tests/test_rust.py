@@ -379,16 +379,17 @@ def probes(subject: Subject, name: str) -> Iterator[tuple[str, str]]:
     if subject.point.bits:
         yield f"insert(word: u16, raw: {raw}) -> u16", f"<{name} as BitGroup>::insert(word, raw)"
     read, write = f"<{name} as Readable>", f"<{name} as Writable>"
+    counted = subject.form not in WITHOUT_COUNTS and subject.point.decimals is not None
     if subject.point.readable:
         head = f"(raw: {raw}, with: {read}::Factors) -> {read}::Output"
         yield f"decode{head}<{value}>", f"{read}::decode_with(raw, with)"
-        if subject.form not in WITHOUT_COUNTS:
+        if counted:
             count = f"<{name} as CountReadable>"
             yield f"decode_count{head}<{count}::Count>", f"{count}::decode_count_with(raw, with)"
     if subject.point.writable:
         tail = f", with: {write}::With) -> Result<{raw}, Error>"
         if subject.point.encodes_values:
             yield f"encode(value: {value}{tail}", f"<{name} as Encodable>::encode_with(value, with)"
-        if subject.form not in WITHOUT_COUNTS:
+        if counted:
             count = f"<{name} as CountWritable>"
             yield f"encode_count(count: {count}::Count{tail}", f"{count}::encode_count_with(count, with)"
