@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+from fieldscribe.existence import Comparison, Condition
 from fieldscribe.model import (
     Bus,
     Code,
@@ -109,7 +110,7 @@ def can_points() -> tuple[Point, ...]:
         text("label", 4, "latin-1", 740, 741),
         parameter("level", 600, variant="voltage=100V", allowed=allowed((1, 9))),
         parameter("level", 600, variant="voltage=400V", allowed=allowed((1, 99))),
-        parameter("spare", 601, when="not size == small"),
+        parameter("spare", 601, when=Condition(((Comparison("size", "!=", ("small",)),),))),
         word("measurements", "frequency", 0, unit=HERTZ, scale=scaled(100), decimals=2),
         word("measurements", "power", 1, type_name="s16", unit=WATT, scale=scaled(1, 0, exponent)),
         word("measurements", "power_exponent", 2, type_name="s8", bits=(15, 8), allowed=allowed((-9, 9))),
