@@ -2,7 +2,7 @@
 FIELDSCRIBE = .venv/bin/fieldscribe
 PYTHON = .venv/bin/python
 
-.PHONY: generate test core bench check clean
+.PHONY: generate test core bench mutants check clean
 
 generate:           ## compile all descriptions into generated/
 	@sh generator/setup.sh compiler
@@ -24,6 +24,10 @@ check:              ## validate the descriptions, and say what in generated/ is 
 bench:              ## measure the compiler as whole processes and print a table
 	@sh generator/setup.sh tests
 	$(PYTHON) tests/bench/bench.py
+
+mutants:            ## change one thing at a time, say what nothing notices (SEED=1 COUNT=300 ONLY=c|python|rust|descriptions)
+	@sh generator/setup.sh tests
+	PYTHONPATH=tests nice $(PYTHON) -m mutants
 
 clean:              ## remove the virtual environment and caches
 	rm -rf .venv .cache .mypy_cache .pytest_cache .ruff_cache .hypothesis
