@@ -12,7 +12,7 @@ is missed. Each result is stored in `.cache/mutants`, by the seed and a digest o
 stopped goes on where it was, and a larger COUNT starts where the smaller one ended.
 
 What is changed: numbers, operators, names in strings, neighbouring constants, truth, named constants, statements and
-conditions. What is not: comments, heads, docstrings, attributes, decorators, and texts with spaces, which are for people. A mutant
-that does not compile or import is left out of the count. `equivalent.jsonl` names the mutants that change nothing
-which can be seen, each with its reason.
+conditions. What is not: comments, heads, docstrings, attributes, decorators, and texts with spaces, which are for
+people. A mutant that does not compile or import is left out of the count. `equivalent.jsonl` names the mutants that
+change nothing which can be seen, each with its reason.
 """

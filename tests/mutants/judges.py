@@ -144,7 +144,7 @@ class OfC(Judge):
         if build in (NO_FLOAT, FLOAT32):
             switched = any("FLOAT" in condition for condition in conditions_around(mutant.text, mutant.line))
             return found[: self.few] if switched else []
-        return found[: self.few] if build else found
+        return found[:1] if build else found
 
     def passes(self, device: str, build: Sequence[str]) -> bool:
         """Compile and run."""
