@@ -13,12 +13,12 @@ from typing import TYPE_CHECKING, NamedTuple
 from mutants.sources import RUNTIME
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Sequence
 
     from mutants.sources import Mutant
 
-RUN_LIMIT, BUILD_LIMIT = 20, 300
-"""Seconds after which a program is taken to hang, and a compiler."""
+CPU_LIMIT, RUN_LIMIT, BUILD_LIMIT = 10, 120, 600
+"""Seconds of work after which a program is taken to hang, and seconds of waiting for it and for a compiler."""
 MEMORY = 4 << 30
 """What a mutant that runs away may take."""
 
@@ -26,6 +26,10 @@ ROOT = Path(__file__).resolve().parents[2]
 FAMILIES = ("modbus", "can", "uss")
 
 KILLED, SURVIVED, LEFT_OUT = "killed", "survived", "left out"
+
+
+Way = tuple[str, tuple[str, ...]]
+"""A device and how its program is built."""
 
 
 class Verdict(NamedTuple):
@@ -53,7 +57,7 @@ class Judge:
             shutil.copytree(base / part, self.work / part)
         sized = sorted((path.stat().st_size, path.name) for path in (base / "vectors").iterdir() if path.is_file())
         self.vectors = {name.partition(".")[0]: self.work / "vectors" / name for _, name in sized}
-        self.sound: dict[tuple[str, tuple[str, ...]], bool] = {}
+        self.sound: dict[Way, bool] = {}
         self.prepare()
 
     def prepare(self) -> None:
@@ -65,24 +69,31 @@ class Judge:
 
     def verdict(self, mutant: Mutant) -> Verdict:
         """Run the devices that use the file, the small ones first, until one fails that passes without the change."""
-        for build in self.builds:
-            for device in self.users(mutant, build):
-                found = self._with(mutant, device, build)
-                if found.outcome != SURVIVED and self._is_sound(device, build):
-                    return found
-        return Verdict(SURVIVED, "")
+        while True:
+            ways = [(device, build) for build in self.builds for device in self.users(mutant, build)]
+            found = self._first_failing(mutant, [way for way in ways if self.sound.get(way, True)])
+            if found is None:
+                return Verdict(SURVIVED, "")
+            (device, build), outcome, reason = found
+            if self._is_sound(device, build):
+                return Verdict(outcome, reason or " ".join((device, *build)))
 
-    def _with(self, mutant: Mutant, device: str, build: tuple[str, ...]) -> Verdict:
+    def _first_failing(self, mutant: Mutant, ways: Iterable[Way]) -> tuple[Way, str, str] | None:
+        """The device and build that do not pass with the change, and how; the file is as it was afterwards."""
         changed = self.work / mutant.path
         changed.write_text(mutant.text, encoding="utf-8")
         try:
-            return Verdict(SURVIVED if self.passes(device, build) else KILLED, " ".join((device, *build)))
-        except DoesNotBuildError as error:
-            return Verdict(LEFT_OUT, str(error))
-        except subprocess.TimeoutExpired:
-            return Verdict(KILLED, f"{device}: time")
+            for way in ways:
+                try:
+                    if not self.passes(*way):
+                        return way, KILLED, ""
+                except DoesNotBuildError as error:
+                    return way, LEFT_OUT, str(error)
+                except subprocess.TimeoutExpired:
+                    return way, KILLED, "time"
         finally:
             shutil.copyfile(self.base / mutant.path, changed)
+        return None
 
     def _is_sound(self, device: str, build: tuple[str, ...]) -> bool:
         """Whether the device passes in that build without a change: one that does not can tell nothing."""
@@ -112,7 +123,7 @@ class Judge:
             errors="replace",
             check=False,
             timeout=RUN_LIMIT,
-            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (memory, resource.RLIM_INFINITY)),
+            preexec_fn=lambda: _bound(memory),
         )
 
     def compile(self, *words: object, folder: Path | None = None) -> str:
@@ -127,6 +138,13 @@ class Judge:
 
 
 NO_FLOAT, FLOAT32 = ("-DFIELDSCRIBE_NO_FLOAT",), ("-DFIELDSCRIBE_FLOAT32",)
+
+
+def _bound(memory: int) -> None:
+    resource.setrlimit(resource.RLIMIT_AS, (memory, resource.RLIM_INFINITY))
+    resource.setrlimit(resource.RLIMIT_CPU, (CPU_LIMIT, CPU_LIMIT))
+
+
 SANITIZED = ("-fsanitize=address,undefined", "-fno-sanitize-recover=all")
 
 
@@ -135,15 +153,13 @@ class OfC(Judge):
 
     language = "c"
     builds = ((), NO_FLOAT, FLOAT32, SANITIZED)
-    few = 2
-    """So many devices, the smallest, are enough for a build that is not the plain one."""
 
     def users(self, mutant: Mutant, build: tuple[str, ...]) -> list[str]:
-        """All in the plain build; the switched branches and the sanitizers take long, and are run for what is left."""
+        """All in the plain build, and in those that switch the changed branch; one small one with sanitizers."""
         found = super().users(mutant, build)
         if build in (NO_FLOAT, FLOAT32):
             switched = any("FLOAT" in condition for condition in conditions_around(mutant.text, mutant.line))
-            return found[: self.few] if switched else []
+            return found if switched else []
         return found[:1] if build else found
 
     def passes(self, device: str, build: Sequence[str]) -> bool:
