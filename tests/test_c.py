@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-import json
 import platform
 import re
 from dataclasses import replace
 from itertools import product
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import pytest
 from c_device import SANITIZERS, STANDARDS, WARNINGS, conformance_source, driver, kitchen, rare_device, write_c
 from fieldscribe.targets import c
 from models import FREQUENCY_SOURCE, kitchen_sink, point, sample_device, trip_device
 from toolchains import compiled, run, succeed, tool
+from vector_file import counts_of, spoil
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from fieldscribe.model import Device
 
 GENERATED = Path(__file__).resolve().parents[1] / "generated"
-SHIPPED = sorted(path.stem for path in (GENERATED / "vectors").glob("*.json"))
+SHIPPED = sorted(path.stem for path in (GENERATED / "vectors").glob("*.txt"))
 FLOATS: dict[str, tuple[str, ...]] = {"float": (), "no_float": ("-DFIELDSCRIBE_NO_FLOAT",)}
 MADE = ("sample_drive", "rare", "kitchen_sink", "kitchen_can", "kitchen_uss")
 CORE = ("c99", "c++17")
@@ -97,10 +97,10 @@ def conforms(folder: Path, device: str, build: Build, out: Path) -> None:
     """Runs all vectors and holds the counts against those of the file."""
     compiler = driver(build.compiler, build.standard)
     program = compiled(compiler, build.flags, conformance_source(folder, device), out / "conformance")
-    vectors = folder / "vectors" / f"{device}.json"
+    vectors = folder / "vectors" / f"{device}.txt"
     done = run([program, vectors])
     assert done.returncode == 0, done.stdout + done.stderr
-    counts = json.loads(vectors.read_text("utf-8"))["counts"]
+    counts = counts_of(vectors.read_text("utf-8"))
     left_out = ("decode", "encode") if build.floats == "no_float" else ()
     assert passed(done.stdout) == {kind: n for kind, n in counts.items() if n and kind not in left_out}
 
@@ -199,58 +199,30 @@ def test_headers_have_no_clang_warning_at_all(
 
 @pytest.mark.parametrize("device", ["sample_drive", "kitchen_can", "kitchen_uss"])
 def test_conformance_catches_each_kind(device: str, folders: dict[str, Path], tmp_path: Path) -> None:
-    text, spoiled = spoil((folders[device] / "vectors" / f"{device}.json").read_text("utf-8"))
-    (tmp_path / "vectors.json").write_text(text, encoding="utf-8")
+    text, spoiled = spoil((folders[device] / "vectors" / f"{device}.txt").read_text("utf-8"))
+    (tmp_path / "vectors.txt").write_text(text, encoding="utf-8")
     program = compiled("gcc", ["-std=c99"], conformance_source(folders[device], device), tmp_path / "conformance")
-    done = run([program, tmp_path / "vectors.json"])
+    done = run([program, tmp_path / "vectors.txt"])
     assert done.returncode == 1
     failed = {row[0]: int(row[3]) for row in map(str.split, done.stdout.splitlines())}
     assert failed == {**spoiled, "total": sum(spoiled.values())}
 
 
-def spoil(text: str) -> tuple[str, dict[str, int]]:
-    """The vectors with the result of every one changed, and how many there are of each kind."""
-    results = {"decode": "float", "decode_count": "count", "encode": "raw", "encode_count": "raw", "name": "name"}
-    results |= {"special": "low", "flag": "number", "bits": "result", "words": "words", "address": "address"}
-    results |= {"block": "count", "flag_name": "name", "place": "addresses", "fixed": "bits", "text_decode": "text"}
-    results |= {"text_encode": "words", "digits": "digits", "digits_encode": "raw", "can_build": "bytes"}
-    results |= {"can_parse": "raw", "can_telegram": "raw", "uss_build": "bytes", "uss_broadcast": "bytes"}
-    results |= {"uss_reply": "words"}
-    lines: list[str] = []
-    counts: dict[str, int] = {}
-    for line in text.splitlines():
-        if not line.startswith('{"kind"'):
-            lines.append(line)
-            continue
-        vector: dict[str, Any] = json.loads(line.rstrip(","))
-        kind = vector["kind"]
-        counts[kind] = counts.get(kind, 0) + 1
-        lines.append(json.dumps(changed(vector, results.get(kind, "status"))) + ("," if line.endswith(",") else ""))
-    return "\n".join(lines) + "\n", counts
-
-
-def changed(vector: dict[str, Any], key: str) -> dict[str, Any]:
-    old = vector.get(key)
-    if vector.get("status", "ok") != "ok" or key == "status":
-        return {**vector, "status": "no_case" if vector["status"] != "no_case" else "ok"}
-    if isinstance(old, int):
-        return {**vector, key: old + 1}
-    if isinstance(old, list):
-        return {**vector, key: [*old, 0]}
-    if key in ("bytes", "text"):
-        return {**vector, key: f"{old}00"}
-    if key == "float":
-        return {**vector, key: f"{int(str(old), 16) ^ 1 << 62:016x}"}
-    return {**vector, key: "other" if old is None else None}
-
-
 def test_vectors_of_another_description_are_refused(sample: Path, tmp_path: Path) -> None:
-    text = (sample / "vectors" / "sample_drive.json").read_text("utf-8")
-    (tmp_path / "vectors.json").write_text(text.replace('"digest": "0', '"digest": "1'), encoding="utf-8")
+    text = (sample / "vectors" / "sample_drive.txt").read_text("utf-8")
     program = compiled("gcc", ["-std=c99"], conformance_source(sample, "sample_drive"), tmp_path / "conformance")
-    assert run([program, tmp_path / "vectors.json"]).returncode == 1
+    for old, new in (("\t0123", "\t1123"), ("vectors\t2", "vectors\t3"), ("\tsample_drive\t", "\tsample\t")):
+        (tmp_path / "vectors.txt").write_text(text.replace(old, new, 1), encoding="utf-8")
+        assert run([program, tmp_path / "vectors.txt"]).returncode == 1
     assert run([program]).returncode == 2
-    assert run([program, tmp_path / "absent.json"]).returncode == 2
+    assert run([program, tmp_path / "absent.txt"]).returncode == 2
+
+
+def test_a_file_that_lacks_vectors_is_refused(sample: Path, tmp_path: Path) -> None:
+    text = (sample / "vectors" / "sample_drive.txt").read_text("utf-8")
+    program = compiled("gcc", ["-std=c99"], conformance_source(sample, "sample_drive"), tmp_path / "conformance")
+    (tmp_path / "vectors.txt").write_text("\n".join(text.split("\n")[:-2]) + "\n", encoding="utf-8")
+    assert run([program, tmp_path / "vectors.txt"]).returncode == 1
 
 
 def test_no_float_is_left(folders: dict[str, Path]) -> None:

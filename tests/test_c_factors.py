@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import random
 import struct
 from itertools import islice
@@ -11,7 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from c_device import SANITIZERS, WARNINGS, conformance_source, floating_factors, rare_device, write_c
-from fieldscribe.targets.vectors.numbers import hex64, quotient
+from fieldscribe.targets.vectors.lines import Lines
+from fieldscribe.targets.vectors.numbers import quotient
 from fieldscribe.targets.vectors.oracle import Oracle, Ratio
 from toolchains import compiled, run
 
@@ -46,7 +46,7 @@ def setting(rng: random.Random, point: Point) -> int:
     return rng.randint(point.least, point.greatest) if rng.random() < 0.3 else rng.randint(1, 9)
 
 
-def draws(rng: random.Random) -> Iterator[dict[str, Any]]:
+def draws(rng: random.Random) -> Iterator[tuple[Any, ...]]:
     """Vectors without end."""
     oracle = Oracle(POINTS)
     while True:
@@ -54,25 +54,22 @@ def draws(rng: random.Random) -> Iterator[dict[str, Any]]:
         settings = {name: setting(rng, POINTS[name]) for name in point.arguments}
         ratio, limits = oracle.ratio(point, settings), oracle.limits(point, settings)
         raw = rng.choice((rng.randint(point.least, point.greatest), rng.randint(max(point.least, -99), 99)))
-        head = {"point": point.name, "with": settings}
+        head = point.name, settings
         if isinstance(ratio, str) or isinstance(limits, str):
-            yield {"kind": "decode_count", **head, "raw": raw, "status": ratio}
-            yield {"kind": "encode_count", **head, "count": raw, "status": ratio}
+            yield *head, "decode_count", raw, ratio
+            yield *head, "encode_count", raw, ratio
             continue
         count = near_count(rng, ratio, raw, point.decimals)
-        for kind, key, number, found in (
-            ("encode_count", "count", count, ratio.raw_of_count(count, point.decimals)),
+        for kind, number, found in (
+            ("encode_count", count, ratio.raw_of_count(count, point.decimals)),
             *encoded_value(rng, ratio, raw),
         ):
             inside = found is not None and any(low <= found <= high for low, high in limits)
-            answer = {"status": "ok", "raw": found} if inside else {"status": "out_of_range"}
-            yield {"kind": kind, **head, key: number, **answer}
+            yield *head, kind, number, *(("ok", found) if inside else ("out_of_range",))
         decoded = ratio.count_of_raw(raw, point.decimals)
-        fits = {"status": "ok", "count": decoded} if -INT64 <= decoded < INT64 else {"status": "overflow"}
-        yield {"kind": "decode_count", **head, "raw": raw, **fits}
+        yield *head, "decode_count", raw, *(("ok", decoded) if -INT64 <= decoded < INT64 else ("overflow",))
         if ratio.divides_exactly(raw):
-            value = hex64(quotient(ratio.numerator(raw), ratio.denominator))
-            yield {"kind": "decode", **head, "raw": raw, "status": "ok", "float": value}
+            yield *head, "decode", raw, "ok", quotient(ratio.numerator(raw), ratio.denominator)
 
 
 def near_count(rng: random.Random, ratio: Ratio, raw: int, decimals: int) -> int:
@@ -83,24 +80,27 @@ def near_count(rng: random.Random, ratio: Ratio, raw: int, decimals: int) -> int
     return count if -INT64 <= count < INT64 and rng.random() < 0.8 else rng.getrandbits(64) - INT64
 
 
-def encoded_value(rng: random.Random, ratio: Ratio, raw: int) -> Iterator[tuple[str, str, str, int | None]]:
+def encoded_value(rng: random.Random, ratio: Ratio, raw: int) -> Iterator[tuple[str, float, int | None]]:
     value = quotient(ratio.numerator(raw), ratio.denominator) * rng.choice((1.0, 1.0 + 2**-52, 1.001))
     if rng.random() < 0.2:
         value = struct.unpack("<d", struct.pack("<Q", rng.getrandbits(64)))[0]
     if isfinite(value):
-        yield "encode", "float", hex64(value), ratio.raw_of_float(value)
+        yield "encode", value, ratio.raw_of_float(value)
 
 
 @pytest.mark.full
 @pytest.mark.parametrize("compiler", ["gcc", "clang"])
 def test_factors_are_exact(compiler: str, tmp_path: Path) -> None:
     write_c(DEVICE, tmp_path)
-    vectors = list(islice(draws(random.Random(compiler)), COUNT))
-    head = json.dumps({"format": 1, "device": DEVICE.id, "digest": DEVICE.digest})[:-1] + ', "vectors": [\n'
-    text = head + ",\n".join(map(json.dumps, vectors)) + "\n]}\n"
-    (tmp_path / "random.json").write_text(text, encoding="utf-8")
+    lines = Lines()
+    for point, settings, kind, *fields in islice(draws(random.Random(compiler)), COUNT):
+        lines.set("point", point)
+        lines.set("with", settings)
+        lines.add(kind, *fields)
+    text = lines.text(DEVICE.id, DEVICE.version, DEVICE.digest)
+    (tmp_path / "random.txt").write_text(text, encoding="utf-8")
     flags = ("-std=c99", "-O2", *WARNINGS, *SANITIZERS[compiler])
     program = compiled(compiler, flags, conformance_source(tmp_path, DEVICE.id), tmp_path / "conformance")
-    done = run([program, tmp_path / "random.json"])
+    done = run([program, tmp_path / "random.txt"])
     assert done.returncode == 0, done.stdout + done.stderr
     assert f"total {COUNT} passed" in done.stdout

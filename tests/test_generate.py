@@ -36,7 +36,7 @@ def test_writes_every_target_once(project: Path, capsys: pytest.CaptureFixture[s
         "c/hitachi_l200.h",
         "python/hitachi_l200/__init__.py",
         "docs/hitachi_l200.md",
-        "vectors/hitachi_l200.json",
+        "vectors/hitachi_l200.txt",
     } <= first.keys()
     assert main(["generate"]) == 0
     assert files(project / "generated") == first

@@ -30,6 +30,7 @@ from fieldscribe.targets.rust.subjects import scope_of
 from models import entry, kitchen_sink, linear, point, sample_device, titles, trip_device
 from rust_crates import can_device, odd_device, rare_device, uss_device, write_crate
 from toolchains import run, succeed, tool
+from vector_file import counts_of
 
 if TYPE_CHECKING:
     import subprocess
@@ -65,7 +66,7 @@ def workspace(tmp_path_factory: pytest.TempPathFactory, request: pytest.FixtureR
         write_crate(make(), out)
     for device in SHIPPED:
         shutil.copytree(ROOT / "generated/rust" / device, out / "rust" / device)
-        shutil.copy(ROOT / "generated/vectors" / f"{device}.json", out / "vectors")
+        shutil.copy(ROOT / "generated/vectors" / f"{device}.txt", out / "vectors")
     folder = out / "rust"
     members = json.dumps(["fieldscribe_runtime", *MODELS, *SHIPPED])
     (folder / "Cargo.toml").write_text(f'[workspace]\nresolver = "2"\nmembers = {members}\n', encoding="utf-8")
@@ -218,18 +219,18 @@ def test_all_crates_name_the_compiler_that_they_need() -> None:
 def test_conforms(workspace: Path, device: str) -> None:
     done = cargo(workspace, "test", "--quiet", "--package", device, "--test", "conformance")
     assert done.returncode == 0, done.stdout + done.stderr
-    counts = json.loads((workspace.parent / "vectors" / f"{device}.json").read_text("utf-8"))["counts"]
+    counts = counts_of((workspace.parent / "vectors" / f"{device}.txt").read_text("utf-8"))
     passed = dict(re.findall(r"^(\w+) (\d+) passed, 0 failed$", done.stdout, re.MULTILINE))
     assert int(passed.pop("total")) == sum(counts.values())
     assert {kind: int(n) for kind, n in passed.items()} == {kind: n for kind, n in counts.items() if n}
 
 
 def test_a_wrong_vector_is_noticed(workspace: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    text = (workspace.parent / "vectors/sample_drive.json").read_text("utf-8")
-    changed = re.sub(r'("kind": "address".*?"address": )0,', r"\g<1>1,", text, count=1)
+    text = (workspace.parent / "vectors/sample_drive.txt").read_text("utf-8")
+    changed = text.replace("\naddress\tcoil\t0\t", "\naddress\tcoil\t1\t", 1)
     assert changed != text
-    (tmp_path / "wrong.json").write_text(changed, encoding="utf-8")
-    monkeypatch.setenv("FIELDSCRIBE_VECTORS", str(tmp_path / "wrong.json"))
+    (tmp_path / "wrong.txt").write_text(changed, encoding="utf-8")
+    monkeypatch.setenv("FIELDSCRIBE_VECTORS", str(tmp_path / "wrong.txt"))
     done = cargo(workspace, "test", "--quiet", "--package", "sample_drive", "--test", "conformance")
     assert done.returncode != 0
     assert re.search(r"^address \d+ passed, 1 failed$", done.stdout, re.MULTILINE)

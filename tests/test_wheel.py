@@ -42,7 +42,7 @@ def test_wheel_installs_and_compiles(tmp_path: Path) -> None:
     for path in (
         "c/hitachi_l200.h",
         "rust/hitachi_l200/Cargo.toml",
-        "vectors/hitachi_l200.json",
+        "vectors/hitachi_l200.txt",
         "docs/hitachi_l200.md",
     ):
         made = (project / "bindings" / path).read_bytes()

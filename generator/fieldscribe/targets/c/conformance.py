@@ -11,23 +11,19 @@ from fieldscribe.targets.c.literals import raw_type
 from fieldscribe.targets.c.points import named_numbers, value_type
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterator, Mapping
 
-    from fieldscribe.model import Device, Point, Special
+    from fieldscribe.model import Device, Point
     from fieldscribe.targets.c.scope import Scope
     from fieldscribe.targets.c.views import DeviceView, PointView
 
 
 @dataclass(frozen=True, slots=True)
 class AdapterView:
-    """One point: `cases` are the macros that answer a kind; flags, names of their numbers and specials go by name."""
+    """One point: `cases` are the macros that answer a kind."""
 
     item: str
-    arguments: tuple[str, ...]
     cases: tuple[str, ...]
-    flags: tuple[tuple[str, str], ...]
-    flag_names: tuple[tuple[str, str, str], ...]
-    specials: tuple[tuple[str, str, str], ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,17 +66,20 @@ def _adapter(point: Point, view: PointView, scope: Scope, extra: Mapping[str, st
         cases.append(extra[view.function])
     return AdapterView(
         view.item,
-        point.arguments if view.declare_all else (),
-        tuple(f"FIELDSCRIBE_{case}" for case in cases),
-        tuple((flag.name, _flag(point, view, flag.name, flag.width)) for flag in point.flags),
-        tuple(
-            (flag.name, entry.name, f"{view.macro}_{upper(flag.name)}_{upper(entry.name)}")
-            for flag in point.flags
-            if flag.width > 1
-            for entry in flag.values
-        ),
-        tuple(_special(special, view) for special in point.specials),
+        tuple(f"FIELDSCRIBE_{case}" for case in (*cases, *_parts(point, view))),
     )
+
+
+def _parts(point: Point, view: PointView) -> Iterator[str]:
+    """What goes by the name of a part: flags, the named numbers of wide ones, special codes."""
+    for flag in point.flags:
+        yield f'FLAG("{flag.name}", {_flag(point, view, flag.name, flag.width)})'
+        for entry in flag.values if flag.width > 1 else ():
+            constant = f"{view.macro}_{upper(flag.name)}_{upper(entry.name)}"
+            yield f'FLAG_NAME("{flag.name}", "{entry.name}", {constant})'
+    for special in point.specials:
+        (first, _), (last, _) = special_defines(special, view.macro)
+        yield f'SPECIAL("{special.name}", {first}, {last})'
 
 
 def _cases(point: Point, view: PointView, scope: Scope) -> list[str]:
@@ -88,7 +87,7 @@ def _cases(point: Point, view: PointView, scope: Scope) -> list[str]:
     function, kind = view.function, view.raw_type
     cases = [f"ADDRESS({view.macro}, {_constants(point, view)})"] if point.address is not None else []
     if view.writable and view.shape != "text":
-        cases.append(f"CHECK({function}_check, {kind}, {_with(point, view.limit_arguments, scope)})")
+        cases.append(f"CHECK({function}_check, {kind}, {_with(view.limit_arguments, scope)})")
     cases += _conversions(point, view, scope)
     enum = named_numbers(point)
     if enum is not None:
@@ -139,18 +138,13 @@ def _constants(point: Point, view: PointView) -> str:
     return " ".join(f"FIELDSCRIBE_{call}" for call in calls)
 
 
-def _special(special: Special, view: PointView) -> tuple[str, str, str]:
-    (first, _), (last, _) = special_defines(special, view.macro)
-    return special.name, first, last
-
-
 def _conversions(point: Point, view: PointView, scope: Scope) -> list[str]:
     function, kind, form = view.function, view.raw_type, view.shape
     if form in ("text", "digits"):
         return _of_parts(point, view)
     arguments = point.arguments if view.declare_all else ()
-    everything = _with(point, arguments, scope)
-    scale = _with(point, view.scale_arguments, scope)
+    everything = _with(arguments, scope)
+    scale = _with(view.scale_arguments, scope)
     attempt = "TRY_" if view.no_value or form == "ruled" else ""
     counted = "" if form == "plain" else "_count"
     number = getattr(view.codec, "count_type", "int64_t") if form != "plain" else value_type(point)
@@ -188,16 +182,14 @@ def _of_parts(point: Point, view: PointView) -> list[str]:
     return cases
 
 
-def _with(point: Point, names: tuple[str, ...], scope: Scope) -> str:
+def _with(names: tuple[str, ...], scope: Scope) -> str:
     if not names:
         return "FIELDSCRIBE_ALONE"
-    order = point.arguments
-    parts = [f"FIELDSCRIBE_WITH({order.index(name)}, {raw_type(scope.points[name])})" for name in names]
-    return " ".join(parts)
+    return " ".join(f'FIELDSCRIBE_WITH("{name}", {raw_type(scope.points[name])})' for name in names)
 
 
 def _flag(point: Point, view: PointView, name: str, width: int) -> str:
-    raw = f"(({view.raw_type})v->raw.bits)"
+    raw = f'(({view.raw_type})fieldscribe_bits(v, "raw"))'
     if width > 1:
         return f"{view.function}_{name}{raw}"
     return f"({raw} & {view.macro}_{upper(name)}_MASK) != 0U"

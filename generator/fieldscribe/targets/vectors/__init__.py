@@ -5,7 +5,6 @@ Nothing here is shared with the other targets: a wrong rule in one of them canno
 
 from __future__ import annotations
 
-from json import dumps
 from typing import TYPE_CHECKING
 
 from fieldscribe.targets.vectors.can import can
@@ -25,8 +24,6 @@ if TYPE_CHECKING:
     from fieldscribe.model import Device, Point
     from fieldscribe.render import Render
 
-FORMAT = 1
-
 _FAMILIES = {"modbus": modbus, "can": can, "uss": uss}
 """What each family adds for its frames."""
 
@@ -34,16 +31,7 @@ _FAMILIES = {"modbus": modbus, "can": can, "uss": uss}
 def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     """The one file of this target: its path, and one vector per line. `render` is not needed."""
     del render
-    lines = collect(device)
-    head = {
-        "format": FORMAT,
-        "device": device.id,
-        "version": device.version,
-        "digest": device.digest,
-        "counts": lines.counts,
-    }
-    opening = dumps(head, ensure_ascii=False)[:-1] + ', "vectors": [\n'
-    yield f"vectors/{device.id}.json", lines.text(opening, "\n]}\n")
+    yield f"vectors/{device.id}.txt", collect(device).text(device.id, device.version, device.digest)
 
 
 def runtime(device: Device) -> Iterable[tuple[str, str]]:
@@ -64,6 +52,7 @@ def collect(device: Device) -> Lines:
 
 
 def _point(lines: Lines, oracle: Oracle, point: Point) -> None:
+    lines.set("point", point.item)
     address(lines, point)
     if point.form == "scaled":
         scaled(lines, oracle, point)

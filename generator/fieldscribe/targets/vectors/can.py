@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from json import dumps
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.can import CanFrame, Receiver, build, checksum, identifier, parse
-from fieldscribe.targets.vectors.lines import Lines, array
 from fieldscribe.targets.vectors.numbers import as_raw
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from fieldscribe.model import Device, Message, Point, Telegram
+    from fieldscribe.targets.vectors.lines import Lines
 
 _NUMBERS = ((0, 0), (1, 1), (0x0102, 0xFEDC), (0xFFFF, 0xFFFF), (500, 1234), (0x00FF, 0xFF00), (0x8000, 0x8000))
 
@@ -35,11 +34,8 @@ def _builds(lines: Lines, units: tuple[int, int], message: Message) -> None:
     for unit, address, raw in dict.fromkeys(tried):
         if unit >= 0:
             status, frame = build(message, units, unit, address, raw)
-            rest = f'"unit": {unit}, "address": {address}, "raw": {raw}, "status": "{status}"'
-            lines.add(
-                "can_build",
-                f'"message": {dumps(message.name)}, {rest}, "id": {frame.id}, "bytes": "{frame.data.hex()}"',
-            )
+            lines.set("message", message.name)
+            lines.add("can_build", unit, address, raw, status, *((frame.id, frame.data) if status == "ok" else ()))
 
 
 def _parses(lines: Lines, units: tuple[int, int], message: Message) -> None:
@@ -68,8 +64,9 @@ def _spoiled(good: CanFrame) -> Iterator[CanFrame]:
 
 def _parsed(lines: Lines, message: Message, unit: int, frame: CanFrame) -> None:
     found = parse(message, unit, frame)
-    head = f'"message": {dumps(message.name)}, "unit": {unit}, "id": {frame.id}, "bytes": "{frame.data.hex()}"'
-    lines.add("can_parse", f'{head}, "status": "{found.status}", "address": {found.address}, "raw": {found.raw}')
+    lines.set("message", message.name)
+    read = (found.address, found.raw) if found.status == "ok" else ()
+    lines.add("can_parse", unit, frame.id, frame.data, found.status, *read)
 
 
 def _telegram(lines: Lines, device: Device, telegram: Telegram) -> None:
@@ -133,8 +130,9 @@ class _Asking:
             pattern = pattern << 16 | word
         if self.point.bits is not None:
             pattern >>= self.point.bits[1]
-        raw = as_raw(self.point, pattern)
-        shown = ", ".join(f'[{frame.id}, "{frame.data.hex()}"]' for frame in frames)
-        head = f'"telegram": {dumps(self.telegram.name)}, "unit": {self.unit}, "frames": [{shown}]'
-        rest = f'"taken": {array(taken)}, "point": {dumps(self.point.item)}, "status": "{status}", "raw": {raw}'
-        self.lines.add("can_telegram", f"{head}, {rest}")
+        self.lines.set("point", self.point.item)
+        self.lines.set("telegram", self.telegram.name, self.unit)
+        shown = [(frame.id, frame.data) for frame in frames]
+        self.lines.add(
+            "can_telegram", shown, taken, status, *((as_raw(self.point, pattern),) if status == "ok" else ())
+        )

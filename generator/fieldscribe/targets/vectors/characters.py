@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.targets.vectors.lines import Lines, array, subject
-
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from fieldscribe.model import Digits, Point
+    from fieldscribe.targets.vectors.lines import Lines
 
 _WRITABLE = {"ascii": frozenset(range(0x20, 0x7F)), "latin-1": frozenset((*range(0x20, 0x7F), *range(0xA0, 0x100)))}
 
@@ -18,7 +17,7 @@ def text(lines: Lines, point: Point) -> None:
     """Texts that fill the words, are shorter, end in blanks, are empty or too long, and bytes that are no letters."""
     if point.text is None:
         return
-    size, head = point.text.characters, subject(point.item)
+    size = point.text.characters
     alphabet = bytes(0x41 + place % 26 for place in range(size))
     received = [alphabet, alphabet[:1], alphabet[:-1], b"", b"A " * (size // 2), b" B", bytes(range(size))]
     received += [
@@ -28,19 +27,13 @@ def text(lines: Lines, point: Point) -> None:
     ]
     if point.readable:
         for data in dict.fromkeys(received):
-            words = _words(data.ljust(size))
-            lines.add("text_decode", f'{head}, "words": {array(words)}, "text": "{data.rstrip(b" ").hex()}"')
+            lines.add("text_decode", _words(data.ljust(size)), data.rstrip(b" "))
     if not point.writable:
         return
     tried = [*received, alphabet + b"Z", alphabet + b" ", b" ~", b"\x7f", b"\x1f", b"A\0", b"\xe4", b"\xff"]
     for data in dict.fromkeys(tried):
         good = len(data) <= size and _WRITABLE[point.text.encoding].issuperset(data)
-        rest = (
-            f'"status": "ok", "words": {array(_words(data.ljust(size)))}'
-            if good
-            else '"status": "out_of_range", "words": []'
-        )
-        lines.add("text_encode", f'{head}, "text": "{data.hex()}", {rest}')
+        lines.add("text_encode", data, *(("ok", _words(data.ljust(size))) if good else ("out_of_range",)))
 
 
 def _words(data: bytes) -> list[int]:
@@ -52,7 +45,7 @@ def digits(lines: Lines, point: Point) -> None:
     layout = point.digits
     if layout is None:
         return
-    head, allowed = subject(point.item), {entry.raw for entry in layout.enum.entries}
+    allowed = {entry.raw for entry in layout.enum.entries}
     places = [10**place for place in reversed(range(layout.count))]
     numbers = _numbers(layout, allowed)
     raws = dict.fromkeys(sum(digit * place for digit, place in zip(one, places, strict=True)) for one in numbers)
@@ -65,15 +58,13 @@ def digits(lines: Lines, point: Point) -> None:
             digit, rest = divmod(rest, place)
             found.append(digit)
         if point.readable:
-            lines.add("digits", f'{head}, "raw": {raw}, "digits": {array(found)}')
+            lines.add("digits", raw, found)
         if point.writable:
-            status = "ok" if allowed.issuperset(found) else "unknown_value"
-            lines.add("check", f'{head}, "raw": {raw}, "status": "{status}"')
+            lines.add("check", raw, "ok" if allowed.issuperset(found) else "unknown_value")
     for one in numbers if point.writable else ():
         raw = sum(digit * place for digit, place in zip(one, places, strict=True))
         good = allowed.issuperset(one) and raw <= 0xFFFF
-        said = f'"status": "ok", "raw": {raw}' if good else '"status": "unknown_value"'
-        lines.add("digits_encode", f'{head}, "digits": {array(one)}, {said}')
+        lines.add("digits_encode", one, *(("ok", raw) if good else ("unknown_value",)))
 
 
 def _numbers(layout: Digits, allowed: Iterable[int]) -> list[tuple[int, ...]]:

@@ -5,12 +5,12 @@ from __future__ import annotations
 from math import inf, isfinite, isnan, nan, nextafter
 from typing import TYPE_CHECKING
 
-from fieldscribe.targets.vectors.lines import Lines, subject
-from fieldscribe.targets.vectors.numbers import bits32, bits64, exact_text, float_of_bits, float_text, hex64
+from fieldscribe.targets.vectors.numbers import bits32, bits64, float_of_bits
 from fieldscribe.targets.vectors.oracle import is_no_value
 
 if TYPE_CHECKING:
     from fieldscribe.model import Point
+    from fieldscribe.targets.vectors.lines import Lines
 
 _PATTERNS_32 = (
     0,
@@ -45,21 +45,19 @@ _GREATEST_64 = 1.7976931348623157e308
 
 def floats(lines: Lines, point: Point) -> None:
     """Decoding of patterns, encoding of values and checking; limits are compared after the conversion to the type."""
-    head, wide = subject(point.item), point.width == 64
+    wide = point.width == 64
     limits = _limits(point, wide)
     if point.readable:
         patterns = dict.fromkeys(_PATTERNS_64 if wide else _PATTERNS_32 + _EDGES_32)
         for special in point.specials:
             patterns.update({special.low: None, special.high: None})
         for bits in patterns:
-            lines.add("decode", f'{head}, "raw": {bits}, {_decoded(point, bits)}')
+            lines.add("decode", bits, *_decoded(point, bits))
     if point.writable:
         for value in dict.fromkeys(map(_Same, _values(point, limits, wide))):
-            text = f'"float": "{hex64(value.value)}", "value": "{float_text(value.value)}"'
-            lines.add("encode", f"{head}, {text}, {_encoded(value.value, limits, wide)}")
+            lines.add("encode", value.value, *_encoded(value.value, limits, wide))
         for bits in _patterns_to_check(limits, wide):
-            status = _admitted(float_of_bits(bits, point.width), limits)
-            lines.add("check", f'{head}, "raw": {bits}, "status": "{status}"')
+            lines.add("check", bits, _admitted(float_of_bits(bits, point.width), limits))
 
 
 class _Same:
@@ -69,18 +67,14 @@ class _Same:
         self.value = value
 
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, _Same) and hex64(self.value) == hex64(other.value)
+        return isinstance(other, _Same) and bits64(self.value) == bits64(other.value)
 
     def __hash__(self) -> int:
-        return hash(hex64(self.value))
+        return hash(bits64(self.value))
 
 
-def _decoded(point: Point, bits: int) -> str:
-    if is_no_value(point, bits):
-        return '"status": "no_value"'
-    value = float_of_bits(bits, point.width)
-    text = exact_text(*value.as_integer_ratio()) if isfinite(value) else float_text(value)
-    return f'"status": "ok", "float": "{hex64(value)}", "value": "{text if len(text) <= 40 else float_text(value)}"'
+def _decoded(point: Point, bits: int) -> tuple[object, ...]:
+    return ("no_value",) if is_no_value(point, bits) else ("ok", float_of_bits(bits, point.width))
 
 
 def _limits(point: Point, wide: bool) -> list[tuple[float, float]]:
@@ -139,12 +133,12 @@ def _patterns_to_check(limits: list[tuple[float, float]], wide: bool) -> list[in
     return list(dict.fromkeys(found))
 
 
-def _encoded(value: float, limits: list[tuple[float, float]], wide: bool) -> str:
+def _encoded(value: float, limits: list[tuple[float, float]], wide: bool) -> tuple[object, ...]:
     if not isfinite(value):
-        return '"status": "not_a_number"' if isnan(value) else '"status": "out_of_range"'
+        return ("not_a_number" if isnan(value) else "out_of_range",)
     pattern = bits64(value) if wide else bits32(value)
     status = "out_of_range" if pattern is None else _admitted(_typed(value, wide), limits)
-    return f'"status": "{status}"' + (f', "raw": {pattern}' if status == "ok" else "")
+    return (status, pattern if status == "ok" else None)
 
 
 def _admitted(number: float, limits: list[tuple[float, float]]) -> str:

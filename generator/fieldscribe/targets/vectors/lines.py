@@ -1,95 +1,73 @@
-"""The lines of a vectors file: one JSON object each, keys in a fixed order, counted by kind."""
+"""The lines of a vectors file, in the forms that the table of kinds fixes, counted by kind."""
 
 from __future__ import annotations
 
-from json import JSONEncoder, dumps
 from typing import TYPE_CHECKING
 
+from fieldscribe.targets.vectors.kinds import KINDS, SETS, Shape
+
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Iterator
 
-KINDS = (
-    "decode",
-    "encode",
-    "decode_count",
-    "encode_count",
-    "check",
-    "name",
-    "special",
-    "flag",
-    "flag_name",
-    "bits",
-    "words",
-    "address",
-    "build",
-    "reply",
-    "printed_build",
-    "printed_reply",
-    "block",
-    "place",
-    "fixed",
-    "text_decode",
-    "text_encode",
-    "digits",
-    "digits_encode",
-    "can_build",
-    "can_parse",
-    "can_telegram",
-    "uss_build",
-    "uss_broadcast",
-    "uss_reply",
-    "uss_printed_build",
-    "uss_printed_reply",
-)
+FORMAT = 2
 
-_TEXT = JSONEncoder(ensure_ascii=False)
+_SHAPES = {name: Shape(name, kind) for name, kind in KINDS.items()}
+_SETS = {name: Shape(name, kind) for name, kind in SETS.items()}
 
 
 class Lines:
-    """Collects vectors in order, and counts them. `text` is all of them, ready to stand in a JSON array."""
+    """Collects vectors in order, and counts them."""
 
     def __init__(self) -> None:
-        self.counts = dict.fromkeys(KINDS, 0)
+        self.counts: dict[str, int] = dict.fromkeys(KINDS, 0)
+        self._held: dict[str, str] = {}
+        self._wanted: dict[str, str] = {}
         self._open: list[str] = []
         self._chunks: list[str] = []
 
-    def add(self, kind: str, rest: str) -> None:
-        """One vector: its kind and the JSON text of all that follows the kind."""
+    def set(self, name: str, *values: object) -> None:
+        """What the vectors from here on share; a line is written when a vector needs it and it is another one."""
+        self._wanted[name] = _SETS[name].line(values)
+
+    def add(self, kind: str, *values: object) -> None:
+        """One vector: the fields of its kind in their order."""
+        if self._wanted:
+            self._settle()
         self.counts[kind] += 1
-        self._open.append(f'{{"kind": "{kind}", {rest}}}')
+        self._open.append(_SHAPES[kind].line(values))
+
+    def _settle(self) -> None:
+        """Writes the sets that changed. A set that is set anew ends those that stand behind it in the table."""
+        for name in SETS:
+            line = self._wanted.get(name)
+            if line is not None and line != self._held.get(name, name):
+                self._open.append(line)
+                self._held[name] = line
+                self._forget_behind(name)
+        self._wanted.clear()
+
+    def _forget_behind(self, name: str) -> None:
+        behind = list(SETS)[list(SETS).index(name) + 1 :]
+        for one in behind:
+            self._held.pop(one, None)
 
     def gather(self) -> None:
         """Joins what was added since: one long string takes less memory than its lines."""
         if self._open:
-            self._chunks.append(",\n".join(self._open))
+            self._chunks.append("\n".join(self._open))
             self._open.clear()
 
-    def text(self, opening: str, closing: str) -> str:
-        """All vectors, one per line, between `opening` and `closing`."""
+    def text(self, device: str, version: str, digest: str) -> str:
+        """The whole file, with a head that names what the lines hold."""
         self.gather()
         chunks, self._chunks = self._chunks, []
-        if not chunks:
-            return opening + closing
-        chunks[0] = opening + chunks[0]
-        chunks[-1] += closing  # before joining: one copy of a long text less
-        return ",\n".join(chunks)
+        return "\n".join([*self._head(device, version, digest), *chunks, ""])
 
-
-def subject(item: str) -> str:
-    """The JSON text that names a point."""
-    return f'"point": {dumps(item)}'
-
-
-def quoted(text: str) -> str:
-    """The JSON text of a string, as UTF-8 will have it."""
-    return _TEXT.encode(text)
-
-
-def with_text(settings: Mapping[str, int]) -> str:
-    """The JSON text of run-time numbers, with its comma before it; empty if there are none."""
-    return f', "with": {dumps(dict(settings))}' if settings else ""
-
-
-def array(numbers: Iterable[int]) -> str:
-    """The JSON text of integers."""
-    return f"[{', '.join(map(str, numbers))}]"
+    def _head(self, device: str, version: str, digest: str) -> Iterator[str]:
+        yield f"vectors\t{FORMAT}\t{device}\t{version}\t{digest}"
+        for name, kind in SETS.items():
+            yield "\t".join(("set", name, *(f"{key}:{form}" for key, form in kind.fields)))
+        for name, kind in KINDS.items():
+            if self.counts[name]:
+                fields = (f"{key}:{form}" for key, form in kind.fields)
+                yield "\t".join(("kind", name, str(self.counts[name]), *fields))

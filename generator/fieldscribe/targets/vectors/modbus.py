@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from json import dumps
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.modbus import (
@@ -19,12 +18,12 @@ from fieldscribe.families.modbus import (
     parse_request,
     profile_of,
 )
-from fieldscribe.targets.vectors.lines import Lines, array
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
     from fieldscribe.model import Bus, Device
+    from fieldscribe.targets.vectors.lines import Lines
 
 _READS = (0x01, 0x02, 0x03, 0x04)
 _TRANSACTION = 0x1234
@@ -45,19 +44,18 @@ def builds(lines: Lines, bus: Bus) -> None:
     for framing in _framings(bus):
         for request in dict.fromkeys(_requests(profile, framing)):
             status, data = build(profile, framing, request)
-            lines.add("build", f'{_request_text(framing, request)}, "status": "{status}", "bytes": "{data.hex()}"')
+            _ask(lines, framing, request)
+            lines.add("build", status, data)
 
 
 def _framings(bus: Bus) -> tuple[str, ...]:
     return tuple(framing for framing in bus.framings if framing in FRAMINGS)
 
 
-def _request_text(framing: str, request: Request) -> str:
-    what = f'"count": {request.count}' if request.function in _READS else f'"values": {array(request.values)}'
-    return (
-        f'"framing": "{framing}", "unit": {request.unit}, "transaction": {request.transaction}, '
-        f'"function": {request.function}, "address": {request.address}, {what}'
-    )
+def _ask(lines: Lines, framing: str, request: Request) -> None:
+    """The request that the next vectors are about: reads have a count, writes as many values."""
+    head = framing, request.unit, request.transaction, request.function, request.address
+    lines.set("request", *head, request.count, () if request.function in _READS else request.values)
 
 
 def _requests(profile: Profile, framing: str) -> Iterator[Request]:
@@ -195,12 +193,12 @@ def _single_bit_errors(data: bytes) -> Iterator[bytes]:
 
 
 def _reply(lines: Lines, framing: str, request: Request, data: bytes) -> None:
-    lines.add("reply", f"{_request_text(framing, request)}, {_reply_text(data, parse_reply(framing, request, data))}")
+    _ask(lines, framing, request)
+    lines.add("reply", data, *_answer(parse_reply(framing, request, data)))
 
 
-def _reply_text(data: bytes, reply: Reply) -> str:
-    rest = f'"values_out": {array(reply.values)}, "exception": {reply.exception}'
-    return f'"bytes": "{data.hex()}", "status": "{reply.status}", {rest}'
+def _answer(reply: Reply) -> tuple[object, ...]:
+    return reply.status, reply.values, reply.exception if reply.status == "exception" else None
 
 
 def printed(lines: Lines, device: Device) -> None:
@@ -208,17 +206,14 @@ def printed(lines: Lines, device: Device) -> None:
     profile = profile_of(device.bus)
     requests: dict[str, Request] = {}
     for one in device.frames:
-        head = f'"frame": {dumps(one.name)}, '
         if one.direction == "request":
             request = parse_request(one.framing, one.corrected)
             if isinstance(request, str):
                 continue
             requests[one.name] = request
             status, data = build(profile, one.framing, request)
-            lines.add(
-                "printed_build",
-                f'{head}{_request_text(one.framing, request)}, "status": "{status}", "bytes": "{data.hex()}"',
-            )
+            _ask(lines, one.framing, request)
+            lines.add("printed_build", one.name, status, data)
             echoes = request.function in (0x05, 0x06, 0x08)
             answers: Iterable[bytes] = (one.printed,) if echoes and not one.valid else ()
         else:
@@ -228,12 +223,12 @@ def printed(lines: Lines, device: Device) -> None:
             request, answers = asked, dict.fromkeys((one.printed, one.corrected))
         for data in answers:
             reply = parse_reply(one.framing, request, data)
-            lines.add("printed_reply", f"{head}{_request_text(one.framing, request)}, {_reply_text(data, reply)}")
+            _ask(lines, one.framing, request)
+            lines.add("printed_reply", one.name, data, *_answer(reply))
 
 
 def blocks(lines: Lines, device: Device) -> None:
     """The batched reads of each group."""
     for group, found in device.blocks.items():
         for index, block in enumerate(found):
-            where = f'"space": {dumps(block.space)}, "function": {block.function}, "address": {block.address}'
-            lines.add("block", f'"group": {dumps(group)}, "index": {index}, {where}, "count": {block.count}')
+            lines.add("block", group, index, block.space, block.function, block.address, block.count)

@@ -1,11 +1,9 @@
-"""Exact numbers: rounding as the design fixes it, binary64 and binary32 patterns, and how numbers read in the file."""
+"""Exact numbers: rounding as the design fixes it, binary64 and binary32 patterns."""
 
 from __future__ import annotations
 
 import math
 import struct
-from fractions import Fraction
-from functools import lru_cache
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -71,31 +69,3 @@ def bits32(value: float) -> int | None:
     # A normal number's 24th bit adds one to the exponent field, and so does a carry out of the fraction.
     pattern = places if exponent == -149 else places + ((exponent + 149) << 23)
     return None if pattern >= 0x7F80_0000 else sign | pattern
-
-
-@lru_cache(maxsize=4096)
-def decimal_places(under: int) -> int | None:
-    """How many decimals a fraction with this denominator needs; None if no number of them is enough."""
-    rest, twos, fives = under, 0, 0
-    while rest % 2 == 0:
-        rest, twos = rest // 2, twos + 1
-    while rest % 5 == 0:
-        rest, fives = rest // 5, fives + 1
-    return max(twos, fives) if rest == 1 else None
-
-
-def exact_text(over: int, under: int) -> str:
-    """Writes over / under (under > 0) as an exact decimal if there is one of at most 24 places, else as a fraction."""
-    places = decimal_places(under)
-    if places is None or places > 24:
-        return str(Fraction(over, under))
-    if places == 0:
-        return str(over // under)
-    digits = str(abs(over) * 10**places // under).rjust(places + 1, "0")
-    text = f"{digits[:-places]}.{digits[-places:]}".rstrip("0").rstrip(".")
-    return f"-{text}" if over < 0 else text
-
-
-def float_text(value: float) -> str:
-    """A binary64 in the fewest digits that tell it apart."""
-    return repr(value).removesuffix(".0")

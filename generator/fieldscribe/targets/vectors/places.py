@@ -2,41 +2,35 @@
 
 from __future__ import annotations
 
-from json import dumps
 from typing import TYPE_CHECKING
 
-from fieldscribe.targets.vectors.lines import Lines, array, quoted, subject
 from fieldscribe.targets.vectors.numbers import as_raw
 from fieldscribe.targets.vectors.oracle import outer_bounds
 from fieldscribe.text import line
 
 if TYPE_CHECKING:
     from fieldscribe.model import Point
-
-KEYS = frozenset({"kind", "point", "space", "address", "words", "code", "raw_min", "raw_max", "decimals"})
-"""Keys of their own in `address` vectors; the manual's other numberings stand beside them under their own names."""
+    from fieldscribe.targets.vectors.lines import Lines
 
 
 def address(lines: Lines, point: Point) -> None:
     """Where the point is on the wire and in the manual, the outer limits of its raw numbers, the unit of its counts."""
     if point.address is None:
         return
-    text = f'"space": {dumps(point.places[0].space)}, "address": {point.address}, "words": {point.words}'
-    text += f', "code": {"null" if point.code is None else quoted(line(point.code))}'
-    form = point.form
-    if form not in ("float", "text", "digits"):
-        low, high = outer_bounds(point)
-        text += f', "raw_min": {low}, "raw_max": {high}'
-    if form == "scaled":
-        text += f', "decimals": {point.decimals}'
-    for key, number in point.references.items():
-        if key not in KEYS:
-            text += f', "{key}": {quoted(line(number)) if isinstance(number, str) else number}'
-    lines.add("address", f"{subject(point.item)}, {text}")
+    low, high = outer_bounds(point) if point.form not in ("float", "text", "digits") else (None, None)
+    lines.add(
+        "address",
+        point.places[0].space,
+        point.address,
+        point.words,
+        None if point.code is None else line(point.code),
+        low,
+        high,
+        point.decimals if point.form == "scaled" else None,
+        {key: line(str(number)) for key, number in point.references.items()},
+    )
     if point.index is not None or point.telegram is not None or point.text is not None:
-        index = "null" if point.index is None else str(point.index)
-        rest = f'"addresses": {array(point.addresses)}, "index": {index}, "telegram": {dumps(point.telegram)}'
-        lines.add("place", f"{subject(point.item)}, {rest}")
+        lines.add("place", point.addresses, point.index, point.telegram)
 
 
 def words(lines: Lines, point: Point) -> None:
@@ -56,7 +50,7 @@ def words(lines: Lines, point: Point) -> None:
         raw = as_raw(point, pattern)
         whole = raw & (1 << 16 * count) - 1  # a signed byte fills its word with its sign
         parts = [whole >> 16 * (count - 1 - place) & 0xFFFF for place in order]
-        lines.add("words", f'{subject(point.item)}, "raw": {raw}, "words": {array(parts)}')
+        lines.add("words", raw, parts)
 
 
 _NARROW = (0x8000, 0x8001, 0xFFFD, 0x7FFE)

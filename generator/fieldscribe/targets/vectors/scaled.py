@@ -7,61 +7,53 @@ from math import inf, nan, nextafter
 from typing import TYPE_CHECKING
 
 from fieldscribe.targets.vectors import samples
-from fieldscribe.targets.vectors.lines import Lines, subject, with_text
-from fieldscribe.targets.vectors.numbers import exact_text, float_text, hex64, quotient
+from fieldscribe.targets.vectors.numbers import quotient
 from fieldscribe.targets.vectors.oracle import INT64, Oracle, Ratio, is_no_value
 
 if TYPE_CHECKING:
     from fieldscribe.model import Point
+    from fieldscribe.targets.vectors.lines import Lines
 
 INT32 = 1 << 31
-
-
-def _float(value: float) -> str:
-    return f'"float": "{hex64(value)}", "value": "{float_text(value)}"'
-
-
-_NAN, _INFINITY, _MINUS_INFINITY = _float(nan), _float(inf), _float(-inf)
-_HUGE, _MINUS_ZERO = _float(1e300), _float(-0.0)
 
 
 def scaled(lines: Lines, oracle: Oracle, point: Point) -> None:
     """All vectors of a scaled point, for each setting of what it depends on."""
     full = True
     for settings in samples.settings(oracle, point) if point.arguments else [{}]:
-        head = subject(point.item) + with_text(settings)
+        lines.set("with", settings)
         ratio = oracle.ratio(point, settings)
         limits = oracle.limits(point, settings)
         if isinstance(ratio, str):
-            _no_rule(lines, point, head, ratio)
+            _no_rule(lines, point, ratio)
         elif isinstance(limits, str):
-            _no_limits(lines, point, head, ratio, limits)
+            _no_limits(lines, point, ratio, limits)
         else:
-            _Sheet(lines, point, head, ratio, limits, full).write()
+            _Sheet(lines, point, ratio, limits, full).write()
             full = False
 
 
-def _no_rule(lines: Lines, point: Point, head: str, status: str) -> None:
+def _no_rule(lines: Lines, point: Point, status: str) -> None:
     """A setting with which nothing can be computed."""
     raw = next(raw for raw in (1, 0, point.greatest) if not is_no_value(point, raw))
     if point.readable:
-        lines.add("decode", f'{head}, "raw": {raw}, "status": "{status}"')
-        lines.add("decode_count", f'{head}, "raw": {raw}, "status": "{status}"')
+        lines.add("decode", raw, status)
+        lines.add("decode_count", raw, status)
     if point.writable:
-        lines.add("encode", f'{head}, {_float(1.0)}, "status": "{status}"')
-        lines.add("encode_count", f'{head}, "count": 1, "status": "{status}"')
-        lines.add("encode", f'{head}, {_NAN}, "status": "not_a_number"')
+        lines.add("encode", 1.0, status)
+        lines.add("encode_count", 1, status)
+        lines.add("encode", nan, "not_a_number")
 
 
-def _no_limits(lines: Lines, point: Point, head: str, ratio: Ratio, status: str) -> None:
+def _no_limits(lines: Lines, point: Point, ratio: Ratio, status: str) -> None:
     """A setting with which values can be computed but not what may be written."""
     if point.writable:
         # Inside the outer bounds of the limit, so that nothing but the limit can refuse it.
         raw = samples.limits_of(point)[0].greatest
         value = quotient(ratio.numerator(raw), ratio.denominator)
-        lines.add("encode", f'{head}, {_float(value)}, "status": "{status}"')
-        lines.add("encode_count", f'{head}, "count": {ratio.count_of_raw(raw, point.decimals)}, "status": "{status}"')
-        lines.add("check", f'{head}, "raw": {raw}, "status": "{status}"')
+        lines.add("encode", value, status)
+        lines.add("encode_count", ratio.count_of_raw(raw, point.decimals), status)
+        lines.add("check", raw, status)
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,7 +62,6 @@ class _Sheet:
 
     lines: Lines
     point: Point
-    head: str
     ratio: Ratio
     limits: samples.Limits
     full: bool
@@ -88,56 +79,49 @@ class _Sheet:
                 self._check()
 
     def _decode(self, raws: list[int]) -> None:
-        ratio, head, add, under = self.ratio, self.head, self.lines.add, self.ratio.denominator
+        ratio, add, under = self.ratio, self.lines.add, self.ratio.denominator
         telling = samples.telling_raw(ratio)
         held = telling is not None and self.point.least <= telling <= self.point.greatest
         for raw in dict.fromkeys((*raws, telling) if held and telling is not None else raws):
             if is_no_value(self.point, raw):
-                add("decode", f'{head}, "raw": {raw}, "status": "no_value"')
+                add("decode", raw, "no_value")
             elif ratio.divides_exactly(raw):
-                over = ratio.numerator(raw)
-                bits = hex64(over / under)
-                add(
-                    "decode",
-                    f'{head}, "raw": {raw}, "status": "ok", "float": "{bits}", "value": "{exact_text(over, under)}"',
-                )
+                add("decode", raw, "ok", ratio.numerator(raw) / under)
 
     def _decode_count(self, raws: list[int]) -> None:
-        ratio, head, add, decimals = self.ratio, self.head, self.lines.add, self.point.decimals
+        ratio, add, decimals = self.ratio, self.lines.add, self.point.decimals
         for raw in raws:
             if is_no_value(self.point, raw):
-                add("decode_count", f'{head}, "raw": {raw}, "status": "no_value"')
+                add("decode_count", raw, "no_value")
                 continue
             count = ratio.count_of_raw(raw, decimals)
-            rest = f'"status": "ok", "count": {count}' if -INT64 <= count < INT64 else '"status": "overflow"'
-            add("decode_count", f'{head}, "raw": {raw}, {rest}')
+            add("decode_count", raw, *(("ok", count) if -INT64 <= count < INT64 else ("overflow",)))
 
     def _inside(self, raw: int | None) -> bool:
         return raw is not None and any(low <= raw <= high for low, high in self.limits)
 
-    def _encoded(self, raw: int | None) -> str:
-        return f'"status": "ok", "raw": {raw}' if self._inside(raw) else '"status": "out_of_range"'
+    def _encoded(self, raw: int | None) -> tuple[object, ...]:
+        return ("ok", raw) if self._inside(raw) else ("out_of_range",)
 
     def _encode(self) -> None:
-        ratio, head, add = self.ratio, self.head, self.lines.add
+        ratio, add = self.ratio, self.lines.add
         values = {quotient(ratio.numerator(raw), ratio.denominator): None for raw in samples.edges(self.limits)}
         values.update(dict.fromkeys(quotient(over, under) for over, under in samples.just_outside(ratio, self.limits)))
         for half in samples.halves(ratio, self.limits):
             values.update({half: None, nextafter(half, 0.0): None})
         for value in values:
-            text = f'"float": "{hex64(value)}", "value": "{float_text(value)}"'
-            add("encode", f"{head}, {text}, {self._encoded(ratio.raw_of_float(value))}")
+            add("encode", value, *self._encoded(ratio.raw_of_float(value)))
         if self.full:
-            add("encode", f"{head}, {_MINUS_ZERO}, {self._encoded(ratio.raw_of_float(-0.0))}")
-            add("encode", f'{head}, {_NAN}, "status": "not_a_number"')
-            add("encode", f'{head}, {_INFINITY}, "status": "out_of_range"')
-            add("encode", f'{head}, {_MINUS_INFINITY}, "status": "out_of_range"')
-            add("encode", f"{head}, {_HUGE}, {self._encoded(ratio.raw_of_float(1e300))}")
+            add("encode", -0.0, *self._encoded(ratio.raw_of_float(-0.0)))
+            add("encode", nan, "not_a_number")
+            add("encode", inf, "out_of_range")
+            add("encode", -inf, "out_of_range")
+            add("encode", 1e300, *self._encoded(ratio.raw_of_float(1e300)))
 
     def _encode_count(self) -> None:
-        ratio, head, add, decimals = self.ratio, self.head, self.lines.add, self.point.decimals
+        ratio, add, decimals = self.ratio, self.lines.add, self.point.decimals
         for count in self._counts():
-            add("encode_count", f'{head}, "count": {count}, {self._encoded(ratio.raw_of_count(count, decimals))}')
+            add("encode_count", count, *self._encoded(ratio.raw_of_count(count, decimals)))
 
     def _counts(self) -> list[int]:
         """Counts of the limits and beyond, around the halves on both sides of each limit, and ends of the integers."""
@@ -159,5 +143,4 @@ class _Sheet:
 
     def _check(self) -> None:
         for raw in samples.raws_to_check(self.point, self.limits):
-            status = "ok" if self._inside(raw) else "out_of_range"
-            self.lines.add("check", f'{self.head}, "raw": {raw}, "status": "{status}"')
+            self.lines.add("check", raw, "ok" if self._inside(raw) else "out_of_range")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from json import dumps
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.uss import (
@@ -19,12 +18,12 @@ from fieldscribe.families.uss import (
     parse,
     telegram,
 )
-from fieldscribe.targets.vectors.lines import Lines, array
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from fieldscribe.model import Bus, Device, Frame
+    from fieldscribe.targets.vectors.lines import Lines
 
 _TASK_WIDTHS = {2: 1, 3: 2, 7: 1, 8: 2, 11: 2, 12: 1, 13: 2, 14: 1}
 """How many words of value the tasks that change something carry."""
@@ -47,36 +46,34 @@ class _Dialogue:
     def __init__(self, lines: Lines, bus: Bus, link: Link) -> None:
         self.lines, self.bus, self.link = lines, bus, link
         self.words = tuple(0x047F + 0x3333 * place & 0xFFFF for place in range(link.pzd))
-        self._set = f'"pkw": {link.pkw}, "pzd": {link.pzd}'
 
-    def _head(self, request: Request) -> str:
-        first = "true" if self.link.single_first else "false"
-        asked = f'"task": {request.task}, "parameter": {request.parameter}, "index": {request.index}'
-        return f'{self._set}, "single_first": {first}, "unit": {request.unit}, {asked}'
+    def _ask(self, request: Request) -> None:
+        self._on_link()
+        asked = request.unit, request.task, request.parameter, request.index
+        self.lines.set("task", *asked, request.width, request.value, request.words)
+
+    def _on_link(self) -> None:
+        self.lines.set("link", self.link.pkw, self.link.pzd, 1 if self.link.single_first else None)
 
     def built(self, request: Request, frame: str | None = None) -> None:
         """The bytes of a request; `frame` names the manual's example that it is."""
-        status, data = build(self.bus, self.link, request)
-        rest = f'"width": {request.width}, "value": {request.value}, "words": {array(request.words)}'
         kind, lead = _kind("build", frame)
-        self.lines.add(kind, f'{lead}{self._head(request)}, {rest}, "status": "{status}", "bytes": "{data.hex()}"')
+        self._ask(request)
+        self.lines.add(kind, *lead, *build(self.bus, self.link, request))
 
     def answered(self, request: Request, data: bytes, frame: str | None = None) -> None:
         """What bytes say as the answer to a request."""
         found = parse(self.bus, self.link, request, data)
-        rest = (
-            f'"response": {found.response}, "width": {found.width}, "value": {found.value}, '
-            f'"error": {found.error}, "words": {array(found.words)}'
-        )
         kind, lead = _kind("reply", frame)
-        head = f'{lead}{self._head(request)}, "bytes": "{data.hex()}"'
-        self.lines.add(kind, f'{head}, "status": "{found.status}", {rest}')
+        self._ask(request)
+        parts: dict[str, tuple[object, ...]] = {"ok": (found.response, found.width, found.value, 0, found.words)}
+        parts["refused"] = (found.response, 0, 0, found.error)
+        self.lines.add(kind, *lead, data, found.status, *parts.get(found.status, ()))
 
     def sent(self, mask: tuple[int, ...], words: tuple[int, ...]) -> None:
         """A telegram to all units."""
-        status, data = broadcast(self.bus, self.link, mask, words)
-        head = f'{self._set}, "mask": {array(mask)}, "words": {array(words)}'
-        self.lines.add("uss_broadcast", f'{head}, "status": "{status}", "bytes": "{data.hex()}"')
+        self._on_link()
+        self.lines.add("uss_broadcast", mask, words, *broadcast(self.bus, self.link, mask, words))
 
     def parameter_part(self, request: Request, response: int) -> tuple[int, ...]:
         """That of an answer, with recognisable values; of variable length as long as it must be."""
@@ -87,8 +84,8 @@ class _Dialogue:
         return (number, index, 0x4248, 0x0006)[:size]
 
 
-def _kind(what: str, frame: str | None) -> tuple[str, str]:
-    return (f"uss_{what}", "") if frame is None else (f"uss_printed_{what}", f'"frame": {dumps(frame)}, ')
+def _kind(what: str, frame: str | None) -> tuple[str, tuple[str, ...]]:
+    return (f"uss_{what}", ()) if frame is None else (f"uss_printed_{what}", (frame,))
 
 
 def _links(bus: Bus) -> Iterator[Link]:

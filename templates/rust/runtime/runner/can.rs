@@ -3,7 +3,7 @@
 
 use fieldscribe_runtime::can::{Frame, Message, ParseError, Profile, Received, Receiver, Telegram};
 
-use super::{bytes, hex, same, Number, Outcome, Vector};
+use super::{bytes, same, Number, Outcome, Vector};
 
 /// A message into a frame. What an address or a raw number cannot be in Rust is refused here.
 pub fn build(vector: &Vector, profile: &Profile, messages: &[&Message]) -> Outcome {
@@ -12,28 +12,28 @@ pub fn build(vector: &Vector, profile: &Profile, messages: &[&Message]) -> Outco
     let (address_held, raw_held) = (address.unwrap_or_default(), raw.unwrap_or_default());
     let found = message.build(profile, unit(vector), address_held, raw_held);
     let (status, id, data) = match (found, address, raw) {
-        (Err(error), ..) => (error.name(), 0, String::new()),
-        (Ok(_), None, _) => ("bad_address", 0, String::new()),
-        (Ok(_), _, None) => ("bad_value", 0, String::new()),
-        (Ok(frame), ..) => ("ok", frame.id(), hex(frame.bytes())),
+        (Err(error), ..) => (error.name(), 0, Vec::new()),
+        (Ok(_), None, _) => ("bad_address", 0, Vec::new()),
+        (Ok(_), _, None) => ("bad_value", 0, Vec::new()),
+        (Ok(frame), ..) => ("ok", frame.id(), frame.bytes().to_vec()),
     };
-    same(vector.text("status"), status)?;
-    same(vector.raw("id"), id)?;
-    same(vector.text("bytes"), data.as_str())
+    same(vector.text("status").as_str(), status)?;
+    same(vector.count("id"), id)?;
+    same(vector.bytes("bytes"), data)
 }
 
 /// A frame as a message.
 pub fn parse(vector: &Vector, messages: &[&Message]) -> Outcome {
     let message = find(vector, messages)?;
-    let frame = Frame::new(vector.raw("id"), &bytes(vector.text("bytes")));
+    let frame = Frame::new(vector.raw("id"), &vector.bytes("bytes"));
     let found = message.parse(unit(vector), &frame);
     same(
-        vector.text("status"),
+        vector.text("status").as_str(),
         found.map_or_else(ParseError::name, |_| "ok"),
     )?;
     let content = found.unwrap_or_default();
-    same(vector.raw("address"), content.address)?;
-    same(vector.raw("raw"), content.raw)
+    same(vector.count("address"), content.address)?;
+    same(vector.count("raw"), content.raw)
 }
 
 /// Frames of a telegram, and a point of it.
@@ -41,21 +41,24 @@ pub fn can_telegram<P>(vector: &Vector) -> Outcome
 where
     P: Received<Raw: Number + PartialEq + std::fmt::Debug>,
 {
-    same(vector.text("telegram"), P::Telegram::NAME)?;
+    same(vector.text("telegram").as_str(), P::Telegram::NAME)?;
     let mut receiver = Receiver::<P::Telegram>::new(unit(vector));
     let frames = vector.pairs("frames");
     let taken = frames.iter().map(|(id, data)| {
-        let id = u32::try_from(*id).unwrap_or(u32::MAX);
-        u8::from(receiver.take(&Frame::new(id, data)))
+        let id = id.parse().unwrap_or(u32::MAX);
+        u8::from(receiver.take(&Frame::new(id, &bytes(data))))
     });
     let taken: Vec<u8> = taken.collect();
-    same(vector.numbers("taken").unwrap_or_default(), taken)?;
+    same(vector.numbers("taken"), taken)?;
     match receiver.raw::<P>() {
         Ok(raw) => {
-            same(vector.text("status"), "ok")?;
+            same(vector.text("status").as_str(), "ok")?;
             same(vector.raw("raw"), raw)
         }
-        Err(error) => same(vector.text("status"), error.name()),
+        Err(error) => {
+            same(vector.number("raw"), None)?;
+            same(vector.text("status").as_str(), error.name())
+        }
     }
 }
 

@@ -5,57 +5,16 @@
 
 pub mod frames;
 
-use std::collections::BTreeMap;
+use std::cell::Cell;
 use std::process::ExitCode;
 
 use fieldscribe_runtime::{
     BitGroup, CountReadable, CountWritable, Decoded, Error, Point, Raw, Readable, Text, Whole,
     Writable,
 };
-use serde_json::Value;
 
 /// Nothing, or what differs.
 pub type Outcome = Result<(), String>;
-
-/// The kinds of vectors in the order of the report.
-const KINDS: [&str; 31] = [
-    "decode",
-    "encode",
-    "decode_count",
-    "encode_count",
-    "check",
-    "name",
-    "special",
-    "flag",
-    "flag_name",
-    "bits",
-    "words",
-    "address",
-    "build",
-    "reply",
-    "printed_build",
-    "printed_reply",
-    "block",
-    "place",
-    "fixed",
-    "text_decode",
-    "text_encode",
-    "digits",
-    "digits_encode",
-    "can_build",
-    "can_parse",
-    "can_telegram",
-    "uss_build",
-    "uss_broadcast",
-    "uss_reply",
-    "uss_printed_build",
-    "uss_printed_reply",
-];
-
-/// The keys of an `address` vector that are no numbering of the manual.
-const OWN_KEYS: [&str; 9] = [
-    "kind", "point", "space", "address", "words", "code", "raw_min", "raw_max", "decimals",
-];
 
 /// A function over the points of a device: which of them runs a vector, none if it is not in the table.
 #[macro_export]
@@ -88,13 +47,13 @@ macro_rules! table {
     ($run:ident $point:ident (at $($constant:ident $key:literal)*) $vector:ident) => {
         runner::$run::<device::points::$point>(
             $vector,
-            &[$(($key, device::points::$point::$constant.into())),*],
+            &[$(($key, device::points::$point::$constant.to_string())),*],
         )
     };
     ($run:ident $point:ident (text $($constant:ident $key:literal)*) $vector:ident) => {
         runner::place_of::<device::points::$point>(
             $vector,
-            &[$(($key, device::points::$point::$constant.into())),*],
+            &[$(($key, device::points::$point::$constant.to_string())),*],
         )
     };
     ($run:ident $point:ident (sizes $characters:literal $words:literal) $vector:ident) => {
@@ -140,87 +99,155 @@ macro_rules! table {
     }};
 }
 
-/// One vector.
-pub struct Vector(Value);
+/// The fields of a kind or a set: their names, and whether they are for people alone.
+struct Shape<'a> {
+    name: &'a str,
+    keys: Vec<(&'a str, bool)>,
+    announced: usize,
+    passed: usize,
+    failed: usize,
+}
 
-impl Vector {
+impl<'a> Shape<'a> {
+    /// A line of the head, behind its first word.
+    fn new(parts: &[&'a str], counted: bool) -> Self {
+        let (name, announced) = (parts[0], parts.get(1).and_then(|count| count.parse().ok()));
+        let fields = parts.iter().skip(if counted { 2 } else { 1 });
+        let keys = fields.map(|field| field.split_once(':').unwrap_or((field, "")));
+        Self {
+            name,
+            keys: keys.map(|(key, form)| (key, form == "note")).collect(),
+            announced: announced.unwrap_or_default(),
+            passed: 0,
+            failed: 0,
+        }
+    }
+}
+
+/// One line: what it asks and answers, and what the sets before it say.
+pub struct Vector<'a> {
+    line: &'a str,
+    kind: &'a str,
+    fields: Vec<(&'a str, &'a str)>,
+    shared: Vec<(&'a str, &'a str)>,
+    used: Cell<u32>,
+}
+
+impl<'a> Vector<'a> {
+    /// A field; none where it is absent. A field that nothing has is a fault of the runner.
+    fn field(&self, key: &str) -> Option<&'a str> {
+        let own = self.fields.iter().position(|(name, _)| *name == key);
+        if let Some(place) = own {
+            self.used.set(self.used.get() | 1 << place);
+        }
+        let shared = self.shared.iter().rev().find(|(name, _)| *name == key);
+        let field = own.map_or_else(
+            || shared.map(|pair| pair.1),
+            |place| Some(self.fields[place].1),
+        );
+        field.filter(|field| *field != "-")
+    }
+
+    /// A text with its escapes undone, if it is there.
+    pub fn said(&self, key: &str) -> Option<String> {
+        self.field(key).map(unescaped)
+    }
+
     /// A text; empty if there is none.
-    pub fn text(&self, key: &str) -> &str {
-        self.0[key].as_str().unwrap_or_default()
+    pub fn text(&self, key: &str) -> String {
+        self.said(key).unwrap_or_default()
     }
 
     /// An integer, if it is there.
     pub fn number(&self, key: &str) -> Option<i128> {
-        number(&self.0[key])
+        self.field(key)?.parse().ok()
     }
 
-    /// The integers of an array, if it is there.
-    pub fn numbers<T: Number>(&self, key: &str) -> Option<Vec<T>> {
-        let items = self.0[key].as_array()?.iter();
-        Some(
-            items
-                .filter_map(number)
-                .filter_map(T::from_number)
-                .collect(),
-        )
+    /// The integers of a list; none if it is absent.
+    pub fn numbers<T: Number>(&self, key: &str) -> Vec<T> {
+        let items = self.field(key).into_iter().flat_map(|list| list.split(','));
+        let numbers = items.filter_map(|item| item.parse().ok());
+        numbers.filter_map(T::from_number).collect()
+    }
+
+    /// Bytes; none if they are absent.
+    pub fn bytes(&self, key: &str) -> Vec<u8> {
+        self.field(key).map(bytes).unwrap_or_default()
     }
 
     /// A raw number; the vectors hold none that its type does not.
     pub fn raw<T: Number>(&self, key: &str) -> T {
         let number = self.number(key).and_then(T::from_number);
-        number.unwrap_or_else(|| panic!("{key} of {} is no such number", self.0))
+        number.unwrap_or_else(|| panic!("{key} of {} is no such number", self.line))
+    }
+
+    /// A raw number that is 0 where it is absent.
+    pub fn count<T: Number + Default>(&self, key: &str) -> T {
+        let number = self.number(key).and_then(T::from_number);
+        number.unwrap_or_default()
+    }
+
+    /// The names and texts of a map.
+    pub fn pairs(&self, key: &str) -> Vec<(String, String)> {
+        let pairs = self.field(key).into_iter().flat_map(|list| list.split(','));
+        let pairs = pairs.filter_map(|pair| pair.split_once('='));
+        pairs
+            .map(|(name, text)| (unescaped(name), unescaped(text)))
+            .collect()
     }
 
     /// The raw number of a point that this one needs.
     pub fn with<T: Number>(&self, name: &str) -> T {
-        let number = number(&self.0["with"][name]).and_then(T::from_number);
-        number.unwrap_or_else(|| panic!("{} lacks {name}", self.0))
+        let pairs = self.pairs("with").into_iter();
+        let number = pairs
+            .filter(|(one, _)| one == name)
+            .find_map(|(_, raw)| raw.parse().ok());
+        let number = number.and_then(T::from_number);
+        number.unwrap_or_else(|| panic!("{} lacks {name}", self.line))
     }
 
     /// The point, and what of it.
     pub fn subject(&self) -> String {
-        let mut part = [self.text("special"), self.text("flag")].concat();
-        if self.text("kind") == "flag_name" {
-            part = format!("{part} {}", self.text("name"));
-        }
-        let point = self.text("point");
-        if part.is_empty() {
-            point.to_owned()
-        } else {
-            format!("{point} {part}")
-        }
-    }
-
-    /// A truth.
-    pub fn truth(&self, key: &str) -> bool {
-        self.0[key].as_bool().unwrap_or_default()
-    }
-
-    /// Pairs of a number and bytes.
-    pub fn pairs(&self, key: &str) -> Vec<(i128, Vec<u8>)> {
-        let pairs = self.0[key].as_array().into_iter().flatten();
-        let pair = |pair: &Value| Some((number(&pair[0])?, bytes(pair[1].as_str()?)));
-        pairs.filter_map(pair).collect()
+        let part = match self.kind {
+            "special" => self.text("special"),
+            "flag" => self.text("flag"),
+            "flag_name" => [self.text("flag"), self.text("name")].join(" "),
+            _ => return self.text("point"),
+        };
+        [self.text("point"), part].join(" ")
     }
 
     fn float(&self) -> f64 {
-        f64::from_bits(u64::from_str_radix(self.text("float"), 16).unwrap_or_default())
+        let digits = format!("{:0<16}", self.field("value").unwrap_or_default());
+        f64::from_bits(u64::from_str_radix(&digits, 16).unwrap_or_default())
     }
 
     /// Whether the status, and what is expected beside it, are what came out.
-    fn expect(&self, found: Result<Value, Error>, key: &str) -> Outcome {
-        let (status, value) = match found {
-            Ok(value) => ("ok", value),
-            Err(error) => (error.name(), Value::Null),
-        };
-        same(self.text("status"), status)?;
-        same(&self.0[key], &value)
+    fn expect<T: Number>(&self, found: Result<T, Error>, key: &str) -> Outcome {
+        let status = found.as_ref().map_or_else(|error| error.name(), |_| "ok");
+        same(self.text("status").as_str(), status)?;
+        same(self.number(key), found.ok().map(Number::to_number))
+    }
+
+    /// That every field was held against something, but for those that are for people alone.
+    fn complete(&self, shape: &Shape) -> Outcome {
+        for (place, (key, note)) in shape.keys.iter().enumerate() {
+            let used = *note || self.used.get() & 1 << place != 0 || self.fields[place].1 == "-";
+            same(true, used).map_err(|_| format!("nothing reads {key}"))?;
+        }
+        Ok(())
     }
 }
 
-fn number(value: &Value) -> Option<i128> {
-    let signed = value.as_i64().map(i128::from);
-    signed.or_else(|| value.as_u64().map(i128::from))
+/// A text with its escapes undone; a percent sign alone is an empty one.
+fn unescaped(field: &str) -> String {
+    let mut parts = field.split('%');
+    let mut found = parts.next().unwrap_or_default().as_bytes().to_vec();
+    for part in parts.filter(|part| part.len() >= 2) {
+        found.extend(bytes(&part[..2]));
+        found.extend(part[2..].bytes());
+    }
+    String::from_utf8_lossy(&found).into_owned()
 }
 
 /// Bytes as the vectors have them.
@@ -252,8 +279,8 @@ pub fn same<T: PartialEq + std::fmt::Debug>(expected: T, found: T) -> Outcome {
 pub trait Number: Sized + Copy {
     /// The number, if the type holds it.
     fn from_number(number: i128) -> Option<Self>;
-    /// The number as JSON has it.
-    fn to_value(self) -> Value;
+    /// The number in a type that holds them all.
+    fn to_number(self) -> i128;
 }
 
 macro_rules! number {
@@ -263,8 +290,8 @@ macro_rules! number {
                 Self::try_from(number).ok()
             }
 
-            fn to_value(self) -> Value {
-                Value::from(self)
+            fn to_number(self) -> i128 {
+                i128::from(self)
             }
         })+
     };
@@ -277,8 +304,8 @@ impl Number for i128 {
         Some(number)
     }
 
-    fn to_value(self) -> Value {
-        i64::try_from(self).map_or_else(|_| u64::try_from(self).ok().into(), Value::from)
+    fn to_number(self) -> i128 {
+        self
     }
 }
 
@@ -287,8 +314,8 @@ impl Number for bool {
         [false, true].get(usize::try_from(number).ok()?).copied()
     }
 
-    fn to_value(self) -> Value {
-        Value::from(u8::from(self))
+    fn to_number(self) -> i128 {
+        i128::from(self)
     }
 }
 
@@ -298,8 +325,10 @@ where
     P: Readable<Raw: Number, Value = f64>,
 {
     let found = P::decode_with(vector.raw("raw"), with).into_result();
-    let bits = found.map(|value| Value::from(format!("{:016x}", value.to_bits())));
-    vector.expect(bits, "float")
+    let expected = vector.float();
+    let status = found.as_ref().map_or_else(|error| error.name(), |_| "ok");
+    same(vector.text("status").as_str(), status)?;
+    found.map_or(Ok(()), |value| same(expected.to_bits(), value.to_bits()))
 }
 
 /// A value to a raw number.
@@ -308,7 +337,7 @@ where
     P: Writable<Raw: Number, Value = f64>,
 {
     let found = P::encode_with(vector.float(), with);
-    vector.expect(found.map(Number::to_value), "raw")
+    vector.expect(found, "raw")
 }
 
 /// A raw number to a count.
@@ -317,7 +346,7 @@ where
     P: CountReadable<Raw: Number, Count: Number>,
 {
     let found = P::decode_count_with(vector.raw("raw"), with).into_result();
-    vector.expect(found.map(Number::to_value), "count")
+    vector.expect(found, "count")
 }
 
 /// A raw number to a count, which is itself, and to the value that has that number.
@@ -338,10 +367,10 @@ where
     P: CountWritable<Raw: Number, Count: Number>,
 {
     let Some(count) = vector.number("count").and_then(P::Count::from_number) else {
-        return same(vector.text("status"), "out_of_range");
+        return same(vector.text("status").as_str(), "out_of_range");
     };
     let found = P::encode_count_with(count, with);
-    vector.expect(found.map(Number::to_value), "raw")
+    vector.expect(found, "raw")
 }
 
 /// A count to a raw number, and the value that has that number.
@@ -351,7 +380,7 @@ where
 {
     if let Some(raw) = vector.number("count").and_then(P::Raw::from_number) {
         let found = P::encode_with(P::Value::from(raw), with);
-        vector.expect(found.map(Number::to_value), "raw")?;
+        vector.expect(found, "raw")?;
     }
     encode_count::<P>(vector, with)
 }
@@ -359,12 +388,15 @@ where
 /// Whether a raw number may be written.
 pub fn check<P: Writable<Raw: Number>>(vector: &Vector, with: P::With) -> Outcome {
     let found = P::check_with(vector.raw("raw"), with);
-    vector.expect(found.map(|()| Value::Null), "none")
+    same(
+        vector.text("status").as_str(),
+        found.map_or_else(Error::name, |()| "ok"),
+    )
 }
 
 /// The name of a number.
 pub fn name(vector: &Vector, found: Option<&str>, same_number: bool) -> Outcome {
-    same(vector.0["name"].as_str(), found)?;
+    same(vector.said("name").as_deref(), found)?;
     same(true, same_number)
 }
 
@@ -407,7 +439,7 @@ where
     P: Whole<Raw: Number + PartialEq + std::fmt::Debug>,
 {
     let raw: P::Raw = vector.raw("raw");
-    let words: Vec<u16> = vector.numbers("words").unwrap_or_default();
+    let words: Vec<u16> = vector.numbers("words");
     same(words.as_slice(), P::to_words(raw).as_ref())?;
     same(Ok(raw), P::from_received(words.iter().copied()))?;
     same(
@@ -421,7 +453,7 @@ where
 }
 
 /// Where a point is, and what stands beside it: the manual's code and other numberings, the outer limits, decimals.
-pub fn address<P>(vector: &Vector, references: &[(&str, Value)]) -> Outcome
+pub fn address<P>(vector: &Vector, references: &[(&str, String)]) -> Outcome
 where
     P: Point<Raw: Number + PartialEq + std::fmt::Debug>,
 {
@@ -433,28 +465,26 @@ where
 }
 
 /// The same but for the limits, which a text has not.
-pub fn place_of<P: Point>(vector: &Vector, references: &[(&str, Value)]) -> Outcome {
-    same(vector.text("space"), P::SPACE.name())?;
-    same(vector.text("point"), P::NAME)?;
+pub fn place_of<P: Point>(vector: &Vector, references: &[(&str, String)]) -> Outcome {
+    same(vector.text("space").as_str(), P::SPACE.name())?;
+    same(vector.text("point").as_str(), P::NAME)?;
     same(vector.raw("address"), P::ADDRESS)?;
     same(vector.raw("words"), P::WORDS)?;
-    same(vector.0["code"].as_str(), P::CODE)?;
+    same(vector.said("code").as_deref(), P::CODE)?;
     let decimals = vector.number("decimals").unwrap_or_default();
     same(decimals, i128::from(P::DECIMALS))?;
-    for (key, number) in references {
-        same(&vector.0[*key], number)?;
-    }
-    let keys = vector.0.as_object().into_iter().flat_map(|all| all.keys());
-    let others = keys.filter(|key| !OWN_KEYS.contains(&key.as_str())).count();
-    same(others, references.len())
+    let references = references
+        .iter()
+        .map(|(key, text)| ((*key).to_owned(), text.clone()));
+    same(vector.pairs("references"), references.collect())
 }
 
 /// What says where a point is beside its lowest address.
 pub fn place<P: Point>(vector: &Vector) -> Outcome {
-    let addresses = vector.numbers("addresses").unwrap_or_default();
+    let addresses: Vec<u16> = vector.numbers("addresses");
     same(addresses.as_slice(), P::ADDRESSES)?;
     same(vector.number("index"), P::INDEX.map(i128::from))?;
-    same(vector.0["telegram"].as_str(), P::TELEGRAM)
+    same(vector.said("telegram").as_deref(), P::TELEGRAM)
 }
 
 /// The bits of a word that are always written as a constant.
@@ -468,11 +498,11 @@ pub fn text_decode<P, const N: usize, const W: usize>(vector: &Vector) -> Outcom
 where
     P: Readable<Raw = [u16; W], Value = Text<N>, Factors = ()>,
 {
-    let words: Vec<u16> = vector.numbers("words").unwrap_or_default();
+    let words: Vec<u16> = vector.numbers("words");
     let mut raw = [0; W];
     raw.copy_from_slice(&words);
     let text = P::decode(raw).into_result().map_err(Error::name)?;
-    same(vector.text("text"), hex(text.as_bytes()).as_str())?;
+    same(vector.bytes("text").as_slice(), text.as_bytes())?;
     same(text.as_bytes().len(), text.to_string().chars().count())
 }
 
@@ -481,7 +511,7 @@ pub fn text_encode<P, const N: usize, const W: usize>(vector: &Vector) -> Outcom
 where
     P: Writable<Raw = [u16; W], Value = Text<N>, With = ()> + Whole,
 {
-    let bytes = bytes(vector.text("text"));
+    let bytes = vector.bytes("text");
     let latin: String = bytes.iter().copied().map(char::from).collect();
     same(Text::<N>::from_bytes(&bytes), Text::new(&latin))?;
     let (status, words) = match Text::from_bytes(&bytes).and_then(P::encode) {
@@ -492,8 +522,8 @@ where
         }
         Err(error) => (error.name(), Vec::new()),
     };
-    same(vector.text("status"), status)?;
-    same(vector.numbers("words").unwrap_or_default(), words)
+    same(vector.text("status").as_str(), status)?;
+    same(vector.numbers("words"), words)
 }
 
 /// A number to its digits.
@@ -505,7 +535,7 @@ where
     let found = P::decode(vector.raw("raw")).into_result();
     let found = found.map_err(Error::name)?;
     let numbers: Vec<i128> = found.map(|digit| C::from(digit).into()).to_vec();
-    same(vector.numbers("digits").unwrap_or_default(), numbers)
+    same(vector.numbers("digits"), numbers)
 }
 
 /// Digits to a number.
@@ -515,47 +545,82 @@ where
     E: From<C> + Copy,
     C: Number,
 {
-    let numbers: Vec<C> = vector.numbers("digits").unwrap_or_default();
+    let numbers: Vec<C> = vector.numbers("digits");
     let digits: Vec<E> = numbers.into_iter().map(E::from).collect();
     let digits = <[E; N]>::try_from(digits).map_err(|_| "there are other digits".to_owned())?;
-    vector.expect(P::encode(digits).map(Number::to_value), "raw")
+    vector.expect(P::encode(digits), "raw")
 }
 
 /// Runs all vectors of the file and reports one line per kind.
 pub fn main(default: &str, run: impl Fn(&str, &Vector) -> Option<Outcome>) -> ExitCode {
     let path = std::env::var("FIELDSCRIBE_VECTORS").unwrap_or_else(|_| default.to_owned());
     let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"));
-    let file: Value = serde_json::from_str(&text).unwrap_or_else(|error| panic!("{path}: {error}"));
-    let mut tally: BTreeMap<&str, [usize; 2]> = BTreeMap::new();
-    for one in file["vectors"].as_array().into_iter().flatten() {
-        let vector = Vector(one.clone());
-        let kind = KINDS
-            .into_iter()
-            .find(|kind| *kind == vector.text("kind"))
-            .unwrap_or("unknown");
-        let outcome =
-            run(kind, &vector).unwrap_or_else(|| Err("nothing runs this vector".to_owned()));
-        let failed = usize::from(outcome.is_err());
-        let counts = tally.entry(kind).or_default();
-        *counts = [counts[0] + 1 - failed, counts[1] + failed];
-        if let Err(difference) = outcome {
-            eprintln!("{one}: {difference}");
+    let (mut kinds, mut sets): (Vec<Shape>, Vec<Shape>) = (Vec::new(), Vec::new());
+    let mut held: Vec<Vec<(&str, &str)>> = Vec::new();
+    for line in text.lines() {
+        let parts: Vec<&str> = line.split('\t').collect();
+        match parts[0] {
+            "vectors" => assert_eq!(parts[1], "2", "{path} is of another format"),
+            "set" => sets.push(Shape::new(&parts[1..], false)),
+            "kind" => kinds.push(Shape::new(&parts[1..], true)),
+            name => {
+                if let Some(place) = sets.iter().position(|set| set.name == name) {
+                    held.resize(place, Vec::new());
+                    held.push(fields(&sets[place], &parts[1..]));
+                } else {
+                    let kind = kinds.iter_mut().find(|kind| kind.name == name);
+                    let kind = kind.unwrap_or_else(|| panic!("{path}: {line}: what is {name}?"));
+                    tally(kind, line, &parts[1..], held.concat(), &run);
+                }
+            }
         }
     }
-    report(&file, &tally)
+    report(&kinds)
 }
 
-fn report(file: &Value, tally: &BTreeMap<&str, [usize; 2]>) -> ExitCode {
+/// The fields of a line by their names; those that are left out are absent.
+fn fields<'a>(shape: &Shape<'a>, parts: &[&'a str]) -> Vec<(&'a str, &'a str)> {
+    assert!(parts.len() <= shape.keys.len(), "{}: {parts:?}", shape.name);
+    let parts = parts.iter().copied().chain(std::iter::repeat("-"));
+    shape.keys.iter().map(|(key, _)| *key).zip(parts).collect()
+}
+
+/// Runs one vector and counts it.
+fn tally<'a>(
+    kind: &mut Shape<'a>,
+    line: &'a str,
+    parts: &[&'a str],
+    shared: Vec<(&'a str, &'a str)>,
+    run: &impl Fn(&str, &Vector) -> Option<Outcome>,
+) {
+    let vector = Vector {
+        line,
+        kind: kind.name,
+        fields: fields(kind, parts),
+        shared,
+        used: Cell::new(0),
+    };
+    let outcome =
+        run(kind.name, &vector).unwrap_or_else(|| Err("nothing runs this vector".to_owned()));
+    match outcome.and_then(|()| vector.complete(kind)) {
+        Ok(()) => kind.passed += 1,
+        Err(difference) => {
+            kind.failed += 1;
+            eprintln!("{:?} {line}: {difference}", vector.shared);
+        }
+    }
+}
+
+fn report(kinds: &[Shape]) -> ExitCode {
     let mut total = [0, 0];
     let mut complete = true;
-    for kind in KINDS.into_iter().chain(["unknown"]) {
-        let [passed, failed] = tally.get(kind).copied().unwrap_or_default();
-        let announced = file["counts"][kind].as_u64().unwrap_or_default();
-        complete &= usize::try_from(announced) == Ok(passed + failed);
-        if passed + failed > 0 {
-            println!("{kind} {passed} passed, {failed} failed");
-        }
-        total = [total[0] + passed, total[1] + failed];
+    for kind in kinds {
+        complete &= kind.announced == kind.passed + kind.failed;
+        println!(
+            "{} {} passed, {} failed",
+            kind.name, kind.passed, kind.failed
+        );
+        total = [total[0] + kind.passed, total[1] + kind.failed];
     }
     println!("total {} passed, {} failed", total[0], total[1]);
     if !complete {

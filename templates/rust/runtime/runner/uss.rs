@@ -5,11 +5,11 @@ use fieldscribe_runtime::uss::{
     self, BuildError, Link, ParseError, Profile, Request, Value, LONGEST,
 };
 
-use super::{bytes, hex, same, Number, Outcome, Vector};
+use super::{same, Number, Outcome, Vector};
 
 /// A request into bytes. What a value cannot be in Rust is refused here.
 pub fn build(vector: &Vector, profile: &Profile) -> Outcome {
-    let words: Vec<u16> = vector.numbers("words").unwrap_or_default();
+    let words: Vec<u16> = vector.numbers("words");
     let (link, value) = (link(vector), value(vector));
     let width = vector.number("width");
     let least = if width == Some(2) {
@@ -24,8 +24,8 @@ pub fn build(vector: &Vector, profile: &Profile) -> Outcome {
         Ok(_) if value.is_none() => (BuildError::BadValue.name(), 0),
         Ok(length) => ("ok", length),
     };
-    same(vector.text("status"), status)?;
-    same(vector.text("bytes"), hex(&buffer[..length]).as_str())?;
+    same(vector.text("status").as_str(), status)?;
+    same(vector.bytes("bytes").as_slice(), &buffer[..length])?;
     if length > 0 {
         let short = request.build(profile, link, &words, &mut buffer[..length - 1]);
         same(Err(BuildError::BufferTooSmall), short)?;
@@ -35,22 +35,22 @@ pub fn build(vector: &Vector, profile: &Profile) -> Outcome {
 
 /// A telegram to all units.
 pub fn broadcast(vector: &Vector, profile: &Profile) -> Outcome {
-    let words: Vec<u16> = vector.numbers("words").unwrap_or_default();
-    let masks: Vec<u16> = vector.numbers("mask").unwrap_or_default();
+    let words: Vec<u16> = vector.numbers("words");
+    let masks: Vec<u16> = vector.numbers("mask");
     let masks = <[u16; 4]>::try_from(masks).map_err(|_| "there are not four masks".to_owned())?;
     let mut buffer = [0; LONGEST];
     let found = uss::broadcast(profile, link(vector), masks, &words, &mut buffer);
     same(
-        vector.text("status"),
+        vector.text("status").as_str(),
         found.map_or_else(BuildError::name, |_| "ok"),
     )?;
     let length = found.unwrap_or_default();
-    same(vector.text("bytes"), hex(&buffer[..length]).as_str())
+    same(vector.bytes("bytes").as_slice(), &buffer[..length])
 }
 
 /// Bytes as the answer to a request.
 pub fn reply(vector: &Vector, profile: &Profile) -> Outcome {
-    let received = bytes(vector.text("bytes"));
+    let received = vector.bytes("bytes");
     let found = request(vector).parse(profile, link(vector), &received);
     let (status, response, error) = match found {
         Ok(reply) => ("ok", reply.response(), 0),
@@ -64,17 +64,17 @@ pub fn reply(vector: &Vector, profile: &Profile) -> Outcome {
         Value::Word(word) => (1, u32::from(word)),
         Value::Double(value) => (2, value),
     };
-    same(vector.text("status"), status)?;
-    same(vector.raw("response"), response)?;
-    same(vector.raw("error"), error)?;
-    same(vector.raw("width"), width)?;
-    same(vector.raw("value"), number)?;
-    same(vector.numbers("words").unwrap_or_default(), words)
+    same(vector.text("status").as_str(), status)?;
+    same(vector.count("response"), response)?;
+    same(vector.count("error"), error)?;
+    same(vector.count("width"), width)?;
+    same(vector.count("value"), number)?;
+    same(vector.numbers("words"), words)
 }
 
 fn link(vector: &Vector) -> Link {
     let link = Link::new(vector.raw("pkw"), vector.raw("pzd"));
-    if vector.truth("single_first") {
+    if vector.count::<u8>("single_first") == 1 {
         link.single_first()
     } else {
         link

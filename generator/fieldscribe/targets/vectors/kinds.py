@@ -1,0 +1,195 @@
+"""The one table of the kinds of vectors, and how the fields of their lines are written.
+
+A file is lines of fields between tabs. Its head names the device, then every set (what the vectors below it share,
+until it is set anew) and every kind that it holds, with its fields and their forms; so no runner has a list of its own.
+An absent field is a hyphen, or left out at the end of a line. A set ends the sets that stand behind it in the table.
+A runner holds every field against something, but for notes.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from fieldscribe.targets.vectors.numbers import bits64
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Mapping
+
+ABSENT = "-"
+
+
+@dataclass(frozen=True, slots=True)
+class Kind:
+    """The fields of a line in order, each with its form."""
+
+    fields: tuple[tuple[str, str], ...]
+    optional: frozenset[str]
+    """Fields that need not be there; they end in a question mark in the table."""
+
+
+def _kind(row: str) -> Kind:
+    pairs = [part.partition(":")[::2] for part in row.split()]
+    optional = frozenset(name for name, form in pairs if form.endswith("?"))
+    return Kind(tuple((name, form.removesuffix("?")) for name, form in pairs), optional)
+
+
+def _table(rows: Mapping[str, str]) -> dict[str, Kind]:
+    return {name: _kind(row) for name, row in rows.items()}
+
+
+_REQUEST = "framing:word unit:int transaction:int function:int address:int count:int values:ints?"
+
+SETS = _table(
+    {
+        "point": "point:word",
+        "with": "with:pairs?",
+        "request": _REQUEST,
+        "message": "message:word",
+        "telegram": "telegram:word unit:int",
+        "link": "pkw:int pzd:int single_first:int?",
+        "task": "unit:int task:int parameter:int index:int width:int value:int words:ints?",
+    }
+)
+"""What several vectors share: the point, the raw numbers that it needs, a request, a message, a link and its task."""
+
+KINDS = _table(
+    {
+        # a raw number to a value in binary64 and back, to a count and back, and whether it may be written
+        "decode": "raw:int status:word value:real? special:word?",
+        "encode": "value:real status:word raw:int?",
+        "decode_count": "raw:int status:word count:int? special:word?",
+        "encode_count": "count:int status:word raw:int?",
+        "check": "raw:int status:word",
+        # names of numbers, special codes, flags and the numbers of wide ones
+        "name": "raw:int name:text?",
+        "special": "special:text low:int high:int",
+        "flag": "flag:text raw:int number:int",
+        "flag_name": "flag:text raw:int name:text",
+        # a group of bits out of its word and into it, the words of a number, texts and digits
+        "bits": "word:int raw:int replaced:int result:int",
+        "words": "raw:int words:ints",
+        "text_decode": "words:ints text:bytes?",
+        "text_encode": "text:bytes? status:word words:ints?",
+        "digits": "raw:int digits:ints",
+        "digits_encode": "digits:ints status:word raw:int?",
+        # what a point is beside its conversions
+        "address": "space:word address:int words:int code:text? raw_min:int? raw_max:int? decimals:int? "
+        "references:pairs?",
+        "place": "addresses:ints index:int? telegram:word?",
+        "fixed": "mask:int bits:int",
+        # frames of Modbus, and batched reads
+        "build": "status:word bytes:bytes?",
+        "reply": "bytes:bytes? status:word values_out:ints? exception:int?",
+        "printed_build": "frame:note status:word bytes:bytes?",
+        "printed_reply": "frame:note bytes:bytes? status:word values_out:ints? exception:int?",
+        "block": "group:word index:int space:word function:int address:int count:int",
+        # frames of a maker's own CAN protocol
+        "can_build": "unit:int address:int raw:int status:word id:int? bytes:bytes?",
+        "can_parse": "unit:int id:int bytes:bytes? status:word address:int? raw:int?",
+        "can_telegram": "frames:frames? taken:ints? status:word raw:int?",
+        # telegrams of USS
+        "uss_build": "status:word bytes:bytes?",
+        "uss_broadcast": "mask:ints words:ints? status:word bytes:bytes?",
+        "uss_reply": "bytes:bytes? status:word response:int? width:int? value:int? error:int? words:ints?",
+        "uss_printed_build": "frame:note status:word bytes:bytes?",
+        "uss_printed_reply": "frame:note bytes:bytes? status:word response:int? width:int? value:int? error:int? "
+        "words:ints?",
+    }
+)
+"""What a line asks and answers. Its own fields come before those of the sets that hold for it."""
+
+
+def _int(value: object) -> str:
+    if type(value) is not int:
+        raise TypeError(f"{value!r} is no integer")
+    return str(value)
+
+
+def _word(value: object) -> str:
+    """A name that needs no escape; checked all the same."""
+    return value if isinstance(value, str) and value.isidentifier() and value.isascii() else text(value)
+
+
+def text(value: object) -> str:
+    """A text: what does not print, `%`, `,` and `=` as percent and two hexadecimal digits for each byte of UTF-8."""
+    if not isinstance(value, str):
+        raise TypeError(f"{value!r} is no text")
+    if value in ("", ABSENT):
+        return "%" + "2D" * len(value)
+    return "".join(one if one.isprintable() and one not in "%,=" else _escaped(one) for one in value)
+
+
+def _escaped(character: str) -> str:
+    return "".join(f"%{byte:02X}" for byte in character.encode("utf-8", "surrogatepass"))
+
+
+def _bytes(value: object) -> str:
+    if not isinstance(value, bytes):
+        raise TypeError(f"{value!r} is no bytes")
+    return value.hex()
+
+
+def _real(value: object) -> str:
+    """The pattern of a binary64 in hexadecimal; zeros at its end are left out but for one digit."""
+    if not isinstance(value, float):
+        raise TypeError(f"{value!r} is no float")
+    return f"{bits64(value):016x}".rstrip("0") or "0"
+
+
+def _ints(value: object) -> str:
+    if not isinstance(value, (tuple, list)):
+        raise TypeError(f"{value!r} is no list")
+    return ",".join(map(_int, value))
+
+
+def _pairs(value: object) -> str:
+    if not isinstance(value, dict):
+        raise TypeError(f"{value!r} is no map")
+    return ",".join(f"{text(key)}={text(str(part))}" for key, part in value.items())
+
+
+def _frames(value: object) -> str:
+    if not isinstance(value, (tuple, list)):
+        raise TypeError(f"{value!r} is no list")
+    return ",".join(f"{number}={_bytes(data)}" for number, data in value)
+
+
+FORMS: dict[str, Callable[[object], str]] = {
+    "int": _int,
+    "word": _word,
+    "note": _word,
+    "text": text,
+    "bytes": _bytes,
+    "real": _real,
+    "ints": _ints,
+    "pairs": _pairs,
+    "frames": _frames,
+}
+"""How a field of each form is written: `pairs` are name=text, `frames` id=bytes, lists stand between commas."""
+
+
+class Shape:
+    """Writes the lines of one kind or set, and holds each value against its field."""
+
+    def __init__(self, name: str, kind: Kind) -> None:
+        self.name = name
+        self._fields = [(key, FORMS[form], key in kind.optional) for key, form in kind.fields]
+
+    def line(self, values: Iterable[object]) -> str:
+        """The line of one vector; values left out at the end are absent."""
+        parts = [self.name]
+        given = iter(values)
+        for key, write, optional in self._fields:
+            value = next(given, None)
+            if value is None or (not value and value not in (0, "")):
+                if not optional:
+                    raise ValueError(f"{self.name} lacks {key}")
+                parts.append(ABSENT)
+            else:
+                parts.append(write(value))
+        if next(given, None) is not None:
+            raise ValueError(f"{self.name} has no more than {len(self._fields)} fields")
+        while parts[-1] == ABSENT:
+            parts.pop()
+        return "\t".join(parts)

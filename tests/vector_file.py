@@ -1,0 +1,140 @@
+"""Files of conformance vectors: read into maps of fields, and written from such maps by the compiler's own table."""
+
+from __future__ import annotations
+
+import struct
+from typing import TYPE_CHECKING, Any
+from urllib.parse import unquote
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Mapping
+
+Vector = dict[str, Any]
+
+
+def _text(field: str) -> str:
+    return "" if field == "%" else unquote(field, errors="surrogatepass")
+
+
+def _pairs(field: str) -> dict[str, str]:
+    return {_text(key): _text(part) for key, _, part in (pair.partition("=") for pair in field.split(","))}
+
+
+def _real(field: str) -> float:
+    number: float = struct.unpack(">d", bytes.fromhex(field.ljust(16, "0")))[0]
+    return number
+
+
+def _frame(pair: str) -> tuple[int, bytes]:
+    number, _, data = pair.partition("=")
+    return int(number), bytes.fromhex(data)
+
+
+FORMS: Mapping[str, tuple[Callable[[str], Any], Any]] = {
+    "int": (int, None),
+    "word": (_text, None),
+    "note": (_text, None),
+    "text": (_text, None),
+    "bytes": (bytes.fromhex, b""),
+    "real": (_real, None),
+    "ints": (lambda field: [int(number) for number in field.split(",")], []),
+    "pairs": (_pairs, {}),
+    "frames": (lambda field: [_frame(pair) for pair in field.split(",")], []),
+}
+"""How a field of each form is read, and what an absent one is."""
+
+
+class File:
+    """The vectors of a text, line by line; `counts` are what its head says."""
+
+    def __init__(self, text: str) -> None:
+        self.counts: dict[str, int] = {}
+        self.head: list[str] = []
+        self._shapes: dict[str, list[list[str]]] = {}
+        self._sets: list[str] = []
+        self._lines = iter(text.split("\n"))
+
+    def __iter__(self) -> Iterator[Vector]:
+        """Each vector with the fields of the sets that hold for it."""
+        held: dict[str, Vector] = {}
+        for line in self._lines:
+            name, *fields = line.split("\t")
+            if name in {"", "vectors", "set", "kind"}:
+                self._declare(name, fields)
+            elif name in self._sets:
+                keep = self._sets[: self._sets.index(name)]
+                held = {**{one: held[one] for one in keep if one in held}, name: self._read(name, fields)}
+            else:
+                shared = {key: part for one in held.values() for key, part in one.items()}
+                yield {"kind": name, **shared, **self._read(name, fields)}
+
+    def _declare(self, what: str, fields: list[str]) -> None:
+        if what == "vectors":
+            self.head = fields
+        elif what == "set":
+            self._sets.append(fields[0])
+            self._shapes[fields[0]] = [field.split(":") for field in fields[1:]]
+        elif what == "kind":
+            self.counts[fields[0]] = int(fields[1])
+            self._shapes[fields[0]] = [field.split(":") for field in fields[2:]]
+
+    def _read(self, name: str, fields: list[str]) -> Vector:
+        shape = self._shapes[name]
+        if len(fields) > len(shape):
+            raise ValueError(f"{name} has no more than {len(shape)} fields: {fields}")
+        padded = fields + ["-"] * (len(shape) - len(fields))
+        pairs = zip(shape, padded, strict=True)
+        return {key: FORMS[form][1] if field == "-" else FORMS[form][0](field) for (key, form), field in pairs}
+
+
+def spoil(text: str) -> tuple[str, dict[str, int]]:
+    """The text with the last field of every vector changed to another of its form, and how many there are of a kind."""
+    forms: dict[str, list[str]] = {}
+    counts: dict[str, int] = {}
+    lines = []
+    for line in text.split("\n"):
+        name, *fields = line.split("\t")
+        if name == "kind":
+            forms[fields[0]] = [field.split(":")[1] for field in fields[2:]]
+        elif name in forms and fields:
+            counts[name] = counts.get(name, 0) + 1
+            if name == "name" and len(fields) == 1:
+                fields.append("other")  # a number beside one that has no name may have none either
+            fields[-1] = _other(forms[name][len(fields) - 1], fields[-1])
+        lines.append("\t".join((name, *fields)))
+    return "\n".join(lines), counts
+
+
+def _other(form: str, field: str) -> str:
+    """Another field of the form."""
+    if form == "int":
+        return str(int(field) + 1)
+    changed = {"word": "other", "text": "other", "bytes": f"{field}00", "ints": f"{field},0", "pairs": f"{field},x=0"}
+    return changed[form] if form != "real" else f"{int(field.ljust(16, '0'), 16) ^ 1 << 62:016x}"
+
+
+def vectors_of(text: str) -> list[Vector]:
+    """All vectors of a text."""
+    return list(File(text))
+
+
+_SETS_OF_POINTS = ("point", "with")
+
+
+def plain(vector: Vector) -> Vector:
+    """A vector as tests compare it: without what is absent or about other kinds, numbers and bytes in hexadecimal."""
+    about_point = "framing" not in vector and not vector["kind"].startswith(("uss_", "can_build", "can_parse", "block"))
+    found = {key: part for key, part in vector.items() if part not in (None, [], {}, b"")}
+    found = {key: part for key, part in found.items() if about_point or key not in _SETS_OF_POINTS}
+    if "with" in found:
+        found["with"] = {name: int(raw) for name, raw in found["with"].items()}
+    if isinstance(found.get("value"), float):
+        found["float"] = struct.pack(">d", found.pop("value")).hex()
+    return {key: part.hex() if isinstance(part, bytes) else part for key, part in found.items()}
+
+
+def counts_of(text: str) -> dict[str, int]:
+    """How many vectors of each kind the head of a text announces."""
+    file = File(text)
+    list(file)
+    return file.counts
