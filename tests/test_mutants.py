@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 C = """\
 /* 1 head */
 #ifndef X_H
+extern "C" {
 #define X_COUNT 3U /* 4 of them */
 static const uint16_t rows[] = {
     {0x0AU, true},
