@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from mutants.judges import Verdict
     from mutants.sources import Mutant
 
+HERE = Path(__file__).parent
 CACHE = ROOT / ".cache/mutants"
 PROGRESS = 10.0
 """Seconds between two lines that say how far it is."""
@@ -35,11 +36,15 @@ def main() -> int:
     if unknown := set(wanted) - set(MARKS):
         print(f"there is no {', '.join(sorted(unknown))}: ONLY takes {', '.join(MARKS)}", file=sys.stderr)
         return 2
-    tables = [_descriptions(seed, count) if one == "descriptions" else _code(one, seed, count) for one in wanted]
-    for table in tables:
-        print("", *table.survivor_lines(), sep="\n")
-    for table in tables:
-        print("", *table.lines(), sep="\n")
+    if "descriptions" in wanted and not Path(os.environ.get("FIELDSCRIBE_MANUALS", "?")).is_dir():
+        print("the descriptions need FIELDSCRIBE_MANUALS, the folder of the manuals' texts", file=sys.stderr)
+        return 2
+    tables = []
+    for one in wanted:
+        tables.append(_descriptions(seed, count) if one == "descriptions" else _code(one, seed, count))
+        print("", *tables[-1].survivor_lines(), "", *tables[-1].lines(), "", sep="\n", flush=True)
+    for table in tables if len(tables) > 1 else ():
+        print(*table.lines(), "", sep="\n")
     return 0 if all(table.met for table in tables) else 1
 
 
@@ -47,7 +52,7 @@ def _code(language: str, seed: str, count: int) -> Table:
     """The mutants of one language."""
     work = CACHE / language
     base = _generated(work / "base")
-    state = _digest([base / language, base / "vectors", ROOT / "tests/conformance.py", Path(__file__).parent])
+    state = _digest([base / language, base / "vectors", ROOT / "tests/conformance.py", HERE / "judges.py"])
     results = Results(CACHE / f"{language}-{seed}-{state}.jsonl")
     judge: list[object] = []
 
@@ -66,7 +71,7 @@ def _descriptions(seed: str, count: int) -> Table:
     from mutants.descriptions import DescriptionJudge, drawn_facts
 
     judge = DescriptionJudge(CACHE / "descriptions")
-    parts = [ROOT / "descriptions", ROOT / "generator/fieldscribe", *judge.readings, Path(__file__).parent]
+    parts = [ROOT / "descriptions", ROOT / "generator/fieldscribe", *judge.readings, HERE / "descriptions.py"]
     results = Results(CACHE / f"descriptions-{seed}-{_digest([*parts, judge.manuals])}.jsonl")
     return _measure(Table("descriptions"), drawn_facts(judge.folder, seed), results, count, judge.verdict)
 

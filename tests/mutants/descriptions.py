@@ -100,9 +100,7 @@ class DescriptionJudge:
 
     def __init__(self, work: Path) -> None:
         self.work, self.folder = work, work / "descriptions"
-        self.manuals = Path(os.environ.get("FIELDSCRIBE_MANUALS") or "manuals").resolve()
-        if not self.manuals.is_dir():
-            raise SystemExit("FIELDSCRIBE_MANUALS must name the folder of the manuals' texts")
+        self.manuals = Path(os.environ["FIELDSCRIBE_MANUALS"]).resolve()
         shutil.rmtree(work, ignore_errors=True)
         shutil.copytree(ROOT / "descriptions", self.folder)
         shutil.copytree(ROOT / "tests", work / "tests", ignore=shutil.ignore_patterns("mutants", "__pycache__"))
