@@ -52,7 +52,8 @@ def _code(language: str, seed: str, count: int) -> Table:
     """The mutants of one language."""
     work = CACHE / language
     base = _generated(work / "base")
-    state = _digest([base / language, base / "vectors", ROOT / "tests/conformance.py", HERE / "judges.py"])
+    runner = [ROOT / "tests/conformance.py", *sorted(ROOT.glob("tests/vector*.py"))]
+    state = _digest([base / language, base / "vectors", *runner, HERE / "judges.py"])
     results = Results(CACHE / f"{language}-{seed}-{state}.jsonl")
     judge: list[object] = []
 
