@@ -8,6 +8,7 @@ Prints one line per kind and a total; ends with 1 if any vector failed or none p
 from __future__ import annotations
 
 import importlib
+import math
 import struct
 import sys
 from collections import Counter
@@ -18,6 +19,66 @@ from vector_file import File, Vector
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+
+
+class Script:
+    """A transport of every family that expects what is sent and answers as it was told; `needs` in any order."""
+
+    def __init__(self, vector: Vector, frame: Callable[[int, bytes], Any]) -> None:
+        self.framing = vector["framing"]
+        self._steps = list(vector["script"])
+        self._needs = dict(vector["needs"])
+        self._frame = frame
+        self._came: list[bytes] = []
+
+    def exchange(self, request: bytes) -> bytes:
+        """One request and its reply."""
+        if request in self._needs:
+            return self._needs[request]
+        sent, received = self._steps.pop(0)
+        if sent != request:
+            raise AssertionError(f"sent {request.hex()}, not {sent.hex()}")
+        return received
+
+    def send(self, frame: Any) -> None:
+        """One frame to the bus; what answers it comes next."""
+        self._came.append(self.exchange(frame.id.to_bytes(4, "big") + frame.data))
+
+    def receive(self) -> Any:
+        """The next frame from the bus."""
+        data = self._came.pop(0) if self._came else b""
+        if not data:
+            raise TimeoutError
+        return self._frame(int.from_bytes(data[:4], "big"), data[4:])
+
+    def receive_waiting(self) -> Any:
+        """What is there already."""
+        return self.receive() if self._came and self._came[0] else None
+
+    @property
+    def done(self) -> bool:
+        """Whether all was sent that should be."""
+        return not self._steps
+
+
+class AsyncScript(Script):
+    """The same for devices that wait with `await`; it never lets anything else run."""
+
+    async def exchange(self, request: bytes) -> bytes:  # type: ignore[override]  # as the async transports are
+        """One request and its reply."""
+        return super().exchange(request)
+
+    async def send(self, frame: Any) -> None:  # type: ignore[override]  # as the async transports are
+        """One frame to the bus; what answers it comes next."""
+        self._came.append(super().exchange(frame.id.to_bytes(4, "big") + frame.data))
+
+    async def receive(self) -> Any:
+        """The next frame from the bus."""
+        return super().receive()
+
+    def receive_waiting(self) -> Any:
+        """What is there already."""
+        return super().receive() if self._came and self._came[0] else None
 
 
 class Runner:
@@ -31,6 +92,8 @@ class Runner:
             importlib.import_module(f"fieldscribe_runtime.{family}") for family in ("modbus", "can", "uss")
         )
         self.device = next(one for one in vars(package).values() if _is_device(one, runtime.AnyDevice))
+        self.awaited = next(one for one in vars(package).values() if _is_device(one, runtime.AnyAsyncDevice))
+        self.reason = ""
         self.error: type[Exception] = runtime.FieldscribeError
 
     def passes(self, vector: Vector) -> bool:
@@ -38,7 +101,8 @@ class Runner:
         check: Callable[[Vector], bool] | None = getattr(self, f"_{vector['kind']}", None)
         try:
             return check is not None and check(vector)
-        except Exception:  # whatever generated code raises, the vector has failed
+        except Exception as error:  # whatever generated code raises, the vector has failed
+            self.reason = f"{type(error).__name__}: {error}"
             return False
 
     def _point(self, vector: Vector) -> Any:
@@ -149,6 +213,50 @@ class Runner:
         status, raw = self._outcome(self._point(vector).encode, tuple(vector["digits"]))
         return bool(status == vector["status"] and (status != "ok" or raw == vector["raw"]))
 
+    def _handles(self, vector: Vector) -> list[tuple[Script, Any]]:
+        """The point of a device over a script, blocking and with `await`."""
+        point = self._point(vector)
+        given = dict(one for one in (point.facts.variant, _only(point.facts.only_for)) if one)
+        link = (self._uss_link(vector),) if "pkw" in vector else ()
+        found = []
+        for kind, script in ((self.device, Script), (self.awaited, AsyncScript)):
+            transport = script(vector, self.can.Frame)
+            device = kind(transport, vector["unit"], *link, **given)
+            found.append((transport, kind.POINTS[vector["point"]].__get__(device, kind)))
+        return found
+
+    def _read(self, vector: Vector) -> bool:
+        point, raws = self._point(vector), _with(vector)
+        raw = _raw_of(point, vector)
+        value = point.decode(raw, raws) if vector["status"] == "ok" else None
+        calls: tuple[tuple[str, Any], ...] = (("read_raw", raw), ("read", value))
+        return all(
+            _same(self._ran(script, vector, getattr(handle, name)), expected)
+            for name, expected in calls
+            for script, handle in self._handles(vector)
+        )
+
+    def _ran(self, script: Script, vector: Vector, function: Callable[..., Any], *arguments: Any, **more: Any) -> Any:
+        """The result of an operation that has the status of the vector, and sent all that it should."""
+        status, result = self._outcome(lambda: _now(function(*arguments, **more)))
+        if status != vector["status"] or not script.done:
+            raise AssertionError(f"{status} instead of {vector['status']}: {result}")
+        return result if status == "ok" else None
+
+    def _write(self, vector: Vector, **more: Any) -> bool:
+        point = self._point(vector)
+        raw = _raw_of(point, vector)
+        for script, handle in self._handles(vector):
+            self._ran(script, vector, handle.write_raw, raw, **more)
+        if hasattr(point, "decode"):
+            value = point.decode(raw, _with(vector))
+            for script, handle in self._handles(vector):
+                self._ran(script, vector, handle.write, value, **more)
+        return True
+
+    def _store(self, vector: Vector) -> bool:
+        return self._write(vector, keep=True)
+
     def _block(self, vector: Vector) -> bool:
         block = self.device.BLOCKS[vector["group"]][vector["index"]]
         found = {"space": block.space, "function": block.function, "address": block.address, "count": block.count}
@@ -240,6 +348,31 @@ def _with(vector: Vector) -> dict[str, int]:
     return {name: int(raw) for name, raw in vector.get("with", {}).items()}
 
 
+def _only(only_for: Any) -> tuple[str, Any] | None:
+    """One of the values of an axis for which a point exists."""
+    return (only_for[0], only_for[1][0]) if only_for else None
+
+
+def _now(result: Any) -> Any:
+    """A result, also of a coroutine that never really waits."""
+    if not hasattr(result, "send"):
+        return result
+    try:
+        result.send(None)
+    except StopIteration as done:
+        return done.value
+    raise AssertionError("it waits for something else than its transport")
+
+
+def _same(one: Any, other: Any) -> bool:
+    return bool(one == other or (isinstance(one, float) and math.isnan(one) and math.isnan(other)))
+
+
+def _raw_of(point: Any, vector: Vector) -> Any:
+    """The raw number of a vector, also of one that gives its words."""
+    return point.from_words(vector["words"]) if vector["words"] else vector["raw"]
+
+
 def _pattern(value: float) -> str:
     return struct.pack(">d", value).hex()
 
@@ -252,10 +385,11 @@ def run(folder: Path, device: str, vectors: Path, show: int = 0) -> tuple[Counte
     shown: list[Vector] = []
     file = File(vectors.read_text(encoding="utf-8"))
     for vector in file:
+        runner.reason = ""
         good = runner.passes(vector)
         (passed if good else failed)[vector["kind"]] += 1
         if not good and len(shown) < show:
-            shown.append(vector)
+            shown.append({**vector, "reason": runner.reason})
     if file.counts != dict(passed + failed):
         shown.append({"kind": "other counts than the file says"})
         failed["incomplete"] += 1

@@ -600,6 +600,381 @@ static inline bool fieldscribe_fits_uint64_t(const char *field)
         }                                                                                        \
     }
 
+/* ---- Whole exchanges ---- */
+
+/* The step of a script at that place: what is sent and what comes back; false when there is none. */
+static inline bool fieldscribe_step(fieldscribe_vector *v, size_t place, const char **sent, const char **received)
+{
+    const char *at = fieldscribe_field(v, "script");
+    (void)fieldscribe_field(v, "needs"); /* read by languages whose devices ask for other points themselves */
+    while (place > 0U && at != NULL) {
+        at = strchr(at, ',');
+        at = at != NULL ? at + 1 : NULL;
+        --place;
+    }
+    if (at == NULL || strchr(at, '=') == NULL) {
+        fieldscribe_agree(v, false);
+        return false;
+    }
+    *sent = at;
+    *received = strchr(at, '=') + 1;
+    return true;
+}
+
+/* Whether bytes are those of the step that are to be sent. */
+static inline void fieldscribe_sends(fieldscribe_vector *v, const char *sent, const uint8_t *bytes, size_t length)
+{
+    uint8_t expected[FIELDSCRIBE_BYTES_MOST] = {0U};
+    const size_t count = fieldscribe_hex(sent, expected, sizeof expected);
+    fieldscribe_agree(v, count == length && memcmp(expected, bytes, count) == 0);
+}
+
+#if defined(FIELDSCRIBE_MODBUS_H)
+static const char *fieldscribe_modbus_status_text(fieldscribe_modbus_status status)
+{
+    static const char *const names[] = {"ok", "bad_unit", "bad_function", "bad_count", "bad_address", "bad_value",
+        "buffer_too_small", "short_frame", "long_frame", "bad_crc", "bad_protocol", "wrong_transaction", "wrong_unit",
+        "wrong_function", "exception", "bad_byte_count", "echo_mismatch"};
+    return names[(size_t)status];
+}
+
+/* Sends a request of the script and reads what comes back into `words`; whether that was an answer. */
+static inline bool fieldscribe_exchange(
+    fieldscribe_vector *v, size_t place, const fieldscribe_modbus_request *request, uint16_t *words)
+{
+    const bool tcp = fieldscribe_spells(fieldscribe_field(v, "framing"), "tcp");
+    const fieldscribe_modbus_framing framing = tcp ? FIELDSCRIBE_MODBUS_TCP : FIELDSCRIBE_MODBUS_RTU;
+    uint8_t bytes[FIELDSCRIBE_BYTES_MOST];
+    fieldscribe_modbus_request numbered = *request;
+    fieldscribe_modbus_reply reply;
+    fieldscribe_modbus_status status;
+    const char *sent = NULL;
+    const char *received = NULL;
+    size_t length = 0U;
+    if (!fieldscribe_step(v, place, &sent, &received)) {
+        return false;
+    }
+    numbered.transaction = tcp ? (uint16_t)(place + 1U) : 0U;
+    status = fieldscribe_modbus_build(v->suite->profile, framing, &numbered, bytes, sizeof bytes, &length);
+    fieldscribe_agree(v, status == FIELDSCRIBE_MODBUS_OK);
+    fieldscribe_sends(v, sent, bytes, length);
+    length = fieldscribe_hex(received, bytes, sizeof bytes);
+    status = fieldscribe_modbus_parse(framing, &numbered, bytes, length, words, 128U, &reply);
+    fieldscribe_is_text(v, "status", fieldscribe_modbus_status_text(status));
+    return status == FIELDSCRIBE_MODBUS_OK;
+}
+
+#define FIELDSCRIBE_READ(function, raw_of_words)                                                 \
+    if (fieldscribe_asks(v, "read")) {                                                           \
+        uint16_t words[128] = {0U};                                                              \
+        const fieldscribe_modbus_request request = function##_read_request((uint8_t)fieldscribe_bits(v, "unit")); \
+        if (fieldscribe_exchange(v, 0U, &request, words)) {                                      \
+            fieldscribe_is_number(v, "raw", (uint64_t)(raw_of_words));                           \
+        }                                                                                        \
+    }
+
+#define FIELDSCRIBE_READ_TEXT(function)                                                          \
+    if (fieldscribe_asks(v, "read")) {                                                           \
+        uint16_t words[128] = {0U};                                                              \
+        const fieldscribe_modbus_request request = function##_read_request((uint8_t)fieldscribe_bits(v, "unit")); \
+        if (fieldscribe_exchange(v, 0U, &request, words)) {                                      \
+            fieldscribe_is_words(v, "words", words, request.count);                              \
+        }                                                                                        \
+    }
+
+#define FIELDSCRIBE_WRITE(function, raw_type, count)                                             \
+    if (fieldscribe_asks(v, "write")) {                                                          \
+        uint16_t words[count] = {0U};                                                            \
+        uint16_t echoed[128] = {0U};                                                             \
+        const raw_type raw = (raw_type)fieldscribe_bits(v, "raw");                               \
+        const fieldscribe_modbus_request request =                                               \
+            function##_write_request((uint8_t)fieldscribe_bits(v, "unit"), raw, words);          \
+        (void)fieldscribe_exchange(v, 0U, &request, echoed);                                     \
+    }
+
+#define FIELDSCRIBE_WRITE_TEXT(function, count)                                                  \
+    if (fieldscribe_asks(v, "write")) {                                                          \
+        uint16_t words[count] = {0U};                                                            \
+        uint16_t given[count] = {0U};                                                            \
+        uint16_t text[count] = {0U};                                                             \
+        uint16_t echoed[128] = {0U};                                                             \
+        fieldscribe_modbus_request request;                                                      \
+        size_t at;                                                                               \
+        fieldscribe_agree(v, fieldscribe_numbers(v, "words", given, count) == count);            \
+        for (at = 0U; at < count; ++at) {                                                        \
+            text[at] = given[fieldscribe_rank(function##_addresses, count, at)];                 \
+        }                                                                                        \
+        request = function##_write_request((uint8_t)fieldscribe_bits(v, "unit"), text, words);   \
+        (void)fieldscribe_exchange(v, 0U, &request, echoed);                                     \
+    }
+
+/* A group of bits: its word is read, and goes back with other bits. */
+#define FIELDSCRIBE_UPDATE(function, raw_type, address)                                          \
+    if (fieldscribe_asks(v, "write")) {                                                          \
+        uint16_t words[128] = {0U};                                                              \
+        const uint8_t unit = (uint8_t)fieldscribe_bits(v, "unit");                               \
+        fieldscribe_modbus_request request = function##_read_request(unit);                      \
+        if (fieldscribe_exchange(v, 0U, &request, words)) {                                      \
+            words[0] = function##_insert(words[0], (raw_type)fieldscribe_bits(v, "raw"));        \
+            request = fieldscribe_modbus_write(unit, fieldscribe_function_sent(v), address, 1U, words); \
+            (void)fieldscribe_exchange(v, 1U, &request, words);                                  \
+        }                                                                                        \
+    }
+
+/* The function that the second step of a script is sent with: no header names that of a group of bits. */
+static inline uint8_t fieldscribe_function_sent(fieldscribe_vector *v)
+{
+    uint8_t bytes[8] = {0U};
+    const char *sent = NULL;
+    const char *received = NULL;
+    if (fieldscribe_step(v, 1U, &sent, &received)) {
+        (void)fieldscribe_hex(sent, bytes, sizeof bytes);
+    }
+    return fieldscribe_spells(fieldscribe_field(v, "framing"), "tcp") ? bytes[7] : bytes[1];
+}
+#elif defined(FIELDSCRIBE_CAN_H)
+static const char *fieldscribe_can_status_text(fieldscribe_can_status status)
+{
+    static const char *const names[] = {"ok", "bad_unit", "bad_address", "bad_value", "wrong_id", "wrong_length",
+        "wrong_constant", "wrong_unit", "wrong_check", "wrong_address", "echo_mismatch", "missing", "torn"};
+    return names[(size_t)status];
+}
+
+/* Frames are their identifier in four bytes and their data. */
+static inline fieldscribe_can_frame fieldscribe_frame_of(const char *field)
+{
+    uint8_t bytes[FIELDSCRIBE_BYTES_MOST] = {0U};
+    const size_t length = fieldscribe_hex(field, bytes, 64U);
+    fieldscribe_can_frame frame;
+    frame.id = ((uint32_t)bytes[0] << 24) | ((uint32_t)bytes[1] << 16) | ((uint32_t)bytes[2] << 8) | bytes[3];
+    frame.length = (uint8_t)(length > 4U ? length - 4U : 0U);
+    memcpy(frame.data, bytes + 4, sizeof frame.data);
+    return frame;
+}
+
+static inline void fieldscribe_sends_frame(fieldscribe_vector *v, const char *sent, const fieldscribe_can_frame *frame)
+{
+    const fieldscribe_can_frame expected = fieldscribe_frame_of(sent);
+    fieldscribe_agree(v, expected.id == frame->id && expected.length == frame->length &&
+        memcmp(expected.data, frame->data, sizeof expected.data) == 0);
+}
+
+/* What is no answer is a time-out for a device, which waits on. */
+static inline void fieldscribe_is_answer(fieldscribe_vector *v, fieldscribe_can_status status)
+{
+    const bool answers = status == FIELDSCRIBE_CAN_OK || status == FIELDSCRIBE_CAN_ECHO_MISMATCH;
+    fieldscribe_is_text(v, "status", answers ? fieldscribe_can_status_text(status) : "timeout");
+}
+
+#define FIELDSCRIBE_READ(function, raw_type)                                                     \
+    if (fieldscribe_asks(v, "read")) {                                                           \
+        const uint8_t unit = (uint8_t)fieldscribe_bits(v, "unit");                               \
+        const char *sent = NULL;                                                                 \
+        const char *received = NULL;                                                             \
+        raw_type raw = (raw_type)1;                                                              \
+        if (fieldscribe_step(v, 0U, &sent, &received)) {                                         \
+            fieldscribe_can_frame frame = fieldscribe_frame_of(received);                        \
+            const fieldscribe_can_status status = function##_read_answer(unit, &frame, &raw);    \
+            fieldscribe_is_answer(v, status);                                                    \
+            fieldscribe_agree(v, function##_read_request(unit, &frame) == FIELDSCRIBE_CAN_OK);   \
+            fieldscribe_sends_frame(v, sent, &frame);                                            \
+            if (status == FIELDSCRIBE_CAN_OK) {                                                  \
+                fieldscribe_is_number(v, "raw", (uint64_t)raw);                                  \
+            } else {                                                                             \
+                fieldscribe_agree(v, raw == (raw_type)1);                                        \
+            }                                                                                    \
+        }                                                                                        \
+    }
+
+#define FIELDSCRIBE_WRITE(function, raw_type)                                                    \
+    if (fieldscribe_asks(v, "write")) {                                                          \
+        const uint8_t unit = (uint8_t)fieldscribe_bits(v, "unit");                               \
+        const raw_type raw = (raw_type)fieldscribe_bits(v, "raw");                               \
+        const char *sent = NULL;                                                                 \
+        const char *received = NULL;                                                             \
+        if (fieldscribe_step(v, 0U, &sent, &received)) {                                         \
+            fieldscribe_can_frame frame = fieldscribe_frame_of(received);                        \
+            fieldscribe_is_answer(v, function##_write_answer(unit, raw, &frame));                \
+            fieldscribe_agree(v, function##_write_request(unit, raw, &frame) == FIELDSCRIBE_CAN_OK); \
+            fieldscribe_sends_frame(v, sent, &frame);                                            \
+        }                                                                                        \
+    }
+
+#define FIELDSCRIBE_WRITE_SHARED(function, raw_type)                                             \
+    if (fieldscribe_asks(v, "write")) {                                                          \
+        const uint8_t unit = (uint8_t)fieldscribe_bits(v, "unit");                               \
+        const raw_type raw = (raw_type)fieldscribe_bits(v, "raw");                               \
+        const char *sent = NULL;                                                                 \
+        const char *received = NULL;                                                             \
+        uint16_t word = 0U;                                                                      \
+        if (fieldscribe_step(v, 0U, &sent, &received)) {                                         \
+            fieldscribe_can_frame frame = fieldscribe_frame_of(received);                        \
+            fieldscribe_agree(v, function##_read_word(unit, &frame, &word) == FIELDSCRIBE_CAN_OK); \
+            fieldscribe_agree(v, function##_read_request(unit, &frame) == FIELDSCRIBE_CAN_OK);   \
+            fieldscribe_sends_frame(v, sent, &frame);                                            \
+        }                                                                                        \
+        if (fieldscribe_step(v, 1U, &sent, &received)) {                                         \
+            fieldscribe_can_frame frame = fieldscribe_frame_of(received);                        \
+            fieldscribe_is_answer(v, function##_write_answer(unit, word, raw, &frame));          \
+            fieldscribe_agree(v, function##_write_request(unit, word, raw, &frame) == FIELDSCRIBE_CAN_OK); \
+            fieldscribe_sends_frame(v, sent, &frame);                                            \
+        }                                                                                        \
+    }
+
+/* Texts travel word by word; the script is in the order of the addresses. */
+#define FIELDSCRIBE_READ_TEXT(function, macro)                                                   \
+    if (fieldscribe_asks(v, "read")) {                                                           \
+        const uint8_t unit = (uint8_t)fieldscribe_bits(v, "unit");                               \
+        uint16_t words[macro##_WORDS] = {0U};                                                    \
+        uint16_t sorted[macro##_WORDS] = {0U};                                                   \
+        size_t at;                                                                               \
+        for (at = 0U; at < macro##_WORDS; ++at) {                                                \
+            const size_t rank = fieldscribe_rank(function##_addresses, macro##_WORDS, at);       \
+            const char *sent = NULL;                                                             \
+            const char *received = NULL;                                                         \
+            if (fieldscribe_step(v, rank, &sent, &received)) {                                   \
+                fieldscribe_can_frame frame = fieldscribe_frame_of(received);                    \
+                fieldscribe_is_answer(v, function##_read_answer(unit, at, &frame, words));       \
+                fieldscribe_agree(v, function##_read_request(unit, at, &frame) == FIELDSCRIBE_CAN_OK); \
+                fieldscribe_sends_frame(v, sent, &frame);                                        \
+                sorted[rank] = words[at];                                                        \
+            }                                                                                    \
+        }                                                                                        \
+        fieldscribe_is_words(v, "words", sorted, macro##_WORDS);                                 \
+    }
+
+#define FIELDSCRIBE_WRITE_TEXT(function, macro)                                                  \
+    if (fieldscribe_asks(v, "write")) {                                                          \
+        const uint8_t unit = (uint8_t)fieldscribe_bits(v, "unit");                               \
+        uint16_t sorted[macro##_WORDS] = {0U};                                                   \
+        uint16_t words[macro##_WORDS] = {0U};                                                    \
+        size_t at;                                                                               \
+        fieldscribe_agree(v, fieldscribe_numbers(v, "words", sorted, macro##_WORDS) == macro##_WORDS); \
+        for (at = 0U; at < macro##_WORDS; ++at) {                                                \
+            words[at] = sorted[fieldscribe_rank(function##_addresses, macro##_WORDS, at)];       \
+        }                                                                                        \
+        for (at = 0U; at < macro##_WORDS; ++at) {                                                \
+            const size_t rank = fieldscribe_rank(function##_addresses, macro##_WORDS, at);       \
+            const char *sent = NULL;                                                             \
+            const char *received = NULL;                                                         \
+            if (fieldscribe_step(v, rank, &sent, &received)) {                                   \
+                fieldscribe_can_frame frame = fieldscribe_frame_of(received);                    \
+                fieldscribe_is_answer(v, function##_write_answer(unit, at, words, &frame));      \
+                fieldscribe_agree(v, function##_write_request(unit, at, words, &frame) == FIELDSCRIBE_CAN_OK); \
+                fieldscribe_sends_frame(v, sent, &frame);                                        \
+            }                                                                                    \
+        }                                                                                        \
+    }
+#elif defined(FIELDSCRIBE_USS_H)
+static const char *fieldscribe_uss_status_text(fieldscribe_uss_status status)
+{
+    static const char *const names[] = {"ok", "bad_link", "bad_unit", "bad_task", "bad_parameter", "bad_index",
+        "bad_value", "buffer_too_small", "wrong_start", "wrong_length", "wrong_check", "wrong_unit", "wrong_parameter",
+        "no_answer", "refused", "no_rights", "wrong_response"};
+    return names[(size_t)status];
+}
+
+static fieldscribe_uss_link fieldscribe_read_link(fieldscribe_vector *v)
+{
+    fieldscribe_uss_link link;
+    link.pkw = (uint8_t)fieldscribe_at_most(v, "pkw", 255U);
+    link.pzd = (uint8_t)fieldscribe_at_most(v, "pzd", 255U);
+    link.single_first = fieldscribe_bits(v, "single_first") != 0U;
+    return link;
+}
+
+/* Sends a request of the script with process data, and reads what comes back into `words`; whether it is an answer. */
+static inline bool fieldscribe_exchange(fieldscribe_vector *v, size_t place, const fieldscribe_uss_request *request,
+    uint16_t *words, fieldscribe_uss_reply *reply)
+{
+    const fieldscribe_uss_link link = fieldscribe_read_link(v);
+    uint8_t bytes[FIELDSCRIBE_BYTES_MOST];
+    const char *sent = NULL;
+    const char *received = NULL;
+    fieldscribe_uss_status status;
+    size_t length = 0U;
+    if (!fieldscribe_step(v, place, &sent, &received)) {
+        return false;
+    }
+    status = fieldscribe_uss_build(v->suite->profile, &link, request, words, link.pzd, bytes, sizeof bytes, &length);
+    fieldscribe_agree(v, status == FIELDSCRIBE_USS_OK);
+    fieldscribe_sends(v, sent, bytes, length);
+    length = fieldscribe_hex(received, bytes, sizeof bytes);
+    status = fieldscribe_uss_parse(v->suite->profile, &link, request, bytes, length, words, 256U, reply);
+    fieldscribe_is_text(v, "status", fieldscribe_uss_status_text(status));
+    return status == FIELDSCRIBE_USS_OK;
+}
+
+#define FIELDSCRIBE_READ(function, raw_type)                                                     \
+    if (fieldscribe_asks(v, "read")) {                                                           \
+        uint16_t words[256] = {0U};                                                              \
+        fieldscribe_uss_reply reply;                                                             \
+        raw_type raw = (raw_type)1;                                                              \
+        const fieldscribe_uss_request request = function##_read_request((uint8_t)fieldscribe_bits(v, "unit")); \
+        if (fieldscribe_exchange(v, 0U, &request, words, &reply)) {                              \
+            fieldscribe_agree(v, function##_from_reply(&reply, &raw));                           \
+            fieldscribe_is_number(v, "raw", (uint64_t)raw);                                      \
+            reply.width = (uint8_t)(3U - reply.width);                                           \
+            fieldscribe_agree(v, !function##_from_reply(&reply, &raw));                          \
+        }                                                                                        \
+    }
+
+#define FIELDSCRIBE_WRITE(kind, function, call, raw_type)                                        \
+    if (fieldscribe_asks(v, kind)) {                                                             \
+        uint16_t words[256] = {0U};                                                              \
+        fieldscribe_uss_reply reply;                                                             \
+        const raw_type raw = (raw_type)fieldscribe_bits(v, "raw");                               \
+        const fieldscribe_uss_request request = function##_##call((uint8_t)fieldscribe_bits(v, "unit"), raw); \
+        (void)fieldscribe_exchange(v, 0U, &request, words, &reply);                              \
+    }
+
+#define FIELDSCRIBE_WRITE_SHARED(kind, function, call, raw_type)                                 \
+    if (fieldscribe_asks(v, kind)) {                                                             \
+        uint16_t words[256] = {0U};                                                              \
+        fieldscribe_uss_reply reply;                                                             \
+        const uint8_t unit = (uint8_t)fieldscribe_bits(v, "unit");                               \
+        const raw_type raw = (raw_type)fieldscribe_bits(v, "raw");                               \
+        fieldscribe_uss_request request = function##_read_request(unit);                         \
+        if (fieldscribe_exchange(v, 0U, &request, words, &reply)) {                              \
+            request = function##_##call(unit, (uint16_t)(reply.value & 0xFFFFU), raw);           \
+            (void)fieldscribe_exchange(v, 1U, &request, words, &reply);                          \
+        }                                                                                        \
+    }
+
+/* A word of process data that is sent, or comes back, without a task. */
+#define FIELDSCRIBE_SEND(function, raw_type, start, count)                                       \
+    if (fieldscribe_asks(v, "write")) {                                                          \
+        uint16_t words[256];                                                                     \
+        fieldscribe_uss_reply reply;                                                             \
+        const fieldscribe_uss_request request = fieldscribe_uss_exchange((uint8_t)fieldscribe_bits(v, "unit")); \
+        memset(words, 0x5A, count * sizeof words[0]);                                            \
+        start(words);                                                                            \
+        function##_to_pzd((raw_type)fieldscribe_bits(v, "raw"), words);                          \
+        (void)fieldscribe_exchange(v, 0U, &request, words, &reply);                              \
+    }
+
+#define FIELDSCRIBE_HEAR(function, count)                                                        \
+    if (fieldscribe_asks(v, "read")) {                                                           \
+        uint16_t words[256] = {0U};                                                              \
+        fieldscribe_uss_reply reply;                                                             \
+        const fieldscribe_uss_request request = fieldscribe_uss_exchange((uint8_t)fieldscribe_bits(v, "unit")); \
+        if (fieldscribe_exchange(v, 0U, &request, words, &reply)) {                              \
+            fieldscribe_is_number(v, "raw", (uint64_t)function##_from_pzd(words));               \
+        }                                                                                        \
+    }
+#endif
+
+/* Which of the addresses, counted upwards from the lowest, is the one at that place. */
+static inline size_t fieldscribe_rank(const uint16_t *addresses, size_t count, size_t at)
+{
+    size_t rank = 0U;
+    size_t other;
+    for (other = 0U; other < count; ++other) {
+        rank += addresses[other] < addresses[at] ? 1U : 0U;
+    }
+    return rank;
+}
+
 static void fieldscribe_run_point(fieldscribe_vector *v)
 {
     static const fieldscribe_adapter *last = NULL; /* vectors of one point stand together */
@@ -620,14 +995,6 @@ static void fieldscribe_run_point(fieldscribe_vector *v)
 /* ---- Frames ---- */
 
 #if defined(FIELDSCRIBE_MODBUS_H)
-static const char *fieldscribe_modbus_status_text(fieldscribe_modbus_status status)
-{
-    static const char *const names[] = {"ok", "bad_unit", "bad_function", "bad_count", "bad_address", "bad_value",
-        "buffer_too_small", "short_frame", "long_frame", "bad_crc", "bad_protocol", "wrong_transaction", "wrong_unit",
-        "wrong_function", "exception", "bad_byte_count", "echo_mismatch"};
-    return names[(size_t)status];
-}
-
 static fieldscribe_modbus_framing fieldscribe_read_request(
     fieldscribe_vector *v, uint16_t *values, fieldscribe_modbus_request *request)
 {
@@ -703,13 +1070,6 @@ static bool fieldscribe_run_frame(fieldscribe_vector *v)
     return true;
 }
 #elif defined(FIELDSCRIBE_CAN_H)
-static const char *fieldscribe_can_status_text(fieldscribe_can_status status)
-{
-    static const char *const names[] = {"ok", "bad_unit", "bad_address", "bad_value", "wrong_id", "wrong_length",
-        "wrong_constant", "wrong_unit", "wrong_check", "wrong_address", "echo_mismatch", "missing", "torn"};
-    return names[(size_t)status];
-}
-
 static const fieldscribe_can_message *fieldscribe_find_message(fieldscribe_vector *v)
 {
     const fieldscribe_named_message *one = v->suite->messages;
@@ -813,23 +1173,6 @@ static bool fieldscribe_run_frame(fieldscribe_vector *v)
     return true;
 }
 #elif defined(FIELDSCRIBE_USS_H)
-static const char *fieldscribe_uss_status_text(fieldscribe_uss_status status)
-{
-    static const char *const names[] = {"ok", "bad_link", "bad_unit", "bad_task", "bad_parameter", "bad_index",
-        "bad_value", "buffer_too_small", "wrong_start", "wrong_length", "wrong_check", "wrong_unit", "wrong_parameter",
-        "no_answer", "refused", "no_rights", "wrong_response"};
-    return names[(size_t)status];
-}
-
-static fieldscribe_uss_link fieldscribe_read_link(fieldscribe_vector *v)
-{
-    fieldscribe_uss_link link;
-    link.pkw = (uint8_t)fieldscribe_at_most(v, "pkw", 255U);
-    link.pzd = (uint8_t)fieldscribe_at_most(v, "pzd", 255U);
-    link.single_first = fieldscribe_bits(v, "single_first") != 0U;
-    return link;
-}
-
 static fieldscribe_uss_request fieldscribe_read_task(fieldscribe_vector *v)
 {
     fieldscribe_uss_request request;

@@ -12,7 +12,7 @@ from fieldscribe.targets.c.places import fixed_number, fixes
 from fieldscribe.text import c_comment
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterator
 
     from fieldscribe.model import Device, Message, Point, Telegram
     from fieldscribe.targets.c.scope import Scope
@@ -164,9 +164,19 @@ def identifiers(bus: BusView, view: DeviceView) -> Iterator[tuple[str, str]]:
         yield f"{one.function}_received", one.function[len(view.prefix) + 1 :]
 
 
-def adapters(bus: BusView) -> Mapping[str, str]:
-    """How points of telegrams answer conformance vectors."""
-    return {one.function: f"RECEIVED({one.function}, {one.raw_type})" for one in bus.cyclic if not one.text}
+def adapters(bus: BusView) -> Iterator[tuple[str, str]]:
+    """How points of telegrams, and parameters, answer conformance vectors."""
+    for heard in bus.cyclic:
+        if not heard.text:
+            yield heard.function, f"RECEIVED({heard.function}, {heard.raw_type})"
+    for one in bus.parameters:
+        read = one.read and bus.read_request and bus.read_answer
+        how = f"{one.function}, {one.macro}" if one.text else f"{one.function}, {one.raw_type}"
+        if read:
+            yield one.function, f"READ{'_TEXT' if one.text else ''}({how})"
+        if one.write and bus.write_request and bus.write_answer and (read or not one.shares):
+            tail = "_TEXT" if one.text else "_SHARED" if one.shares else ""
+            yield one.function, f"WRITE{tail}({how})"
 
 
 def _array(message: Message | None, scope: Scope) -> str:

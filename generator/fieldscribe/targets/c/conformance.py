@@ -11,7 +11,7 @@ from fieldscribe.targets.c.literals import raw_type
 from fieldscribe.targets.c.points import named_numbers, value_type
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterable, Iterator, Mapping
 
     from fieldscribe.model import Device, Point
     from fieldscribe.targets.c.scope import Scope
@@ -41,8 +41,11 @@ class SuiteView:
 _STATUSES = ("ok", "out_of_range", "not_a_number", "unknown_value", "zero_factor", "no_case", "overflow", "no_value")
 
 
-def conformance_view(device: Device, view: DeviceView, scope: Scope, extra: Mapping[str, str]) -> SuiteView:
-    """The view of `<device>_conformance.c`; `extra` are further macros that answer for points, by their function."""
+def conformance_view(device: Device, view: DeviceView, scope: Scope, more: Iterable[tuple[str, str]]) -> SuiteView:
+    """The view of `<device>_conformance.c`; `more` are further macros that answer for points, with their functions."""
+    extra: dict[str, list[str]] = {}
+    for function, case in more:
+        extra.setdefault(function, []).append(case)
     views = {entry.item: entry for group in view.groups for entry, _ in group.entries if entry is not None}
     points = [point for point in device.points if point.generated]
     groups = (
@@ -60,10 +63,9 @@ def conformance_view(device: Device, view: DeviceView, scope: Scope, extra: Mapp
     )
 
 
-def _adapter(point: Point, view: PointView, scope: Scope, extra: Mapping[str, str]) -> AdapterView:
+def _adapter(point: Point, view: PointView, scope: Scope, extra: Mapping[str, list[str]]) -> AdapterView:
     cases = _cases(point, view, scope)
-    if view.function in extra:
-        cases.append(extra[view.function])
+    cases += extra.get(view.function, [])
     return AdapterView(
         view.item,
         tuple(f"FIELDSCRIBE_{case}" for case in (*cases, *_parts(point, view))),

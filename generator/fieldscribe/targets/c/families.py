@@ -24,12 +24,12 @@ class Family:
 
     view: Callable[[Device, DeviceView, Scope], Any]
     identifiers: Callable[[Any, DeviceView], Iterator[tuple[str, str]]]
-    adapters: Callable[[Any], Mapping[str, str]] = lambda _: {}
+    adapters: Callable[[Any], Iterator[tuple[str, str]]]
 
 
 FAMILIES: Mapping[str, Family] = {
-    "modbus": Family(modbus.modbus_view, modbus.identifiers),
+    "modbus": Family(modbus.modbus_view, modbus.identifiers, modbus.adapters),
     "can": Family(can.can_view, can.identifiers, can.adapters),
-    "uss": Family(uss.uss_view, uss.identifiers),
+    "uss": Family(uss.uss_view, uss.identifiers, uss.adapters),
 }
 """A family's template and runtime go by its name: `<name>.h.j2` and `fieldscribe_<name>.h`."""

@@ -42,6 +42,9 @@ class RequestView:
     count: int
     number: str
     single: bool
+    text: bool
+    shares: bool
+    raw_of_words: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,6 +138,19 @@ def identifiers(bus: BusView, view: DeviceView) -> Iterator[tuple[str, str]]:
         yield from ((f"{request.function}{tail}", item) for tail in ("_read_request", "_write_request"))
 
 
+def adapters(bus: BusView) -> Iterator[tuple[str, str]]:
+    """How points answer vectors of whole exchanges."""
+    for one in bus.requests:
+        if one.read:
+            how = f"READ_TEXT({one.function}" if one.text else f"READ({one.function}, {one.raw_of_words}"
+            yield one.function, f"{how})"
+        if one.write:
+            how = f"WRITE_TEXT({one.function}" if one.text else f"WRITE({one.function}, {one.raw_type}"
+            yield one.function, f"{how}, {one.count}U)"
+        if one.read and one.shares:
+            yield one.function, f"UPDATE({one.function}, {one.raw_type}, {one.write_address})"
+
+
 def _request(point: Point, view: PointView, functions: frozenset[int], scope: Scope) -> RequestView | None:
     """None for a point that no function of the device reaches, or that needs its word read first to be written."""
     place = point.places[0]
@@ -155,7 +171,19 @@ def _request(point: Point, view: PointView, functions: frozenset[int], scope: Sc
         count=point.words,
         number=_number(point, view, scope),
         single=view.words is None,
+        text=point.text is not None,
+        shares=point.bits is not None,
+        raw_of_words=_raw_of_words(point, view),
     )
+
+
+def _raw_of_words(point: Point, view: PointView) -> str:
+    """The raw number that the words of a reply are."""
+    if point.bits is not None:
+        return f"{view.function}_extract(words[0])"
+    if view.words is not None:
+        return f"{view.function}_from_words(words)"
+    return "words[0] != 0U" if raw_type(point) == "bool" else f"({view.raw_type})words[0]"
 
 
 def _number(point: Point, view: PointView, scope: Scope) -> str:

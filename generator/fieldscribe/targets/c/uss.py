@@ -144,6 +144,23 @@ def identifiers(bus: BusView, view: DeviceView) -> Iterator[tuple[str, str]]:
         yield from ((word.function + tail, item) for tail in ("_to_pzd", "_from_pzd"))
 
 
+def adapters(bus: BusView) -> Iterator[tuple[str, str]]:
+    """How parameters, and words of process data, answer vectors of whole exchanges."""
+    for one in bus.requests:
+        if one.read:
+            yield one.function, f"READ({one.function}, {one.raw_type})"
+        tail = "_SHARED" if one.shares else ""
+        for kind, call, task in (("write", "write_request", one.ram), ("store", "write_eeprom_request", one.eeprom)):
+            if task and (one.read or not one.shares):
+                yield one.function, f'WRITE{tail}("{kind}", {one.function}, {call}, {one.raw_type})'
+    starts = {start.name: start.function for start in bus.starts}
+    for word in bus.words:
+        if word.write and word.telegram in starts:
+            yield word.function, f"SEND({word.function}, {word.raw_type}, {starts[word.telegram]}, {word.words_name})"
+        if word.read and word.telegram not in starts:
+            yield word.function, f"HEAR({word.function}, {word.words_name})"
+
+
 def _codes(title: str, kind: str, codes: tuple[Code, ...], scope: Scope) -> CodesView:
     prefix = f"{scope.upper}_{upper(kind)}"
     entries = (

@@ -7,25 +7,31 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.targets.vectors.can import can
+from fieldscribe.targets.vectors.can import CanWire, can
 from fieldscribe.targets.vectors.characters import digits, text
+from fieldscribe.targets.vectors.exchanges import Exchanges
 from fieldscribe.targets.vectors.floats import floats
 from fieldscribe.targets.vectors.lines import Lines
-from fieldscribe.targets.vectors.modbus import modbus
+from fieldscribe.targets.vectors.modbus import ModbusWire, modbus
 from fieldscribe.targets.vectors.oracle import Oracle
 from fieldscribe.targets.vectors.places import address, words
 from fieldscribe.targets.vectors.scaled import scaled
-from fieldscribe.targets.vectors.uss import uss
+from fieldscribe.targets.vectors.uss import UssWire, uss
 from fieldscribe.targets.vectors.whole import bits, fixed, flags, names, specials, whole
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Callable, Iterable, Mapping
 
     from fieldscribe.model import Device, Point
     from fieldscribe.render import Render
+    from fieldscribe.targets.vectors.exchanges import Wire
 
-_FAMILIES = {"modbus": modbus, "can": can, "uss": uss}
-"""What each family adds for its frames."""
+_FAMILIES: Mapping[str, tuple[Callable[[Lines, Device], None], Callable[[Device], Wire]]] = {
+    "modbus": (modbus, ModbusWire),
+    "can": (can, CanWire),
+    "uss": (uss, UssWire),
+}
+"""What each family adds for its frames, and how points travel in it."""
 
 
 def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
@@ -44,10 +50,15 @@ def collect(device: Device) -> Lines:
     """All vectors of a device: its points in the author's order, then its frames and blocks."""
     lines = Lines()
     oracle = Oracle({point.name: point for point in reversed(device.points)})
+    frames, wire = _FAMILIES[device.family]
+    exchanges = Exchanges(lines, oracle, device, wire(device))
+    exchanges.open()
     for point in device.points:
         if point.generated:
             _point(lines, oracle, point)
-    _FAMILIES[device.family](lines, device)
+            exchanges.of(point)
+            lines.gather()
+    frames(lines, device)
     return lines
 
 
@@ -70,4 +81,3 @@ def _point(lines: Lines, oracle: Oracle, point: Point) -> None:
     fixed(lines, point)
     bits(lines, point)
     words(lines, point)
-    lines.gather()

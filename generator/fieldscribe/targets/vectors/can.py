@@ -5,15 +5,75 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.can import CanFrame, Receiver, build, checksum, identifier, parse
+from fieldscribe.targets.vectors.exchanges import writing_place
 from fieldscribe.targets.vectors.numbers import as_raw
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from fieldscribe.model import Device, Message, Point, Telegram
+    from fieldscribe.targets.vectors.exchanges import Script
     from fieldscribe.targets.vectors.lines import Lines
 
 _NUMBERS = ((0, 0), (1, 1), (0x0102, 0xFEDC), (0xFFFF, 0xFFFF), (500, 1234), (0x00FF, 0xFF00), (0x8000, 0x8000))
+
+
+class CanWire:
+    """Exchanges of parameters, word by word; a frame is its identifier in four bytes and its data."""
+
+    def __init__(self, device: Device) -> None:
+        self.units = device.bus.units
+        self.unit = device.bus.units[0]
+        self.asks = {writes: _dialogue(device, writes=writes) for writes in (False, True)}
+
+    def opens(self, lines: Lines) -> None:
+        """The unit."""
+        lines.set("unit", self.unit)
+
+    def reads(self, point: Point, words: tuple[int, ...]) -> Script | None:
+        """A request and an answer for each word."""
+        return self._script(point.space, point.places[0].addresses, words, writes=False)
+
+    def writes(self, point: Point, words: tuple[int, ...], *, keep: bool) -> Script | None:
+        """A request and an answer for each word."""
+        return None if keep else self._script(point.space, writing_place(point).addresses, words, writes=True)
+
+    def _script(self, space: str, addresses: tuple[int, ...], words: tuple[int, ...], *, writes: bool) -> Script | None:
+        request, answer = self.asks[writes]
+        if space != "parameter" or request is None or answer is None:
+            return None
+        pairs = zip(sorted(addresses), words, strict=True)
+        return [
+            (self._sent(request, address, word if writes else 0), self._sent(answer, address, word))
+            for address, word in pairs
+        ]
+
+    def _sent(self, message: Message, address: int, raw: int) -> bytes:
+        return whole_frame(build(message, self.units, self.unit, address, raw)[1])
+
+    def spoils(self, point: Point, script: Script, *, writes: bool) -> Iterator[tuple[str, Script]]:
+        """No answer, or for a write another number than the one written."""
+        answer = self.asks[writes][1]
+        [(sent, good)] = script
+        yield "timeout", [(sent, b"")]
+        yield "timeout", [(sent, good[:3] + bytes((good[3] ^ 1,)) + good[4:])]
+        if answer is not None and writes and any(role.kind == "raw" for role in answer.roles):
+            word = parse(answer, self.unit, CanFrame(int.from_bytes(good[:4], "big"), good[4:])).raw
+            yield "echo_mismatch", [(sent, self._sent(answer, point.places[0].addresses[0], word ^ 0x0100))]
+
+
+def whole_frame(frame: CanFrame) -> bytes:
+    """A frame in bytes."""
+    return frame.id.to_bytes(4, "big") + frame.data
+
+
+def _dialogue(device: Device, *, writes: bool) -> tuple[Message | None, Message | None]:
+    """The message that reads or writes a parameter, and its answer."""
+    for request in device.messages:
+        kinds = {role.kind for role in request.roles}
+        if request.direction == "request" and "address" in kinds and ("raw" in kinds) == writes:
+            return request, next((one for one in device.messages if one.answers == request.name), None)
+    return None, None
 
 
 def can(lines: Lines, device: Device) -> None:

@@ -40,18 +40,21 @@ def _table(rows: Mapping[str, str]) -> dict[str, Kind]:
 
 _REQUEST = "framing:word unit:int transaction:int function:int address:int count:int values:ints?"
 
+_EXCHANGE = "script:script status:word raw:int? words:ints? needs:script?"
+
 SETS = _table(
     {
+        "unit": "unit:int framing:word?",
+        "link": "pkw:int pzd:int single_first:int?",
         "point": "point:word",
         "with": "with:pairs?",
         "request": _REQUEST,
         "message": "message:word",
         "telegram": "telegram:word unit:int",
-        "link": "pkw:int pzd:int single_first:int?",
         "task": "unit:int task:int parameter:int index:int width:int value:int words:ints?",
     }
 )
-"""What several vectors share: the point, the raw numbers that it needs, a request, a message, a link and its task."""
+"""What vectors share: the unit and its line, the point, the raw numbers that it needs, a request, a message, a task."""
 
 KINDS = _table(
     {
@@ -78,6 +81,10 @@ KINDS = _table(
         "references:pairs?",
         "place": "addresses:ints index:int? telegram:word?",
         "fixed": "mask:int bits:int",
+        # whole exchanges with a point: what is sent, what comes back, and what that makes of it; to be kept for good
+        "read": _EXCHANGE,
+        "write": _EXCHANGE,
+        "store": _EXCHANGE,
         # frames of Modbus, and batched reads
         "build": "status:word bytes:bytes?",
         "reply": "bytes:bytes? status:word values_out:ints? exception:int?",
@@ -155,6 +162,12 @@ def _frames(value: object) -> str:
     return ",".join(f"{number}={_bytes(data)}" for number, data in value)
 
 
+def _script(value: object) -> str:
+    if not isinstance(value, (tuple, list)):
+        raise TypeError(f"{value!r} is no list")
+    return ",".join(f"{_bytes(sent)}={_bytes(received)}" for sent, received in value)
+
+
 FORMS: dict[str, Callable[[object], str]] = {
     "int": _int,
     "word": _word,
@@ -165,8 +178,9 @@ FORMS: dict[str, Callable[[object], str]] = {
     "ints": _ints,
     "pairs": _pairs,
     "frames": _frames,
+    "script": _script,
 }
-"""How a field of each form is written: `pairs` are name=text, `frames` id=bytes, lists stand between commas."""
+"""How a field of each form is written: lists are between commas; `pairs`, `frames` and `script` are of two parts."""
 
 
 class Shape:

@@ -18,16 +18,94 @@ from fieldscribe.families.modbus import (
     parse_request,
     profile_of,
 )
+from fieldscribe.targets.vectors.exchanges import writing_place
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-    from fieldscribe.model import Bus, Device
+    from fieldscribe.model import Bus, Device, Point
+    from fieldscribe.targets.vectors.exchanges import Script
     from fieldscribe.targets.vectors.lines import Lines
 
 _READS = (0x01, 0x02, 0x03, 0x04)
 _TRANSACTION = 0x1234
 _ADDRESS = 0x0102
+
+
+_SPACES = {"coil": 0x01, "discrete": 0x02, "holding": 0x03, "input": 0x04}
+_WRITES = (0x05, 0x06, 0x0F, 0x10)
+
+
+class ModbusWire:
+    """Exchanges over the framing that the device knows first."""
+
+    def __init__(self, device: Device) -> None:
+        bus = device.bus
+        self.profile, self.bus = profile_of(bus), bus
+        low, _ = self.profile.units
+        self.unit = low if low != self.profile.broadcast else low + 1
+        self.framing = next(iter(_framings(bus)), "rtu")
+
+    def opens(self, lines: Lines) -> None:
+        """The unit and the framing."""
+        lines.set("unit", self.unit, self.framing)
+
+    def reads(self, point: Point, words: tuple[int, ...]) -> Script | None:
+        """One request for all words; they have to follow each other."""
+        place = point.places[0]
+        function = place.function if place.function in _READS else _SPACES[place.space]
+        return self._script(function, place.addresses, words)
+
+    def writes(self, point: Point, words: tuple[int, ...], *, keep: bool) -> Script | None:
+        """One request for all words, by the function that the manual names or the one for so many."""
+        place = writing_place(point)
+        if keep or place.space not in ("coil", "holding"):
+            return None
+        single, several = (0x05, 0x0F) if place.space == "coil" else (0x06, 0x10)
+        known = self.profile.most
+        usual = single if len(words) == 1 and single in known else several
+        function = place.function if place.function in _WRITES else usual
+        return self._script(function, place.addresses, words)
+
+    def _script(self, function: int, addresses: tuple[int, ...], words: tuple[int, ...]) -> Script | None:
+        if max(addresses) - min(addresses) + 1 != len(words):
+            return None
+        reads = function in _READS
+        request = Request(self.unit, function, min(addresses), len(words), () if reads else words, self._transaction())
+        status, sent = build(self.profile, self.framing, request)
+        return [(sent, _frame(self.framing, request, answer_with(request, words)))] if status == "ok" else None
+
+    def _transaction(self) -> int:
+        """Every device object counts from 1."""
+        return 1 if self.framing == "tcp" else 0
+
+    def spoils(self, point: Point, script: Script, *, writes: bool) -> Iterator[tuple[str, Script]]:
+        """A refusal, a wrong checksum or protocol, another unit and another function."""
+        del point, writes
+        [(sent, good)] = script
+        request = parse_request(self.framing, sent)
+        if isinstance(request, str):
+            return
+        code = next((one.number for one in self.bus.exceptions), 2)
+        pdus = (bytes((request.function | 0x80, code)), bytes((request.function ^ 1,)) + good_answer(request)[1:])
+        bad = [_frame(self.framing, request, pdu) for pdu in pdus]
+        bad += [good[:-1], good + b"\x00", bytes((good[0] ^ 1,)) + good[1:], good[:-1] + bytes((good[-1] ^ 1,))]
+        for answer in dict.fromkeys(bad):
+            reply = parse_reply(self.framing, request, answer)
+            if reply.status != "ok":
+                yield reply.status, [(sent, answer)]
+
+
+def answer_with(request: Request, words: tuple[int, ...]) -> bytes:
+    """The PDU of a device that has these words, or takes them."""
+    head = bytes((request.function,))
+    if request.function in (0x01, 0x02):
+        data = sum(bit << place for place, bit in enumerate(words)).to_bytes((len(words) + 7) // 8, "little")
+    elif request.function in (0x03, 0x04):
+        data = b"".join(word.to_bytes(2, "big") for word in words)
+    else:
+        return good_answer(request)
+    return head + bytes((len(data),)) + data
 
 
 def modbus(lines: Lines, device: Device) -> None:

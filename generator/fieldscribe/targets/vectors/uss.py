@@ -18,15 +18,107 @@ from fieldscribe.families.uss import (
     parse,
     telegram,
 )
+from fieldscribe.targets.vectors.exchanges import writing_place
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from fieldscribe.model import Bus, Device, Frame
+    from fieldscribe.model import Bus, Device, Frame, Point
+    from fieldscribe.targets.vectors.exchanges import Script
     from fieldscribe.targets.vectors.lines import Lines
 
 _TASK_WIDTHS = {2: 1, 3: 2, 7: 1, 8: 2, 11: 2, 12: 1, 13: 2, 14: 1}
 """How many words of value the tasks that change something carry."""
+
+
+_RAM = {(1, False): 2, (2, False): 3, (1, True): 7, (2, True): 8}
+_EEPROM = {(1, False): 14, (2, False): 13, (1, True): 12, (2, True): 11}
+"""The tasks that change a parameter of so many words, or an element of an array."""
+
+
+class UssWire:
+    """Exchanges over the link that carries the most."""
+
+    def __init__(self, device: Device) -> None:
+        self.bus = device.bus
+        self.unit = device.bus.units[0]
+        pkw = next((one for one in (VARIABLE, 4, 3) if one in device.bus.pkw), 0)
+        self.link = Link(pkw, device.bus.pzd[1])
+        self.directions = {one.name: one.direction for one in device.telegrams}
+        self.tasks = {code.number: code.answers for code in device.bus.functions}
+
+    def opens(self, lines: Lines) -> None:
+        """The unit and the link."""
+        lines.set("unit", self.unit)
+        lines.set("link", self.link.pkw, self.link.pzd)
+
+    def reads(self, point: Point, words: tuple[int, ...]) -> Script | None:
+        """A parameter by its task; a word of process data with the answer to no task."""
+        if point.text is not None or len(words) > 2:
+            return None
+        if point.telegram is None:
+            return self._change(point, 1, words, len(words), asks=True)
+        if self.directions.get(point.telegram) != "response" or max(point.addresses) >= self.link.pzd:
+            return None
+        return self._process((0,) * self.link.pzd, self._placed(point, words))
+
+    def writes(self, point: Point, words: tuple[int, ...], *, keep: bool) -> Script | None:
+        """A parameter by its task for RAM or EEPROM; a word of process data with no task."""
+        if point.text is not None or len(words) > 2:
+            return None
+        if point.telegram is None:
+            tasks = _EEPROM if keep else _RAM
+            if keep and point.keeps == "no":
+                return None
+            return self._change(point, tasks[len(words), point.index is not None], words, 0, asks=False)
+        if keep or self.directions.get(point.telegram) != "request" or max(point.addresses) >= self.link.pzd:
+            return None
+        return self._process(self._placed(point, words), (0,) * self.link.pzd)
+
+    def _placed(self, point: Point, words: tuple[int, ...]) -> tuple[int, ...]:
+        placed = dict(zip(sorted(point.addresses), words, strict=True))
+        return tuple(placed.get(at, 0) for at in range(self.link.pzd))
+
+    def _process(self, sent: tuple[int, ...], heard: tuple[int, ...]) -> Script | None:
+        status, data = build(self.bus, self.link, Request(self.unit, 0, words=sent))
+        empty = (0,) * (3 if self.link.pkw == VARIABLE else self.link.pkw)
+        return [(data, telegram(self.unit, (*empty, *heard)))] if status == "ok" else None
+
+    def _change(self, point: Point, task: int, words: tuple[int, ...], width: int, *, asks: bool) -> Script | None:
+        """One task for a parameter; `words` with the high one first are what it holds or is given."""
+        number = 0
+        for word in words:
+            number = number << 16 | word
+        quiet = (0,) * self.link.pzd
+        place = point.places[0] if asks else writing_place(point)
+        given = (0, 0) if asks else (len(words), number)
+        request = Request(self.unit, task, place.addresses[0], point.index or 0, *given, quiet)
+        status, data = build(self.bus, self.link, request)
+        answers = self.tasks.get(task, ())
+        double = [one for one in answers if (one in DOUBLE_RESPONSES) == (len(words) == 2)]
+        if status != "ok" or not double or (len(words) == 2 and self.link.pkw == 3):
+            return None
+        head = parameter_words(double[0], request.parameter, request.index)
+        part = list(head) + (list(words) if len(words) == 2 else [words[0]])
+        if self.link.pkw == 4 and len(words) == 1:
+            part = [*head, 0, words[0]]
+        return [(data, telegram(self.unit, (*part, *quiet)))]
+
+    def spoils(self, point: Point, script: Script, *, writes: bool) -> Iterator[tuple[str, Script]]:
+        """A refusal, a wrong check byte, another unit, and a telegram that is cut."""
+        del writes
+        [(sent, good)] = script
+        if point.telegram is not None:
+            return
+        words = [int.from_bytes(good[at : at + 2], "big") for at in range(3, len(good) - 1, 2)]
+        refused = telegram(self.unit, (words[0] & 0x0FFF | 0x7000, words[1], 17, *words[-self.link.pzd :]))
+        if self.link.pkw == 4:
+            refused = telegram(self.unit, (words[0] & 0x0FFF | 0x7000, words[1], 0, 17, *words[4:]))
+        yield "refused", [(sent, refused)]
+        yield "wrong_check", [(sent, good[:-1] + bytes((good[-1] ^ 1,)))]
+        yield "wrong_unit", [(sent, telegram(self.unit ^ 1, tuple(words)))]
+        yield "wrong_length", [(sent, good[:-1])]
+        yield "wrong_start", [(sent, bytes((START ^ 1,)) + good[1:])]
 
 
 def uss(lines: Lines, device: Device) -> None:

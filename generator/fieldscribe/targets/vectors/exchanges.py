@@ -1,0 +1,163 @@
+"""Vectors of whole exchanges: what is sent to read or write a point, and what the answer that came makes of it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Protocol
+
+from fieldscribe.targets.vectors import samples
+from fieldscribe.targets.vectors.numbers import as_raw, bits32, bits64
+from fieldscribe.targets.vectors.oracle import Oracle, admit
+from fieldscribe.targets.vectors.whole import with_fixed
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from fieldscribe.model import Device, Place, Point
+    from fieldscribe.targets.vectors.lines import Lines
+
+Script = list[tuple[bytes, bytes]]
+"""What is sent, and what comes back."""
+
+OTHER_BITS = 0xA5C3
+"""What stands in a word beside the bits of a group."""
+
+
+class Wire(Protocol):
+    """How the words of a point travel in a family."""
+
+    def opens(self, lines: Lines) -> None:
+        """Sets what all exchanges share: the unit, and how the line is set."""
+
+    def reads(self, point: Point, words: tuple[int, ...]) -> Script | None:
+        """The exchange that brings words, in ascending order of address; None where no request does."""
+
+    def writes(self, point: Point, words: tuple[int, ...], *, keep: bool) -> Script | None:
+        """The exchange that changes words; `keep` for good, where that is another request."""
+
+    def spoils(self, point: Point, script: Script, *, writes: bool) -> Iterator[tuple[str, Script]]:
+        """The same exchange with answers that are none, each with its status."""
+
+
+class Exchanges:
+    """The exchanges of one device."""
+
+    def __init__(self, lines: Lines, oracle: Oracle, device: Device, wire: Wire) -> None:
+        self.lines, self.oracle, self.wire = lines, oracle, wire
+        self.points = {point.item: point for point in device.points if point.generated}
+        self.spoiled: set[tuple[str, str]] = set()
+        """For which kinds and spaces the bad answers were given: once for each."""
+
+    def open(self) -> None:
+        """Sets the unit and the line for all exchanges."""
+        self.wire.opens(self.lines)
+
+    def of(self, point: Point) -> None:
+        """Reading the point, writing it, and writing it for good."""
+        if not point.places:
+            return
+        settings = samples.settings(self.oracle, point)[0] if point.arguments else {}
+        needs = self._needs(settings)
+        raw = None if needs is None else typical(self.oracle, point, settings)
+        if raw is None:
+            return
+        self.lines.set("point", point.item)
+        self.lines.set("with", settings)
+        if point.readable:
+            place = point.places[0]
+            words = words_of(point, place, raw, received=True)
+            self._add("read", point, raw, self.wire.reads(point, words), needs or [])
+        if point.writable:
+            for kind, keep in (("write", False), ("store", True)):
+                self._add(kind, point, raw, self._writing(point, raw, keep=keep), needs or [])
+
+    def _writing(self, point: Point, raw: int, *, keep: bool) -> Script | None:
+        place = writing_place(point)
+        words = words_of(point, place, raw)
+        script = self.wire.writes(point, words, keep=keep)
+        if script is None or point.bits is None:
+            return script
+        if not point.readable:
+            return None
+        before = self.wire.reads(point, words_of(point, place, as_raw(point, ~raw), received=True))
+        return None if before is None else before + script
+
+    def _needs(self, settings: dict[str, int]) -> Script | None:
+        """The exchanges that read the points that another one needs; None where one of them cannot be read so."""
+        script: Script = []
+        for name, raw in settings.items():
+            other = self.points.get(name)
+            if other is None or not other.readable or not other.places or other.scale_arguments:
+                return None
+            read = self.wire.reads(other, words_of(other, other.places[0], raw))
+            if read is None:
+                return None
+            script += read
+        return script
+
+    def _add(self, kind: str, point: Point, raw: int, script: Script | None, needs: Script) -> None:
+        if script is None:
+            return
+        words = None if point.text is None else words_of(point, point.places[0], raw)
+        number = raw if point.text is None else None
+        self.lines.add(kind, script, "ok", number, words, needs)
+        if (kind, point.space) in self.spoiled or point.bits is not None or needs or point.text is not None:
+            return
+        self.spoiled.add((kind, point.space))
+        for status, bad in self.wire.spoils(point, script, writes=kind != "read"):
+            self.lines.add(kind, bad, status, None if kind == "read" else number)
+
+
+def writing_place(point: Point) -> Place:
+    """Where a point is written."""
+    return next((one for one in point.places if one.purpose == "write"), point.places[0])
+
+
+def words_of(point: Point, place: Place, raw: int, *, received: bool = False) -> tuple[int, ...]:
+    """The words of a raw number as they travel, in ascending order of address.
+
+    A group has other bits beside it: those that are written as a constant are so when they are sent, and another number
+    when they are received.
+    """
+    count = len(place.addresses) if point.text is not None else point.words
+    if point.bits is not None:
+        low, ones = point.bits[1], (1 << point.width) - 1
+        word = OTHER_BITS & ~(ones << low) | (raw & ones) << low
+        if point.fixed is None:
+            return (word,)
+        constant = point.fixed.bits ^ point.fixed.mask if received else point.fixed.bits
+        return (word & ~point.fixed.mask | constant,)
+    pattern = raw & (1 << 16 * count) - 1
+    parts = [pattern >> 16 * (count - 1 - part) & 0xFFFF for part in range(count)]
+    if len(place.addresses) != count:
+        return tuple(parts)
+    return tuple(part for _, part in sorted(zip(place.addresses, parts, strict=True)))
+
+
+def typical(oracle: Oracle, point: Point, settings: dict[str, int]) -> int | None:
+    """A raw number that may be written, two thirds up its range if that may be."""
+    if point.text is not None:
+        return int.from_bytes(bytes(0x41 + place % 26 for place in range(point.text.characters)), "big")
+    if point.digits is not None:
+        known = sorted(entry.raw for entry in point.digits.enum.entries if entry.raw < 10)
+        digits = [known[place % len(known)] for place in range(point.digits.count)]
+        return int("".join(map(str, digits))) & 0xFFFF
+    if point.form == "float":
+        return _typical_pattern(point)
+    ratio = oracle.ratio(point, settings) if point.scale is not None else None
+    limits = oracle.limits(point, settings)
+    if isinstance(ratio, str) or isinstance(limits, str):
+        return None
+    low, high = max(limits, key=lambda one: one[1] - one[0])
+    tried = (high - (high - low) // 3, *(raw for interval in limits for raw in interval))
+    found = (with_fixed(point, raw) for raw in tried)
+    return next((raw for raw in found if admit(point, raw, limits) == "ok" and not _is_special(point, raw)), None)
+
+
+def _typical_pattern(point: Point) -> int:
+    low, high = point.allowed.units[0] if point.allowed.units else (0, 100)
+    value = float(low) + (float(high) - float(low)) / 3
+    return bits64(value) if point.width == 64 else bits32(value) or 0
+
+
+def _is_special(point: Point, raw: int) -> bool:
+    return any(special.low <= raw <= special.high for special in point.specials)
