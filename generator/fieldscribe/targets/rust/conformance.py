@@ -15,6 +15,12 @@ if TYPE_CHECKING:
     from fieldscribe.model import Point
     from fieldscribe.targets.rust.subjects import Scope, Subject
 
+Needs = tuple[tuple[str, tuple[str, ...]], ...]
+"""Structs and their fields."""
+
+_CHAIN = 60
+"""As long as a chain of calls may be in one line."""
+
 Table = tuple[str, str, tuple[str, ...]]
 """The function that a table becomes, the runner's function behind it, and its rows."""
 
@@ -67,6 +73,82 @@ def _newer(scope: Scope, texts: list[Subject], digits: list[Subject]) -> Iterato
     ):
         if rows:
             yield kind, kind, rows
+    ways: dict[tuple[str, str], list[str]] = {}
+    for kind, run, row in _exchanges(scope):
+        ways.setdefault((kind, run), []).append(row)
+    for (kind, run), found in ways.items():
+        yield f"{kind}_by_{run}", run, tuple(found)
+
+
+def _exchanges(scope: Scope) -> Iterator[tuple[str, str, str]]:
+    """The kind, the runner's function and the row of each point that travels."""
+    for one in scope.subjects:
+        if not one.point.places:
+            continue
+        for kind, run, needs in _ways(one, scope):
+            given = "".join(f" ({_arguments(*pair)})" for pair in needs)
+            yield kind, run, _row(one, f"wire{given}")
+
+
+def _ways(subject: Subject, scope: Scope) -> Iterator[tuple[str, str, Needs]]:
+    """How a point is read and written in its family: kind, function, and the structs of what that needs."""
+    point = subject.point
+    if point.telegram is not None:
+        if scope.family == "uss" and subject.form != "text" and not point.bits:
+            yield from _process_ways(subject, scope)
+        return
+    text = "_text" if subject.form == "text" else ""
+    if point.readable:
+        yield "read", f"read{text}", ()
+    if point.writable:
+        yield "write", *_change(subject, "write", "update", text)
+    if point.writable and scope.family == "uss" and point.keeps != "no":
+        yield "store", *_change(subject, "store", "store_update", text)
+
+
+def _process_ways(subject: Subject, scope: Scope) -> Iterator[tuple[str, str, Needs]]:
+    """Words of process data, which go one way."""
+    point = subject.point
+    telegram, _ = scope.telegrams[point.telegram or ""]
+    if telegram.direction == "response" and point.readable:
+        yield "read", "receive", (_of_scale(subject),)
+    elif telegram.direction == "request" and point.writable:
+        needs = (_of_scale(subject), _of_all(subject))
+        yield ("write", "send", needs) if point.readable else ("write", "send_only", ())
+
+
+def _change(subject: Subject, change: str, update: str, text: str) -> tuple[str, Needs]:
+    """The function that writes a point, and what it needs: the value of a raw number, where there is one to read."""
+    point = subject.point
+    if point.bits:
+        return update, ()
+    if not point.readable:
+        return f"{change}_only", ()
+    return f"{change}{text}", () if text else (_of_scale(subject), _of_all(subject))
+
+
+def _of_scale(subject: Subject) -> tuple[str, tuple[str, ...]]:
+    return subject.factors_type, subject.factors
+
+
+def _of_all(subject: Subject) -> tuple[str, tuple[str, ...]]:
+    return subject.with_type, subject.arguments
+
+
+def arms(tables: Iterable[Table]) -> Iterator[str]:
+    """The lines that hand vectors of whole exchanges to the tables of their kind, laid out as rustfmt does."""
+    names = [name for name, _, _ in tables]
+    for kind in ("read", "write", "store"):
+        calls = [f"{name}(vector)" for name in names if name.startswith(f"{kind}_by_")]
+        chain = [*calls[:1], *(f".or_else(|| {call})" for call in calls[1:])]
+        if len("".join(chain)) <= _CHAIN:
+            lines = ["".join(chain)] if chain else []
+        else:
+            lines = [chain[0], *(f"    {link}" for link in chain[1:])]
+        if lines:
+            whole = [f'"{kind}" => {lines[0]}', *lines[1:]]
+            yield from whole[:-1]
+            yield f"{whole[-1]},"
 
 
 def _row(subject: Subject, how: str) -> str:

@@ -1,9 +1,178 @@
 // SPDX-License-Identifier: 0BSD
 //! Vectors of messages and of telegrams.
 
-use fieldscribe_runtime::can::{Frame, Message, ParseError, Profile, Received, Receiver, Telegram};
+use std::collections::VecDeque;
 
-use super::{bytes, same, Number, Outcome, Vector};
+use fieldscribe_runtime::can::{
+    self, AsyncClient, Client, ClientError, Frame, Message, Parameter, ParseError, Profile,
+    Received, Receiver, Telegram,
+};
+use fieldscribe_runtime::{BitGroup, Decoded, Error, Readable, Whole, Writable};
+
+use super::{bytes, exchanged, now, same, Number, Outcome, Script, Vector};
+
+/// The same operation with the client that blocks and the one that does not, each over a script of its own.
+macro_rules! both {
+    ($vector:ident, $profile:ident, |$client:ident| $call:expr) => {{
+        let found = {
+            let mut $client = Client::new(Bus::new($vector), $profile, $vector.raw("unit"));
+            let found = $call;
+            let script = $client.into_transport();
+            exchanged($vector, found, name, &script.script)?
+        };
+        let again = {
+            let mut $client = AsyncClient::new(Bus::new($vector), $profile, $vector.raw("unit"));
+            let found = now($call);
+            let script = $client.into_transport();
+            exchanged($vector, found, name, &script.script)?
+        };
+        same(true, found == again)?;
+        found
+    }};
+}
+
+/// Frames in bytes: the identifier in four and the data.
+struct Bus {
+    script: Script,
+    came: VecDeque<Frame>,
+}
+
+impl Bus {
+    fn new(vector: &Vector) -> Self {
+        Self {
+            script: Script::new(vector),
+            came: VecDeque::new(),
+        }
+    }
+
+    fn sent(&mut self, frame: &Frame) -> Result<(), ()> {
+        let data = [&frame.id().to_be_bytes(), frame.bytes()].concat();
+        let answer = self.script.answer(&data).ok_or(())?;
+        if let Some((id, data)) = answer.split_first_chunk() {
+            self.came
+                .push_back(Frame::new(u32::from_be_bytes(*id), data));
+        }
+        Ok(())
+    }
+}
+
+impl can::Transport for Bus {
+    type Error = ();
+
+    fn send(&mut self, frame: &Frame) -> Result<(), ()> {
+        self.sent(frame)
+    }
+
+    fn receive(&mut self) -> Result<Frame, ()> {
+        self.came.pop_front().ok_or(())
+    }
+
+    fn pending(&mut self) -> Result<Option<Frame>, ()> {
+        Ok(self.came.pop_front())
+    }
+}
+
+impl can::AsyncTransport for Bus {
+    type Error = ();
+
+    async fn send(&mut self, frame: &Frame) -> Result<(), ()> {
+        self.sent(frame)
+    }
+
+    async fn receive(&mut self) -> Result<Frame, ()> {
+        self.came.pop_front().ok_or(())
+    }
+
+    async fn pending(&mut self) -> Result<Option<Frame>, ()> {
+        Ok(self.came.pop_front())
+    }
+}
+
+fn name(error: ClientError<()>) -> &'static str {
+    match error {
+        ClientError::Point(error) => error.name(),
+        ClientError::Build(error) => error.name(),
+        ClientError::EchoMismatch(_) => "echo_mismatch",
+        ClientError::Telegram(error) => error.name(),
+        _ => "timeout",
+    }
+}
+
+/// A point's raw number.
+pub fn read<P>(vector: &Vector, profile: &'static Profile) -> Outcome
+where
+    P: Readable<Raw: Number> + Parameter,
+{
+    let found = both!(vector, profile, |client| client.read_raw::<P>());
+    same(vector.number("raw"), found.map(Number::to_number))
+}
+
+/// A text's words.
+pub fn read_text<P>(vector: &Vector, profile: &'static Profile) -> Outcome
+where
+    P: Readable + Whole + Parameter,
+{
+    let found = both!(vector, profile, |client| client.read_raw::<P>());
+    let words = found.map(|raw| P::to_words(raw).as_ref().to_vec());
+    same(vector.numbers("words"), words.unwrap_or_default())
+}
+
+/// The value of a raw number is written.
+pub fn write<P>(
+    vector: &Vector,
+    profile: &'static Profile,
+    factors: P::Factors,
+    with: P::With,
+) -> Outcome
+where
+    P: Readable<Raw: Number, Value: Copy> + Writable<With: Copy> + Whole + Parameter,
+{
+    let value = P::decode_with(vector.raw("raw"), factors)
+        .into_result()
+        .map_err(Error::name)?;
+    both!(vector, profile, |client| client
+        .write_with::<P>(value, with));
+    Ok(())
+}
+
+/// A text is written.
+pub fn write_text<P>(vector: &Vector, profile: &'static Profile) -> Outcome
+where
+    P: Readable<Factors = (), Value: Copy> + Writable<With = ()> + Whole + Parameter,
+{
+    let words: Vec<u16> = vector.numbers("words");
+    let raw = P::from_received(words.into_iter()).map_err(Error::name)?;
+    let value = P::decode(raw).into_result().map_err(Error::name)?;
+    both!(vector, profile, |client| client.write::<P>(value));
+    Ok(())
+}
+
+/// A group of bits is written into its word.
+pub fn update<P>(vector: &Vector, profile: &'static Profile) -> Outcome
+where
+    P: Readable<Raw: Number, Factors = (), Value: Copy>
+        + Writable<With = ()>
+        + BitGroup
+        + Parameter,
+{
+    let value = P::decode(vector.raw("raw"))
+        .into_result()
+        .map_err(Error::name)?;
+    both!(vector, profile, |client| client.update::<P>(value));
+    Ok(())
+}
+
+/// A parameter that cannot be read is written as it is.
+pub fn write_only<P>(vector: &Vector, profile: &'static Profile) -> Outcome
+where
+    P: Writable<Raw: Number> + Whole + Parameter,
+{
+    let words = P::to_words(vector.raw("raw"));
+    let word = words.as_ref().first().copied().unwrap_or_default();
+    both!(vector, profile, |client| client
+        .write_word(P::ADDRESS, word));
+    Ok(())
+}
 
 /// A message into a frame. What an address or a raw number cannot be in Rust is refused here.
 pub fn build(vector: &Vector, profile: &Profile, messages: &[&Message]) -> Outcome {

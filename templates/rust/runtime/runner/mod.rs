@@ -6,7 +6,11 @@
 pub mod frames;
 
 use std::cell::Cell;
+use std::future::Future;
+use std::pin::pin;
 use std::process::ExitCode;
+use std::sync::Arc;
+use std::task::{Context, Poll, Wake, Waker};
 
 use fieldscribe_runtime::{
     BitGroup, CountReadable, CountWritable, Decoded, Error, Point, Raw, Readable, Text, Whole,
@@ -64,6 +68,22 @@ macro_rules! table {
     };
     ($run:ident $point:ident (frames) $vector:ident) => {
         runner::frames::$run::<device::points::$point>($vector)
+    };
+    ($run:ident $point:ident (wire) $vector:ident) => {
+        runner::frames::$run::<device::points::$point>($vector, &device::PROFILE)
+    };
+    ($run:ident $point:ident (wire $($with:tt)+) $vector:ident) => {
+        runner::frames::$run::<device::points::$point>(
+            $vector,
+            &device::PROFILE,
+            $(table!(struct $with $vector)),+
+        )
+    };
+    (struct () $vector:ident) => {
+        ()
+    };
+    (struct ($with:ident: $($field:ident $name:literal)+) $vector:ident) => {
+        device::with::$with { $($field: $vector.with($name)),+ }
     };
     ($run:ident $word:ident (value $constant:ident) $vector:ident) => {
         runner::$run($vector, u64::from(device::flags::$word::$constant))
@@ -549,6 +569,95 @@ where
     let digits: Vec<E> = numbers.into_iter().map(E::from).collect();
     let digits = <[E; N]>::try_from(digits).map_err(|_| "there are other digits".to_owned())?;
     vector.expect(P::encode(digits), "raw")
+}
+
+/// A transport that expects what the script of a vector says is sent, in any order, and answers as it says.
+pub struct Script {
+    steps: Vec<(Vec<u8>, Vec<u8>)>,
+    fault: Option<String>,
+}
+
+impl Script {
+    /// The script of a vector; what other points are asked for is not asked here.
+    pub fn new(vector: &Vector) -> Self {
+        let _ = vector.field("needs");
+        let steps = vector.pairs("script").into_iter();
+        let steps = steps.map(|(sent, received)| (bytes(&sent), bytes(&received)));
+        Self {
+            steps: steps.collect(),
+            fault: None,
+        }
+    }
+
+    /// What answers a request; nothing if it should not be sent.
+    pub fn answer(&mut self, request: &[u8]) -> Option<Vec<u8>> {
+        let place = self.steps.iter().position(|(sent, _)| sent == request);
+        if place.is_none() {
+            self.fault = Some(format!("sent {}", hex(request)));
+        }
+        place.map(|place| self.steps.remove(place).1)
+    }
+
+    /// That all was sent that should be, and nothing else.
+    pub fn done(&self) -> Outcome {
+        let left = self.steps.first();
+        let left = left.map(|(sent, _)| format!("{} was not sent", hex(sent)));
+        self.fault.clone().or(left).map_or(Ok(()), Err)
+    }
+
+    fn exchanged(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, ()> {
+        let answer = self.answer(request).ok_or(())?;
+        let place = reply.get_mut(..answer.len()).ok_or(())?;
+        place.copy_from_slice(&answer);
+        Ok(answer.len())
+    }
+}
+
+impl fieldscribe_runtime::client::Transport for Script {
+    type Error = ();
+
+    fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, ()> {
+        self.exchanged(request, reply)
+    }
+}
+
+impl fieldscribe_runtime::client::AsyncTransport for Script {
+    type Error = ();
+
+    async fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, ()> {
+        self.exchanged(request, reply)
+    }
+}
+
+struct Idle;
+
+impl Wake for Idle {
+    fn wake(self: Arc<Self>) {}
+}
+
+/// The result of a future that never really waits.
+pub fn now<F: Future>(future: F) -> F::Output {
+    let waker = Waker::from(Arc::new(Idle));
+    match pin!(future).poll(&mut Context::from_waker(&waker)) {
+        Poll::Ready(result) => result,
+        Poll::Pending => panic!("it waits for something else than its transport"),
+    }
+}
+
+/// That an exchange came out as the vector says, and sent what it should.
+pub fn exchanged<T, E>(
+    vector: &Vector,
+    found: Result<T, E>,
+    name: impl Fn(E) -> &'static str,
+    script: &Script,
+) -> Result<Option<T>, String> {
+    let (status, found) = match found {
+        Ok(found) => ("ok", Some(found)),
+        Err(error) => (name(error), None),
+    };
+    same(vector.text("status").as_str(), status)?;
+    script.done()?;
+    Ok(found)
 }
 
 /// Runs all vectors of the file and reports one line per kind.

@@ -1,9 +1,43 @@
 // SPDX-License-Identifier: 0BSD
 //! Vectors of Modbus frames and of batched reads.
 
-use fieldscribe_runtime::modbus::{Block, BuildError, Profile, ReplyError, Request, LONGEST};
+use fieldscribe_runtime::modbus::{
+    AsyncClient, Block, BuildError, Client, ClientError, Framing, Profile, ReplyError, Request,
+    LONGEST,
+};
+use fieldscribe_runtime::{BitGroup, Decoded, Error, Readable, Whole, Writable};
 
-use super::{same, Outcome, Vector};
+use super::{exchanged, now, same, Number, Outcome, Script, Vector};
+
+/// The same operation with the client that blocks and the one that does not, each over a script of its own.
+macro_rules! both {
+    ($vector:ident, $profile:ident, |$client:ident| $call:expr) => {{
+        let found = {
+            let mut $client = Client::new(
+                Script::new($vector),
+                $profile,
+                framing($vector),
+                $vector.raw("unit"),
+            );
+            let found = $call;
+            let script = $client.into_transport();
+            exchanged($vector, found, name, &script)?
+        };
+        let again = {
+            let mut $client = AsyncClient::new(
+                Script::new($vector),
+                $profile,
+                framing($vector),
+                $vector.raw("unit"),
+            );
+            let found = now($call);
+            let script = $client.into_transport();
+            exchanged($vector, found, name, &script)?
+        };
+        same(true, found == again)?;
+        found
+    }};
+}
 
 /// A request into bytes.
 pub fn build(vector: &Vector, profile: &Profile) -> Outcome {
@@ -36,6 +70,95 @@ pub fn reply(vector: &Vector) -> Outcome {
     same(vector.text("status").as_str(), status)?;
     same(vector.numbers("values_out"), items)?;
     same(vector.count("exception"), exception)
+}
+
+fn framing(vector: &Vector) -> Framing {
+    match vector.text("framing").as_str() {
+        "tcp" => Framing::Tcp,
+        _ => Framing::Rtu,
+    }
+}
+
+fn name(error: ClientError<()>) -> &'static str {
+    match error {
+        ClientError::Point(error) => error.name(),
+        ClientError::Build(error) => error.name(),
+        ClientError::Reply(error) => error.name(),
+        ClientError::Transport(()) => "timeout",
+    }
+}
+
+/// A point's raw number.
+pub fn read<P>(vector: &Vector, profile: &'static Profile) -> Outcome
+where
+    P: Readable<Raw: Number>,
+{
+    let found = both!(vector, profile, |client| client.read_raw::<P>());
+    same(vector.number("raw"), found.map(Number::to_number))
+}
+
+/// A text's words.
+pub fn read_text<P>(vector: &Vector, profile: &'static Profile) -> Outcome
+where
+    P: Readable + Whole,
+{
+    let found = both!(vector, profile, |client| client.read_raw::<P>());
+    let words = found.map(|raw| P::to_words(raw).as_ref().to_vec());
+    same(vector.numbers("words"), words.unwrap_or_default())
+}
+
+/// The value of a raw number is written.
+pub fn write<P>(
+    vector: &Vector,
+    profile: &'static Profile,
+    factors: P::Factors,
+    with: P::With,
+) -> Outcome
+where
+    P: Readable<Raw: Number, Value: Copy> + Writable<With: Copy> + Whole,
+{
+    let value = P::decode_with(vector.raw("raw"), factors)
+        .into_result()
+        .map_err(Error::name)?;
+    both!(vector, profile, |client| client
+        .write_with::<P>(value, with));
+    Ok(())
+}
+
+/// A text is written.
+pub fn write_text<P>(vector: &Vector, profile: &'static Profile) -> Outcome
+where
+    P: Readable<Factors = (), Value: Copy> + Writable<With = ()> + Whole,
+{
+    let words: Vec<u16> = vector.numbers("words");
+    let raw = P::from_received(words.into_iter()).map_err(Error::name)?;
+    let value = P::decode(raw).into_result().map_err(Error::name)?;
+    both!(vector, profile, |client| client.write::<P>(value));
+    Ok(())
+}
+
+/// A group of bits is written into its word.
+pub fn update<P>(vector: &Vector, profile: &'static Profile) -> Outcome
+where
+    P: Readable<Raw: Number, Factors = (), Value: Copy> + Writable<With = ()> + BitGroup,
+{
+    let value = P::decode(vector.raw("raw"))
+        .into_result()
+        .map_err(Error::name)?;
+    both!(vector, profile, |client| client.update::<P>(value));
+    Ok(())
+}
+
+/// A point that cannot be read is written as it is.
+pub fn write_only<P>(vector: &Vector, profile: &'static Profile) -> Outcome
+where
+    P: Writable<Raw: Number> + Whole,
+{
+    let unit = vector.raw("unit");
+    let request = Request::write::<P>(unit, vector.raw("raw"));
+    let mut client = Client::new(Script::new(vector), profile, framing(vector), unit);
+    let found = client.exchange(request).map(|_| ());
+    exchanged(vector, found, name, &client.into_transport()).map(|_| ())
 }
 
 /// A batched read.

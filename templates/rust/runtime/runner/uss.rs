@@ -2,10 +2,42 @@
 //! Vectors of USS telegrams.
 
 use fieldscribe_runtime::uss::{
-    self, BuildError, Link, ParseError, Profile, Request, Value, LONGEST,
+    self, AsyncClient, BuildError, Client, ClientError, Link, Parameter, ParseError, Profile,
+    Received, Request, Sent, Value, LONGEST,
 };
+use fieldscribe_runtime::{BitGroup, Decoded, Error, Readable, Whole, Writable};
 
-use super::{same, Number, Outcome, Vector};
+use super::{exchanged, now, same, Number, Outcome, Script, Vector};
+
+/// The same operation with the client that blocks and the one that does not, each over a script of its own.
+macro_rules! both {
+    ($vector:ident, $profile:ident, |$client:ident| $call:expr) => {{
+        let found = {
+            let mut $client = Client::new(
+                Script::new($vector),
+                $profile,
+                link($vector),
+                $vector.raw("unit"),
+            );
+            let found = $call;
+            let script = $client.into_transport();
+            exchanged($vector, found, name, &script)?
+        };
+        let again = {
+            let mut $client = AsyncClient::new(
+                Script::new($vector),
+                $profile,
+                link($vector),
+                $vector.raw("unit"),
+            );
+            let found = now($call);
+            let script = $client.into_transport();
+            exchanged($vector, found, name, &script)?
+        };
+        same(true, found == again)?;
+        found
+    }};
+}
 
 /// A request into bytes. What a value cannot be in Rust is refused here.
 pub fn build(vector: &Vector, profile: &Profile) -> Outcome {
@@ -70,6 +102,174 @@ pub fn reply(vector: &Vector, profile: &Profile) -> Outcome {
     same(vector.count("width"), width)?;
     same(vector.count("value"), number)?;
     same(vector.numbers("words"), words)
+}
+
+fn name(error: ClientError<()>) -> &'static str {
+    match error {
+        ClientError::Point(error) => error.name(),
+        ClientError::Build(error) => error.name(),
+        ClientError::Reply(error) => error.name(),
+        ClientError::EchoMismatch(_) => "echo_mismatch",
+        _ => "timeout",
+    }
+}
+
+/// A point's raw number.
+pub fn read<P>(vector: &Vector, profile: &'static Profile) -> Outcome
+where
+    P: Readable<Raw: Number> + Parameter,
+{
+    let found = both!(vector, profile, |client| client.read_raw::<P>());
+    same(vector.number("raw"), found.map(Number::to_number))
+}
+
+/// The value of a raw number is written.
+pub fn write<P>(
+    vector: &Vector,
+    profile: &'static Profile,
+    factors: P::Factors,
+    with: P::With,
+) -> Outcome
+where
+    P: Readable<Raw: Number, Value: Copy> + Writable<With: Copy> + Whole + Parameter,
+{
+    let value = P::decode_with(vector.raw("raw"), factors)
+        .into_result()
+        .map_err(Error::name)?;
+    both!(vector, profile, |client| client
+        .write_with::<P>(value, with));
+    Ok(())
+}
+
+/// A group of bits is written into its word.
+pub fn update<P>(vector: &Vector, profile: &'static Profile) -> Outcome
+where
+    P: Readable<Raw: Number, Factors = (), Value: Copy>
+        + Writable<With = ()>
+        + BitGroup
+        + Parameter,
+{
+    let value = P::decode(vector.raw("raw"))
+        .into_result()
+        .map_err(Error::name)?;
+    both!(vector, profile, |client| client.update::<P>(value));
+    Ok(())
+}
+
+/// The value of a raw number is stored.
+pub fn store<P>(
+    vector: &Vector,
+    profile: &'static Profile,
+    factors: P::Factors,
+    with: P::With,
+) -> Outcome
+where
+    P: Readable<Raw: Number, Value: Copy> + Writable<With: Copy> + Whole + Parameter,
+{
+    let value = P::decode_with(vector.raw("raw"), factors)
+        .into_result()
+        .map_err(Error::name)?;
+    both!(vector, profile, |client| client
+        .store_with::<P>(value, with));
+    Ok(())
+}
+
+/// A group of bits is stored in its word.
+pub fn store_update<P>(vector: &Vector, profile: &'static Profile) -> Outcome
+where
+    P: Readable<Raw: Number, Factors = (), Value: Copy>
+        + Writable<With = ()>
+        + BitGroup
+        + Parameter,
+{
+    let value = P::decode(vector.raw("raw"))
+        .into_result()
+        .map_err(Error::name)?;
+    both!(vector, profile, |client| client.store_update::<P>(value));
+    Ok(())
+}
+
+/// A parameter that cannot be read is written as it is.
+pub fn write_only<P>(vector: &Vector, profile: &'static Profile) -> Outcome
+where
+    P: Writable<Raw: Number> + Whole + Parameter,
+{
+    given(
+        vector,
+        profile,
+        Request::write::<P>(vector.raw("unit"), vector.raw("raw")),
+    )
+}
+
+/// The same in the EEPROM too.
+pub fn store_only<P>(vector: &Vector, profile: &'static Profile) -> Outcome
+where
+    P: Writable<Raw: Number> + Whole + Parameter,
+{
+    given(
+        vector,
+        profile,
+        Request::store::<P>(vector.raw("unit"), vector.raw("raw")),
+    )
+}
+
+fn given(vector: &Vector, profile: &'static Profile, request: Request) -> Outcome {
+    let mut client = Client::new(
+        Script::new(vector),
+        profile,
+        link(vector),
+        vector.raw("unit"),
+    );
+    let found = client.exchange(request).map(|_| ());
+    exchanged(vector, found, name, &client.into_transport()).map(|_| ())
+}
+
+/// Words of the process data that are sent as they are.
+pub fn send_only<P>(vector: &Vector, profile: &'static Profile) -> Outcome
+where
+    P: Writable<Raw: Number> + Whole + Sent,
+{
+    let words = P::to_words(vector.raw("raw"));
+    let mut client = Client::new(
+        Script::new(vector),
+        profile,
+        link(vector),
+        vector.raw("unit"),
+    );
+    for (position, word) in (P::ADDRESS..).zip(words.as_ref()) {
+        client.set_word(position, *word).map_err(Error::name)?;
+    }
+    let found = client.cycle();
+    exchanged(vector, found, name, &client.into_transport()).map(|_| ())
+}
+
+/// A point of the process data that comes back.
+pub fn receive<P>(vector: &Vector, profile: &'static Profile, factors: P::Factors) -> Outcome
+where
+    P: Readable<Raw: Number, Factors: Copy, Value: PartialEq + std::fmt::Debug> + Received,
+{
+    let found = both!(vector, profile, |client| client.receive_with::<P>(factors));
+    let expected = P::decode_with(vector.raw("raw"), factors)
+        .into_result()
+        .map_err(Error::name)?;
+    same(Some(expected), found)
+}
+
+/// A point of the process data that is sent.
+pub fn send<P>(
+    vector: &Vector,
+    profile: &'static Profile,
+    factors: P::Factors,
+    with: P::With,
+) -> Outcome
+where
+    P: Readable<Raw: Number, Value: Copy> + Writable<With: Copy> + Whole + Sent,
+{
+    let value = P::decode_with(vector.raw("raw"), factors)
+        .into_result()
+        .map_err(Error::name)?;
+    both!(vector, profile, |client| client.send_with::<P>(value, with));
+    Ok(())
 }
 
 fn link(vector: &Vector) -> Link {
