@@ -6,8 +6,32 @@ cd "$(dirname "$0")/.."
 purpose=${1:-compiler}
 
 missing_packages=""
-need() { # command or path, Debian package
+need() { # command, Debian packages
     command -v "$1" >/dev/null 2>&1 || missing_packages="$missing_packages $2"
+}
+need_that() { # Debian packages, then the command line that succeeds where they are there
+    packages=$1
+    shift
+    "$@" >/dev/null 2>&1 || missing_packages="$missing_packages $packages"
+}
+has_file() { # any of these files
+    for file in "$@"; do
+        if [ -e "$file" ]; then return 0; fi
+    done
+    return 1
+}
+links() { # a compiler with its options: can it make a program? What is installed may lack a library that is not.
+    made=$(mktemp -d)
+    printf 'int main(void) { return 0; }\n' >"$made/empty.c"
+    code=0
+    "$@" "$made/empty.c" -o "$made/empty" || code=$?
+    rm -rf "$made"
+    return "$code"
+}
+
+clang_libraries() { # the package with the sanitizer's library, of the version that is installed or would be
+    version=$(clang -dumpversion 2>/dev/null) || version=14
+    echo "libclang-rt-${version%%.*}-dev"
 }
 
 need python3 python3
@@ -15,11 +39,11 @@ if command -v python3 >/dev/null 2>&1 && [ ! -x .venv/bin/python ]; then
     python3 -c 'import ensurepip, venv' >/dev/null 2>&1 || missing_packages="$missing_packages python3-venv"
 fi
 if [ "$purpose" = tests ]; then
-    need gcc gcc
-    need g++ g++
-    need clang "clang libclang-rt-14-dev"
+    need_that "gcc libc6-dev" links gcc -fsanitize=address,undefined
+    need_that "g++ libc6-dev" links g++ -x c++
+    need_that "clang $(clang_libraries)" links clang -fsanitize=address,undefined
     need arm-none-eabi-gcc gcc-arm-none-eabi
-    [ -e /usr/lib/arm-none-eabi/include/stdint.h ] || [ -e /usr/include/newlib/stdint.h ] || missing_packages="$missing_packages libnewlib-arm-none-eabi"
+    need_that libnewlib-arm-none-eabi has_file /usr/lib/arm-none-eabi/include/stdint.h /usr/include/newlib/stdint.h
     need cargo "cargo-web rustc-web"
     need rustfmt rustfmt-web
     need cargo-clippy rust-web-clippy

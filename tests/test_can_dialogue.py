@@ -198,9 +198,9 @@ def test_texts_are_shown_as_they_are(text: str, words: str) -> None:
 
 def test_answers_that_do_not_follow() -> None:
     heard = hear(can_frame(DEVICE, "write_request", 1, 2, 500), can_frame(DEVICE, "write_answer", 1, 2, 400))
-    assert heard[1].notes == ("it does not repeat what was written: 01F4h was, 0190h came back",)
+    assert heard[1].findings == ("it does not repeat what was written: 01F4h was, 0190h came back",)
     heard = hear(can_frame(DEVICE, "read_request", 1, 2), can_frame(DEVICE, "read_answer", 1, 3, 400))
-    assert heard[1].notes == ("the request before asked for parameter 2, this answers 3",)
+    assert heard[1].findings == ("the request before asked for parameter 2, this answers 3",)
 
 
 def test_bit_groups_of_a_word_are_all_shown() -> None:
@@ -261,13 +261,13 @@ def test_what_is_no_fault() -> None:
     foreign = hear("123#00")[0]
     assert (foreign.kind, foreign.unit, foreign.faults) == ("other", None, ())
     assert "320h to 33Eh visualisation" in foreign.notes[0]
-    assert "multiplexers 0 to 22 only" in hear("321#DDFF000000000000")[0].notes[0]
+    assert "multiplexers 0 to 22 only" in hear("321#DDFF000000000000")[0].findings[0]
     nobody = hear(can_frame(DEVICE, "read_request", 1, 9))[0]
     assert "no point is described" in said(nobody)[0] or nobody.items[0].point
     assert "no point is described here (1234h)" in said(hear(can_frame(DEVICE, "read_answer", 1, 60000, 0x1234))[0])[0]
     data = bytes.fromhex("FF2801FB0000")
     data += bytes((data[0] ^ data[2] ^ data[4], data[1] ^ data[3] ^ data[5]))
-    assert "cannot have unit 40" in hear(f"33F#{data.hex()}")[0].notes[0]
+    assert "cannot have unit 40" in hear(f"33F#{data.hex()}")[0].findings[0]
 
 
 def test_as_data() -> None:

@@ -425,3 +425,63 @@ def test_a_closed_stdout_is_no_bug() -> None:
     environment = {**os.environ, "PYTHONPATH": str(PACKAGES)}
     done = subprocess.run(command, shell=True, capture_output=True, text=True, env=environment, timeout=60, check=False)
     assert (done.returncode, done.stderr) == (0, "")
+
+
+def _rtu(text: str) -> str:
+    """Bytes with their check."""
+    data = bytes.fromhex(text)
+    crc = 0xFFFF
+    for byte in data:
+        crc ^= byte
+        for _ in range(8):
+            crc = crc >> 1 ^ (0xA001 if crc & 1 else 0)
+    return (data + crc.to_bytes(2, "little")).hex(" ")
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ((L200, _rtu("01 06 10 28 FF FF")), "6553.5 Hz is outside 0..400 Hz"),
+        ((L200, _rtu("01 03 10 28 00 05")), "the device takes at most 4 of them in one request"),
+        ((L200, _rtu("01 03 00 30 00 01")), "the manual closes 002Fh to 08FFh"),
+        ((L200, _rtu("28 03 10 28 00 01")), "the device cannot have unit 40"),
+        ((L200, _rtu("01 04 10 28 00 01")), "the device does not know function 04h"),
+        ((L200, "00 07 00 00 00 06 05 03 10 28 00 01", "--framing", "tcp"), "the manual knows only RTU frames"),
+        ((L200, _rtu("00 03 10 28 00 01")), "only writes may be sent to all units"),
+        ((CAN, "321#DDFF000000000000"), "the manual knows multiplexers 0 to 22 only"),
+        ((USS, "A43A 0000 0000 0000", "--framing", "pkw"), "the device cannot do this task"),
+        ((USS, "343A 0000 4220", "--framing", "pkw", "--pkw", "3"), "does not fit into this parameter part"),
+        ((USS, "007F 0000", "--framing", "pzd"), "breaks what is always written: bit 10 always 1"),
+    ],
+)
+def test_decode_ends_with_1_for_what_a_sound_frame_asks_wrongly(
+    run: Callable[..., Result], words: tuple[str, ...], said: str
+) -> None:
+    """The frame itself is whole; what it asks for or writes is not what the device takes."""
+    told = run("decode", *words)
+    assert (told.code, said in told.out) == (1, True), told.out
+    data = json.loads(run("decode", *words, "--format", "json").out)["frames"][0]
+    assert data["faults"] == []
+    assert data["findings"] or any(item["findings"] for item in data["items"])
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        (L200, _rtu("01 06 10 28 01 F4")),
+        (L200, _rtu("00 06 10 28 01 F4")),
+        (L200, _rtu("01 03 10 28 00 01"), _rtu("01 03 02 FF FF")),
+        (L200, _rtu("01 03 10 29 00 01")),
+        (USS, "020E01143A0000000000000000000023"),
+    ],
+)
+def test_decode_ends_with_0_for_notes_and_for_what_replies_bring(
+    run: Callable[..., Result], words: tuple[str, ...]
+) -> None:
+    told = run("decode", *words)
+    assert told.code == 0, told.out
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_every_help_says_how_the_command_ends(run: Callable[..., Result], command: str) -> None:
+    assert "nds with " in run(command, "--help").out

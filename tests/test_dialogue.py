@@ -131,9 +131,9 @@ def test_modicon_numbering_is_suspected() -> None:
 
 
 def test_requests_that_the_device_refuses() -> None:
-    assert hear(rtu("01 03 20 00 00 05")).notes == ("the device takes at most 4 of them in one request",)
-    assert "cannot have unit 40" in hear(rtu("28 03 10 28 00 01")).notes[0]
-    assert "does not know function 04h" in hear(rtu("01 04 10 28 00 01")).notes[0]
+    assert hear(rtu("01 03 20 00 00 05")).findings == ("the device takes at most 4 of them in one request",)
+    assert "cannot have unit 40" in hear(rtu("28 03 10 28 00 01")).findings[0]
+    assert "does not know function 04h" in hear(rtu("01 04 10 28 00 01")).findings[0]
     assert hear(rtu("00 06 10 28 01 F4")).notes == ("broadcast: no unit answers",)
     assert "outside" not in said(hear(rtu("01 06 10 28 01 C2")))[0]
     assert "is outside 0..400 Hz" in said(hear(rtu("01 06 10 28 FF FF")))[0]
@@ -186,7 +186,7 @@ def test_tcp_is_known_by_its_header() -> None:
     heard = hear(bytes.fromhex("000700000006050310280001"))
     assert (heard.framing, heard.unit, heard.kind) == ("tcp", 5, "request")
     assert heard.checks == "ok (transaction 7)"
-    assert heard.notes == ("the manual knows only RTU frames",)
+    assert heard.findings == ("the manual knows only RTU frames",)
     wrong = ModbusListener(DEVICE, {}, "tcp").hear(bytes.fromhex("000700000009050310280001"))
     assert wrong.faults == ("the length in the header is wrong",)
     assert said(wrong) == said(heard)

@@ -19,8 +19,9 @@ from fieldscribe.language.formula import (
     Number,
     condition_names,
     constant,
+    cut_off,
     evaluate,
-    looks_like_cut_binary_fraction,
+    exact_scale,
     names,
     parse_case,
     parse_condition,
@@ -319,8 +320,29 @@ def test_cases_compare_the_raw_number() -> None:
     ],
 )
 def test_a_cut_binary_fraction_is_noticed(text: str, suggestion: str | None) -> None:
-    found = looks_like_cut_binary_fraction(text)
-    assert (suggestion in found if found else False) if suggestion else found is None
+    found = cut_off(text)
+    assert (found.exact if found else None) == suggestion
+
+
+@pytest.mark.parametrize(
+    ("text", "line"),
+    [
+        ("value = raw * 0.0000152588", "value = raw / 65536"),
+        ("value = raw * 0.00610352", "value = raw * 100 / 16384"),
+        ("value = 0.00610352 * raw - 40", "value = 100 / 16384 * raw - 40"),
+        ("raw = value / 0.00610352", "raw = value * 16384 / 100"),
+        ("raw = value / 0.0000152588", "raw = value * 65536"),
+        ("value = raw * 0.33333", "value = raw / 3"),
+        ("value = raw * 0.66667 + 0.016667", "value = raw * 2 / 3 + 1 / 60"),
+        ("value = raw * 0.1", "value = raw * 0.1"),
+        ("value = raw * 0.12345", "value = raw * 0.12345"),
+        ("value = raw * 0.22225", "value = raw * 0.22225"),
+    ],
+)
+def test_the_exact_line_of_a_cut_decimal_is_given(text: str, line: str) -> None:
+    assert exact_scale(text) == line
+    assert (cut_off(text) is None) == (text == line)
+    parse_scale(line)
 
 
 WORDS = ["raw", "value", "a", "b082.raw", "10", "0", "1e400", "1028h", "0.1", "1FF", "H'", "and ", "or ", "not ", "in "]
@@ -347,5 +369,5 @@ def test_any_text_is_read_or_refused_quickly(text: str) -> None:
             assert error.message
             assert 0 <= error.column <= len(text)
             assert (error.message + error.hint).isprintable()
-    looks_like_cut_binary_fraction(text)
+    cut_off(text)
     assert perf_counter() - begun < 0.2

@@ -74,7 +74,7 @@ def test_single_words_by_the_length_of_the_part() -> None:
     assert first.items[0].raw == 5
     short = pkw("12BC 0000 0000", "12BC 0000 0002", link=3)
     assert short[1].items[0].raw == 2
-    assert "does not fit" in pkw("343A 0000 4220", link=3)[0].notes[0]
+    assert "does not fit" in pkw("343A 0000 4220", link=3)[0].findings[0]
 
 
 def test_pages_and_indices() -> None:
@@ -114,11 +114,11 @@ def test_answers_that_do_not_fit(request_part: str, reply: str, status: str) -> 
 
 
 def test_tasks_that_the_device_cannot_do() -> None:
-    assert "cannot do this task; expect response 7 not_executable" in pkw("A43A 0000 0000 0000")[0].notes[0]
+    assert "cannot do this task; expect response 7 not_executable" in pkw("A43A 0000 0000 0000")[0].findings[0]
     assert "EEPROM" in pkw("D43A 0000 4220 0000")[0].notes[0]
-    assert "SP" in pkw("1C3A 0000 0000 0000")[0].notes[0]
+    assert "SP" in pkw("1C3A 0000 0000 0000")[0].findings[0]
     error = pkw("143A 0000 0000 0000", "743A 0000 0005")[1]
-    assert error.notes == ("the manual does not give error 5 for task 1",)
+    assert error.findings == ("the manual does not give error 5 for task 1",)
     assert "which the manual does not list" in pkw(READ, "743A 0000 0063")[1].summary
     assert pkw(READ, "843A 0000 0000")[1].summary.endswith("response 8 no_control, parameter 1082")
     assert pkw(READ, "003A 0000 0000", ANSWER)[2].kind == "reply"
@@ -234,7 +234,7 @@ def test_words_that_are_no_telegram() -> None:
     assert hear("143A00", options=PKW)[0].faults == ("the part is made of words of two bytes, here are 3 bytes",)
     with pytest.raises(UnclearError, match="not a telegram"):
         hear("zz")
-    assert "cannot have unit 33" in hear(uss_bytes(33, "143A 0000 0000 0000 0000 0000"))[0].notes[0]
+    assert "cannot have unit 33" in hear(uss_bytes(33, "143A 0000 0000 0000 0000 0000"))[0].findings[0]
 
 
 @pytest.mark.parametrize(

@@ -86,9 +86,11 @@ def _number(subject: Subject, resolved: Resolved, key: str, printed: Map, number
     right = numbers.get(key)
     point = resolved.point
     if right is None:
-        if point.addresses and key not in resolved.draft.group.get("numbering", ()):
+        numbering = resolved.draft.group.get("numbering", ())
+        if point.addresses and key not in (*numbering, *getattr(numbering, "broken", ())):
             message = f"`{key}` names no numbering of this point"
-            hint = f"known here: {', '.join((*numbers, *_NEEDS))}"
+            hint = f"known here: {', '.join((*numbers, *_NEEDS))}; others follow from what the group says, as in "
+            hint += "`numbering: {modicon: wire + 1}`"
             subject.report.error("unknown-key", message, printed.key_span(key), hint)
         return
     for one, span in _each(printed[key], printed.span(key)):

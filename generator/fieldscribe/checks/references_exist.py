@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fieldscribe.language.meant import value_hint
+
 if TYPE_CHECKING:
     from fieldscribe.checks.subject import Subject
 
@@ -16,9 +18,13 @@ def check(subject: Subject) -> None:
     known = ("no", "yes", *choice, *sorted(declared))
     for resolved in subject.resolved:
         keeps = resolved.point.keeps
-        if keeps is not None and keeps not in known:
+        if keeps == "choice" and keeps not in known:
+            message = f"a {scope.header['family']} request cannot choose where the device keeps the value"
+            hint = "write `keeps: yes`, `keeps: no`, or the command that stores; `choice` is for the tasks of uss"
+            scope.report.error("wrong-choice", message, resolved.draft.span("keeps"), hint)
+        elif keeps is not None and keeps not in known:
             span = resolved.draft.span("keeps")
-            scope.unknown("command", keeps, span, known)
+            scope.unknown("command", keeps, span, known, value_hint("keeps", keeps))
     for raw in scope.listed("commands"):
         busy = raw.get("busy")
         if busy is not None and subject.index.find(busy) is None:

@@ -36,6 +36,7 @@ COMMANDS = {
     "decode": "say what frames from the line mean",
     "encode": "turn a value into its raw number, or into the whole request frame",
     "audit": "hold everything that a description cites against the text of its manual",
+    "units": "list the units that descriptions can use without declaring them",
 }
 """All commands with what they do, in the order in which they are listed. Their modules are imported when chosen."""
 

@@ -12,7 +12,9 @@ if TYPE_CHECKING:
 HELP = "validate descriptions; say everything that is wrong, and where"
 EXAMPLE = """examples:
   fieldscribe check
-  fieldscribe check descriptions/hitachi_l200 --format json"""
+  fieldscribe check descriptions/hitachi_l200 --format json
+
+ends with 1 when there is an error; warnings do not count"""
 
 
 def add_arguments(parser: ArgumentParser) -> None:

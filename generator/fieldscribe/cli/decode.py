@@ -21,7 +21,13 @@ EXAMPLE = """examples:
   fieldscribe decode siemens_mm4 --framing pkw "143A 0000 0000 0000" "243A 0000 4248 0000"
   fieldscribe decode siemens_mm4 --framing pzd --direction response "FA31 0000"
 
-Each FRAME is one argument; a reply is read by the request before it."""
+Each FRAME is one argument; a reply is read by the request before it.
+
+Ends with 1 when a frame is damaged, is no frame of the device (wrong length, checksum, header) or does not answer the
+request before it; when it asks for what the device does not do (a unit, function, task, count, multiplexer, framing or
+address that it has not, an address that the manual closes), or writes what it does not take (a value outside its range,
+a point that is read only, other bits than those always written). What a reply brings is never a finding: any raw number
+may come. Notes are no findings."""
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -52,7 +58,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 
 def run(arguments: Namespace) -> int:
-    """Decode; the exit code: 1 when a frame is wrong."""
+    """Decode; the exit code: 1 when there is a fault or a finding."""
     from fieldscribe.cli import FINDINGS, FINE
     from fieldscribe.cli.common import StopError, open_device, print_json, settings_of
     from fieldscribe.cli.link import options_of
@@ -71,7 +77,7 @@ def run(arguments: Namespace) -> int:
         print_json({"device": device.id, "frames": [one.as_data() for one in heard]})
     else:
         _print(heard)
-    return FINDINGS if any(one.faults for one in heard) else FINE
+    return FINDINGS if any(one.wrong for one in heard) else FINE
 
 
 def _frames(words: list[str]) -> list[str]:
@@ -100,7 +106,7 @@ def _print(heard: list[Heard]) -> None:
         rows = [("Frame", one.summary)]
         rows += [("Says", item.text) for item in one.items]
         rows += [("Header" if one.framing == "tcp" else "Checksum", one.checks)] if one.checks else []
-        rows += [("Wrong", fault) for fault in one.faults]
+        rows += [("Wrong", fault) for fault in (*one.faults, *one.findings)]
         rows += [("Note", note) for note in one.notes]
         print_rows(visible(one.shown) or spaced(one.data), [(label, visible(text)) for label, text in rows])
     if not heard:

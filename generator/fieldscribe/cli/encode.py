@@ -21,7 +21,10 @@ EXAMPLE = """examples:
   fieldscribe encode siemens_mm4 P1082 40 --unit 3 --pkw 4 --keep --frame
   fieldscribe encode siemens_mm4 HSW 40 --with P2000=50 --with P2009=0 --with STW=047Fh --frame
 
-With --frame only the frames go to stdout, one a line; what they mean goes to stderr."""
+With --frame only the frames go to stdout, one a line; what they mean goes to stderr.
+Ends with 1 when the value is refused: outside its range, no name of the point, a point that cannot be written, a frame
+that the device does not take. Ends with 2 when something is missing (--with) or is no value at all. That a value was
+rounded is a note."""
 
 
 def add_arguments(parser: ArgumentParser) -> None:

@@ -18,7 +18,10 @@ EXAMPLE = """examples:
   fieldscribe explain woodward_mpu2s nr:2
   fieldscribe explain woodward_mpu2s can:321
   fieldscribe explain siemens_mm4 "P2010[1]"
-  fieldscribe explain siemens_mm4 error:17"""
+  fieldscribe explain siemens_mm4 error:17
+  fieldscribe explain hitachi_l200 unit:Hz
+
+ends with 2 when nothing has that code, name or address"""
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -30,7 +33,8 @@ def add_arguments(parser: ArgumentParser) -> None:
         "what",
         metavar="WHAT",
         help="a code, a name, or an address (4136, 0x1028, 1028h), [1] behind it for one element of an array; "
-        "wire:, modicon:, code: or name: force one reading; can:, task:, response:, error:, function: ask for frames",
+        "wire:, modicon:, code: or name: force one reading; can:, task:, response:, error:, function: ask for frames, "
+        "unit: for a unit",
     )
     parser.add_argument(
         "--as-documented", action="store_true", help="show what the manual alone would say, without errata"
@@ -50,6 +54,8 @@ def run(arguments: Namespace) -> int:
     found = _points(device, arguments.what, as_documented=arguments.as_documented)
     found += explain_others(device, arguments.what)
     if not found:
+        if arguments.what.strip().lower().startswith("unit:"):
+            raise StopError(*_no_unit(arguments.what.partition(":")[2].strip()))
         hint = did_you_mean(near(device, arguments.what))
         if number_of(arguments.what.rpartition(":")[2].strip()) is not None:
             hint = hint.replace("did you mean", "described near it:").rstrip("?")
@@ -60,6 +66,14 @@ def run(arguments: Namespace) -> int:
     else:
         _print(found, arguments.what)
     return FINE
+
+
+def _no_unit(symbol: str) -> tuple[str, str]:
+    """The message and the hint for a unit that is neither the description's nor a shipped one."""
+    from fieldscribe.dialogue.selection import quoted
+    from fieldscribe.language.units import unit_hint
+
+    return f"there is no unit `{quoted(symbol)}`", unit_hint(symbol, ())
 
 
 def _points(device: Device, what: str, *, as_documented: bool) -> list[tuple[list[str], Explanation]]:

@@ -12,7 +12,9 @@ HELP = "print a device for other tools: the resolved model as JSON, or a CAN dat
 EXAMPLE = """examples:
   fieldscribe export json hitachi_l200
   fieldscribe export json hitachi_l200 | jq '.points[] | select(.code == "A020")'
-  fieldscribe export dbc woodward_mpu2s --unit 3 > mpu2s_3.dbc"""
+  fieldscribe export dbc woodward_mpu2s --unit 3 > mpu2s_3.dbc
+
+ends with 1 when the description is wrong, with 2 when the form has no way to say such a device"""
 
 _FORMS: Mapping[str, tuple[str, ...]] = {"json": (), "dbc": ("unit", "variant")}
 """The forms, with the options that each takes."""

@@ -21,7 +21,9 @@ if TYPE_CHECKING:
 HELP = "compile descriptions into C, Python, Rust, documentation and vectors"
 EXAMPLE = """examples:
   fieldscribe generate hitachi_l200 --target c --out firmware/drivers
-  fieldscribe generate --check          (says what is stale and writes nothing; for CI)"""
+  fieldscribe generate --check          (says what is stale and writes nothing; for CI)
+
+ends with 1 when a description is wrong, and with --check when anything is stale"""
 
 
 _WEIGHTS = {"c": 4.0, "python": 3.0, "rust": 4.0, "docs": 2.0, "vectors": 5.0}

@@ -21,7 +21,8 @@ if TYPE_CHECKING:
 class Item:
     """What a frame says of one place: a point and what its raw number means, a part of it, a command, or nothing known.
 
-    `text` is complete in itself for people. `missing` names points without whose raw numbers there is no value.
+    `text` is complete in itself for people. `missing` names points without whose raw numbers there is no value;
+    `findings` are what the device will not take, or what the manual closes, and stand in `text` too.
     """
 
     space: str
@@ -33,6 +34,7 @@ class Item:
     raw: int | None = None
     value: str | None = None
     missing: tuple[str, ...] = ()
+    findings: tuple[str, ...] = ()
 
     def as_data(self) -> dict[str, object]:
         """The same for JSON."""
@@ -45,14 +47,16 @@ class Item:
             "raw": self.raw,
             "value": self.value,
             "missing": list(self.missing),
+            "findings": list(self.findings),
             "text": self.text,
         }
 
 
 @dataclass(frozen=True, slots=True)
 class Heard:
-    """One frame in words; notes are not faults.
+    """One frame in words.
 
+    Faults break the frame itself; findings are what a sound frame asks or says against the manual; notes are neither.
     `kind`: request, reply, request_or_reply, exception, cyclic, broadcast, other (not of this device), unreadable.
     `details` are further facts of the family for JSON; `shown` is the frame as its users write it, if not as bytes.
     """
@@ -66,6 +70,7 @@ class Heard:
     items: tuple[Item, ...] = ()
     checks: str = ""
     faults: tuple[str, ...] = ()
+    findings: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
     exception: int | None = None
     details: Mapping[str, object] = field(default_factory=dict)
@@ -85,8 +90,14 @@ class Heard:
             "items": [item.as_data() for item in self.items],
             "checks": self.checks,
             "faults": list(self.faults),
+            "findings": list(self.findings),
             "notes": list(self.notes),
         }
+
+    @property
+    def wrong(self) -> bool:
+        """Whether anything about the frame is a fault or a finding."""
+        return bool(self.faults or self.findings or any(item.findings for item in self.items))
 
 
 @dataclass(frozen=True, slots=True)

@@ -89,4 +89,5 @@ def value_item(device: Device, point: Point, base: Base, numbers: Numbers, *, wr
     text += f"; {odd}" if odd else ""
     text += f"; {meaning.hint}" if meaning.hint else ""
     shown = None if point.text is not None else raw
-    return Item(*base, line(text), point.item, point.code, shown, meaning.value, meaning.missing)
+    findings = (odd,) if odd else ()
+    return Item(*base, line(text), point.item, point.code, shown, meaning.value, meaning.missing, findings)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 from difflib import get_close_matches
+from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from fieldscribe.dialogue import codec
@@ -13,10 +14,10 @@ from fieldscribe.dialogue.refusals import refusal
 from fieldscribe.dialogue.selection import UnclearError, choose_point, did_you_mean, label, quoted
 from fieldscribe.dialogue.texts import pattern_of_text
 from fieldscribe.language.numbers import NumberError, parse_number
+from fieldscribe.language.units import factor_between
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
-    from fractions import Fraction
 
     from fieldscribe.model import Device, Flag, Point
 
@@ -118,19 +119,27 @@ def _number(point: Point, text: str) -> Fraction:
         if found is None:
             raise
     number = parse_number(found[1])
-    if not _is_unit(point, found[2].strip()):
+    factor = _factor(point, found[2].strip())
+    if factor is None:
         has = f"is in {point.unit.symbol}" if point.unit.symbol else "has no unit"
         raise UnclearError(
             f"{label(point)} {has}, not in `{quoted(found[2])}`", "give the number in that unit, or alone"
         )
-    return number
+    return number * factor
+
+
+def _factor(point: Point, typed: str) -> Fraction | None:
+    """How many of the point's unit one of what was typed is. Case may differ, but not of a prefix: mW is not MW."""
+    symbol = point.unit.symbol
+    if not symbol:
+        return None
+    known = factor_between(typed, point.unit)
+    return Fraction(1) if known is None and _is_unit(point, typed) else known
 
 
 def _is_unit(point: Point, typed: str) -> bool:
-    """Whether the text means the point's unit. Case may differ, but not of a prefix: mW is not MW."""
+    """Whether the text spells the point's unit in another way."""
     symbol = point.unit.symbol
-    if not symbol:
-        return False
     if typed.casefold() in (point.unit.name.casefold(), f"{point.unit.name}s".casefold()):
         return True
     typed, symbol = (

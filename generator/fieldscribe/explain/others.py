@@ -8,6 +8,7 @@ from fieldscribe import wording
 from fieldscribe.explain import Explanation
 from fieldscribe.explain.exchanges import find_exchanges
 from fieldscribe.explain.lookup import number_of
+from fieldscribe.explain.units import find_units
 from fieldscribe.text import line
 from fieldscribe.wording.exact import hex_text
 
@@ -22,6 +23,9 @@ Told = tuple[list[str], Explanation]
 
 def explain_others(device: Device, what: str) -> list[Told]:
     """Everything but points that a name or a wire address means."""
+    prefix, colon, rest = what.strip().partition(":")
+    if colon and prefix.strip().lower() == "unit":
+        return [([reading], _clean(heading, rows)) for reading, heading, rows in find_units(device, rest.strip())]
     return list(_others(device, what.strip()))
 
 

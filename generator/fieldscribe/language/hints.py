@@ -7,6 +7,7 @@ from decimal import Decimal
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
+from fieldscribe.language.meant_keys import meant_key
 from fieldscribe.language.nodes import Map, Seq
 
 if TYPE_CHECKING:
@@ -15,20 +16,23 @@ if TYPE_CHECKING:
 KEYS_PAGE = "see the key in descriptions/KEYS.md"
 _MOST_COMPARED = 500
 _LONGEST_COMPARED = 80
-_NAME = "^[a-z][a-z0-9]*(_[a-z0-9]+)*$"
+_TYPING_SLIP = 0.7
+"""How alike keys must be: below that `precision` would be taken for `section`."""
+_WHOLE = "(0x[0-9A-Fa-f]{1,16}|[0-9A-Fa-f]{1,16}[hH]|[Hh]'[0-9A-Fa-f]{1,16}|0b[01]{1,64}|[0-9]{1,5})"
+
+NAME = "^[a-z][a-z0-9]*(_[a-z0-9]+)*$"
+NUMBER_KEY = "^([-+0-9]|[A-Fa-f][0-9A-Fa-f]*[hH](\\.\\.|$)|[Hh]').*$"
+BITS_KEY = f"^{_WHOLE}(\\.\\.{_WHOLE})?$"
+ONE_KEY = f"^{_WHOLE}$"
+ELEMENT_KEY = f"^{_WHOLE}(/{_WHOLE})?$"
 
 _FORMS = {
-    _NAME: ("a name in snake_case", "names are English words such as `base_frequency`: a to z, digits, single _"),
-    "^[-+0-9H].*$": ("a number", "keys here are numbers such as 3, -1, 1Fh or 0FFh (with a digit first)"),
-    "^([2-9]|[1-9][0-9]{1,2})$": ("the number of a set", "keys here are the numbers of the further sets, from 2 on"),
-    "^[0-9]{1,2}(\\.\\.[0-9]{1,2})?$": ("a bit or bits", "bits are written 3, several bits 5..4"),
-    "^[0-9]{1,5}(/[0-9]{1,5})?$": (
-        "an element",
-        "keys here are indices (sets where there are none), or set/index: 0, 3, 2/1",
-    ),
-    "^[0-7](\\.\\.[0-7])?$": ("a byte or bytes", "the bytes of a message are written 0, several bytes 2..3, up to 7"),
+    NAME: ("a name in snake_case", "names are English words such as `base_frequency`: a to z, digits, single _"),
+    NUMBER_KEY: ("a number", "keys here are numbers such as 3, -1, 1Fh or 0x1F"),
+    BITS_KEY: ("a number, or two", "bits and bytes are numbers: 3; several bits have the high one first: 5..4"),
+    ONE_KEY: ("the number of a set", "keys here are the numbers of the further sets, from 2 on"),
+    ELEMENT_KEY: ("an element", "keys here are indices (sets where there are none), or set/index: 0, 3, 2/1"),
     "^[0-9]{1,9}(\\.\\.[0-9]{1,9})?$": ("a line or lines", "lines are written 780, several lines 780..790"),
-    "^[-+0-9A-Fa-fH].*$": ("a number", "keys here are raw numbers such as 100, -1 or FF9Eh"),
     "^[a-z]{2}$": ("a language", "languages have two letters: en, de, fr"),
     "^x-": ("a private key", "keys of your own start with x-"),
     "^[0-9]+\\.[0-9]+\\.[0-9]+$": ("a version", "write three numbers: 1.0.0"),
@@ -45,19 +49,7 @@ _FORMS = {
 }
 """What the patterns of the schema mean, in words."""
 
-
-_MEANT = {
-    **dict.fromkeys(("address", "adress", "addr", "register", "offset", "wire"), "at"),
-    **dict.fromkeys(("scaling", "factor", "formula", "resolution", "gain"), "scale"),
-    **dict.fromkeys(("min", "max", "minimum", "maximum", "limits", "values"), "range"),
-    **dict.fromkeys(("datatype", "data_type", "format"), "type"),
-    **dict.fromkeys(("description", "label", "text", "desc"), "title"),
-    **dict.fromkeys(("choices", "options", "states"), "enum"),
-    **dict.fromkeys(("id", "number"), "code"),
-    **dict.fromkeys(("rights", "mode"), "access"),
-    "reason": "why",
-}
-"""Keys that people try, and what they mean here."""
+_GERMAN = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue", "Ä": "Ae", "Ö": "Oe", "Ü": "Ue", "ß": "ss"})
 
 
 def quoted(text: str) -> str:
@@ -98,6 +90,8 @@ def _about_number(value: int | Decimal, accepted: Collection[type], example: Any
         return _whole_hint(value, example)
     if pattern is not None and not re.search(pattern, str(value)):
         return form_hint(str(value), pattern)
+    if isinstance(example, str) and "wire" in example:
+        return f"write a formula: {example}"
     if str in accepted:
         return f'quote it: "{str(value).lower() if isinstance(value, bool) else value}"'
     return None
@@ -134,24 +128,40 @@ def form(pattern: str) -> str:
 def form_hint(value: str, pattern: str) -> str:
     """How a text of this pattern is written."""
     hint = _FORMS[pattern][1] if pattern in _FORMS else KEYS_PAGE
-    if pattern != _NAME:
+    if pattern != NAME:
         return hint
     import unicodedata
 
-    plain = unicodedata.normalize("NFKD", value[:60]).encode("ascii", "ignore").decode()
+    spelled = value[:60].translate(_GERMAN)
+    plain = unicodedata.normalize("NFKD", spelled).encode("ascii", "ignore").decode()
     suggestion = re.sub(r"[^a-z0-9]+", "_", re.sub(r"([a-z0-9])([A-Z])", r"\1_\2", plain).lower()).strip("_")
-    return f"write `{suggestion}`" if re.fullmatch(_NAME, suggestion) else hint
+    if value[:1].isdigit():
+        return "a name starts with a letter: `speed_2`, not `2nd_speed`"
+    return f"write `{suggestion}`" if re.fullmatch(NAME, suggestion) else hint
 
 
-def key_hint(key: str, known: Collection[str], patterns: Iterable[str]) -> str:
-    """What an unknown key may have meant."""
+def named_otherwise(key: str, patterns: Collection[str]) -> str | None:
+    """A key of bits or of a language that is only written in another way; None if it is not."""
+    from fieldscribe.language.meant import bits_meant
+    from fieldscribe.language.meant_words import LANGUAGES
+
+    if BITS_KEY in patterns:
+        return bits_meant(key)
+    return LANGUAGES.get(key.lower()) if "^[a-z]{2}$" in patterns else None
+
+
+def key_hint(key: str, known: Collection[str], patterns: Iterable[str], value: Any = None) -> str:
+    """What an unknown key with that value may have meant."""
     if key == "<<":
         return "merge keys are not part of YAML 1.2: write the keys out, or share them under `formats`"
-    meant = _MEANT.get(key.lower())
-    if meant in known:
-        return f"did you mean `{meant}`?"
+    meant = meant_key(key, value, known)
+    if meant is not None:
+        return meant
     forms = [pattern for pattern in patterns if pattern != "^x-"]
-    near = nearest(key, tuple(known))
+    named = named_otherwise(key, forms)
+    if named is not None:
+        return f"write `{named}`"
+    near = nearest(key, tuple(known), _TYPING_SLIP)
     if near is not None:
         return f"did you mean `{near}`?"
     said = [form_hint(key, pattern) for pattern in forms]
@@ -161,12 +171,12 @@ def key_hint(key: str, known: Collection[str], patterns: Iterable[str]) -> str:
 
 
 @lru_cache(maxsize=4096)
-def nearest(word: str, known: tuple[str, ...]) -> str | None:
+def nearest(word: str, known: tuple[str, ...], likeness: float = 0.6) -> str | None:
     """The known word that is most like this one, or None."""
     import difflib
 
     if len(word) > _LONGEST_COMPARED:
         return None
     by_folded = {one.lower(): one for one in reversed(known[:_MOST_COMPARED])}
-    near = difflib.get_close_matches(word.lower(), by_folded, 1, 0.6)
+    near = difflib.get_close_matches(word.lower(), by_folded, 1, likeness)
     return by_folded[near[0]] if near else None

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from fieldscribe.language.hints import BITS_KEY, ELEMENT_KEY, NAME, NUMBER_KEY, ONE_KEY
 from fieldscribe.language.shape import schema
 
 if TYPE_CHECKING:
@@ -39,15 +40,13 @@ _TITLES = {
     "erratum": "An erratum",
 }
 _FORMS = {
-    "^[a-z][a-z0-9]*(_[a-z0-9]+)*$": "<name>",
-    "^[-+0-9H].*$": "<number>",
-    "^[-+0-9A-Fa-fH].*$": "<number>",
+    NAME: "<name>",
+    NUMBER_KEY: "<number>",
     "^[a-z]{2}$": "<language>",
     "^x-": "x-<anything>",
-    "^[0-9]{1,2}(\\.\\.[0-9]{1,2})?$": "<bits>",
-    "^([2-9]|[1-9][0-9]{1,2})$": "<set>",
-    "^[0-9]{1,5}(/[0-9]{1,5})?$": "<index>",
-    "^[0-7](\\.\\.[0-7])?$": "<bytes>",
+    BITS_KEY: "<number or high..low>",
+    ONE_KEY: "<set>",
+    ELEMENT_KEY: "<index>",
     "^[a-z][a-z0-9_]*=[A-Za-z0-9_]+$": "<axis=value>",
     "^[A-Za-z0-9]+(_[A-Za-z0-9]+)*$": "<value>",
 }

@@ -6,6 +6,7 @@ from tags, and what aliases and nesting may cost is bounded.
 
 from __future__ import annotations
 
+import re
 from sys import intern
 from typing import TYPE_CHECKING, Any, NoReturn
 
@@ -20,6 +21,9 @@ if TYPE_CHECKING:
 
 MOST_DEPTH = 40
 MOST_NODES = 1_000_000
+
+_MOST_PIECES = 100
+_WORD = re.compile(r"[a-z][a-z0-9_]*")
 
 _SYNTAX_HINTS = (
     ("start any token", "tabs cannot indent YAML, and `%`, `@` and a backquote start no plain text: quote it"),
@@ -118,18 +122,45 @@ class _Builder:
         result = Map(self.source, (mark.line + 1, mark.column + 1))
         next_event, node = self.next_event, self._node
         places = result.places
+        cut: list[Any] = []
+        last: Any = None
         while True:
             event = next_event()
             if type(event) is yaml.MappingEndEvent:
+                if cut:
+                    self._cut(result, last, cut)
                 return result
-            key = self._key(event, result)
-            mark = event.start_mark
-            event = next_event()
+            named, event = event, next_event()
+            if type(event) is yaml.ScalarEvent and not event.value and _is_alone(named, event):
+                cut.append(named)
+                continue
+            if cut:
+                self._cut(result, last, cut)
+                cut = []
+            key = self._key(named, result)
+            mark = named.start_mark
             at = _place(event)
             value = node(event, depth + 1)
+            last = event
             if key is not None:
                 result[key] = value
                 places[key] = (mark.line + 1, mark.column + 1, *at)
+
+    def _cut(self, into: Map, last: Any, pieces: list[Any]) -> None:
+        """A finding for words between commas without a value; they are put back to the text that they were cut from."""
+        key, first = next(reversed(into), None), pieces[0].value[:60]
+        texts = type(last) is yaml.ScalarEvent and not last.style and len(pieces) <= _MOST_PIECES
+        keys = all(_WORD.fullmatch(piece.value) for piece in pieces) and not (texts and "(" in last.value)
+        hint = f"give it a value: `{first}: …`"
+        if key is None or not texts or keys:
+            into.broken += tuple(piece.value for piece in pieces[:_MOST_PIECES])
+        if key is not None and texts:
+            whole = ", ".join([last.value, *(piece.value for piece in pieces)])
+            quoted = f'if the comma belongs to the text, quote it: `{key[:60]}: "{whole[:200]}"`'
+            hint = f"{hint}; {quoted}" if keys else quoted
+            into[key] = into[key] if keys else whole
+        message = f"`{first}` stands between commas and has no value"
+        self._error("yaml-comma", message, pieces[0], hint)
 
     def _sequence(self, event: Any, depth: int) -> Seq:
         mark = event.start_mark
@@ -184,6 +215,14 @@ class _Builder:
     def _refuse(self, rule: str, message: str, event: Any, hint: str) -> NoReturn:
         self._error(rule, message, event, hint)
         raise _RefusedError
+
+
+def _is_alone(key: Any, value: Any) -> bool:
+    """Whether a key in braces, with an empty value, has no colon either: `{when: a in (0, 1)}` holds the key `1)`."""
+    if type(key) is not yaml.ScalarEvent or value.style or value.tag or value.anchor:
+        return False
+    start, end = value.start_mark, key.end_mark
+    return start is not None and end is not None and bool(start.index == end.index)
 
 
 def _place(event: Any) -> tuple[int, int]:

@@ -100,6 +100,17 @@ def _hex_hint(found: re.Match[str]) -> str:
     return f"write {found[0]}h or {found[1]}0x{found[2]} for hexadecimal; a unit is not part of a number"
 
 
+def _other_hex_hint(found: re.Match[str]) -> str:
+    digits = (found[1] or found[2]).upper()
+    return f"write {digits}h" if digits[0].isdigit() else f"write 0x{digits}"
+
+
+def _modicon_hint(found: re.Match[str]) -> str:
+    number = max(0, int(found[2]) - 1)
+    space = {"1": "discrete", "3": "input", "4": "holding"}[found[1]]
+    return f"on the wire it is {number}, in the space `{space}`; the printed number goes under `printed`"
+
+
 def _said(hint: str) -> Callable[[re.Match[str]], str]:
     return lambda _: hint
 
@@ -115,6 +126,12 @@ _REFUSED: tuple[tuple[re.Pattern[str], str, Callable[[re.Match[str]], str]], ...
         (r"[+-]?[0-9]{1,3}(?:\.[0-9]{3}){2,}", "thousands are not separated", _joined_hint),
         (r"[+-]?0b[0-9]*", "a binary number has only the digits 0 and 1", _said("as in 0b0101; hexadecimal ends in h")),
         (r"[+-]?0B[01]*", "binary is marked with a small b", _said("write 0b0101 for binary, 0B01h for hexadecimal")),
+        (r"([134])[xX]([0-9]{4,5})", "a number for people, counted from 1", _modicon_hint),
+        (
+            r"(?:\$|#|&[hH]|16#|[xX]')\s*([0-9A-Fa-f]+)'?|([0-9A-Fa-f]+)\s*(?:hex|HEX|Hex)",
+            "hexadecimal in another notation",
+            _other_hex_hint,
+        ),
         (
             r"[+-]?(?:0[xX][0-9A-Za-z]*|[hH]'.*|[0-9][0-9A-Za-z]*[hH])",
             "a hexadecimal number has only the digits 0 to 9 and A to F, and one marker",

@@ -8,7 +8,18 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 from fieldscribe.diagnostics import Report
-from fieldscribe.language.hints import form, form_hint, key_hint, nearest, quoted, shown, type_hint
+from fieldscribe.language.hints import (
+    BITS_KEY,
+    NUMBER_KEY,
+    form,
+    form_hint,
+    key_hint,
+    nearest,
+    quoted,
+    shown,
+    type_hint,
+)
+from fieldscribe.language.meant import reversed_hint, value_hint
 from fieldscribe.language.nodes import Map, Seq
 
 if TYPE_CHECKING:
@@ -45,7 +56,7 @@ def by_type(checks: Mapping[type, Check], wanted: str, example: Any, pattern: st
             "wrong-type",
             f"{shown(value)} stands where {wanted} belongs",
             holder.span(at),
-            type_hint(value, checks, example, pattern),
+            value_hint(at, value) or type_hint(value, checks, example, pattern),
         )
         return False
 
@@ -60,6 +71,7 @@ def string(choices: list[str] | None, pattern: str | None, longest: int) -> Chec
         if choices is not None and value not in choices:
             near = nearest(value, tuple(choices))
             hint = f"did you mean `{near}`?" if near else f"write one of {', '.join(choices)}"
+            hint = value_hint(at, value) or hint
             report.error("wrong-choice", f"{quoted(value)} is none of {', '.join(choices)}", holder.span(at), hint)
             return False
         if longest and len(value) > longest:
@@ -68,7 +80,10 @@ def string(choices: list[str] | None, pattern: str | None, longest: int) -> Chec
             return False
         if pattern is not None and compiled is not None and not compiled.search(value):
             report.error(
-                "wrong-form", f"{quoted(value)} is not {form(pattern)}", holder.span(at), form_hint(value, pattern)
+                "wrong-form",
+                f"{quoted(value)} is not {form(pattern)}",
+                holder.span(at),
+                value_hint(at, value) or form_hint(value, pattern),
             )
             return False
         return True
@@ -148,7 +163,9 @@ class ObjectCheck:
         for key, one in value.items():
             found = self.properties.get(key) or self._pattern(key)
             if found is None:
-                hint = key_hint(key, self.properties, [text for text, _, _ in self.patterns])
+                forms = [text for text, _, _ in self.patterns]
+                named = {NUMBER_KEY, BITS_KEY} & {*forms}
+                hint = (reversed_hint(key, one) if named else None) or key_hint(key, self.properties, forms, one)
                 report.error("unknown-key", f"the key {quoted(key)} is not known here", value.key_span(key), hint)
                 broken.append(key)
             elif not found(one, value, key, report):

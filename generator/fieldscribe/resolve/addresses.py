@@ -6,7 +6,9 @@ import re
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
+from fieldscribe.language.meant import interval_meant
 from fieldscribe.language.nodes import Map
+from fieldscribe.language.numbers import parse_number
 from fieldscribe.model import TYPES, Place
 from fieldscribe.resolve.numbering import Numberings
 from fieldscribe.resolve.telegrams import SPACE, Telegrams, telegram_of
@@ -157,6 +159,11 @@ class Places:
     def _number(self, draft: Draft, text: str) -> int | None:
         """A number, or a formula of `base`."""
         span = draft.span("at")
+        several = _several(text)
+        if several is not None:
+            hint = f"it stands once, at its first word: write `at: {several}`; the `type` says how many words it has"
+            self.report.error("bad-number", f"`{text[:60]}` are several addresses", span, hint)
+            return None
         if _FORMULA.search(text) is None:
             return integer(text, span, self.report)
         base = self._base(draft)
@@ -260,3 +267,9 @@ class Places:
         if isinstance(self.order, Map):
             return str(self.order.get(type_name, "high first"))
         return str(self.order or "high first")
+
+
+def _several(text: str) -> str | None:
+    """The first of `1..2` or `1 - 2`: addresses of one point; None for a formula, whose result is not below zero."""
+    first, _, last = ("" if ":" in text else interval_meant(text) or "").partition("..")
+    return first if first and parse_number(first) < parse_number(last) else None

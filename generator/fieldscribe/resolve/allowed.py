@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import re
+from decimal import Decimal
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from fieldscribe.language.formula import Expression, FormulaError, parse_range
+from fieldscribe.language.meant import interval_meant
+from fieldscribe.language.nodes import Seq
 from fieldscribe.model import Allowed, Bound, Enum, Interval, Limit, Linear
 from fieldscribe.resolve.bounds import Bounds, as_text, constant_range, round_half_away
 from fieldscribe.resolve.rules import UnknownError
@@ -19,6 +23,8 @@ if TYPE_CHECKING:
     from fieldscribe.resolve.drafts import Draft
 
 _MOST_CODES = 4096
+_ONE_SIDED = tuple("<>\u2264\u2265")
+_DECIMAL_END = re.compile(r"(?:^|\.\.|[|,])\s*([-+]?[0-9]+\.[0-9]+)\s*(?=$|\.\.|[|,])")
 
 
 class Ranges:
@@ -53,6 +59,14 @@ class Ranges:
         What is only `printed` may leave the type and run downwards: misprints do.
         """
         text = as_text(raw)
+        decimal = _DECIMAL_END.search(text) if not in_units and not printed else None
+        if decimal is not None:
+            message = f"`{decimal[1]}` has a decimal point, and `range` is in raw numbers"
+            hint = f"write `range_in_units: {text}`, or the raw numbers without a decimal point"
+            self.report.error("bad-number", message, span, hint)
+            return None
+        if isinstance(raw, Seq) and not printed and self._two_meanings(raw, span):
+            return None
         try:
             pairs = self._constant(draft, text, span, in_units)
             if pairs is None:
@@ -65,6 +79,13 @@ class Ranges:
                     pairs = [(high, low) for low, high in pairs]
             listed = parse_range(text).listed
         except FormulaError as error:
+            meant = interval_meant(text)
+            if text.lstrip()[:1] in _ONE_SIDED:
+                error.hint = "an interval has both ends, low..high; those of the type where nothing else limits it"
+            elif meant is not None:
+                error.hint = (
+                    f"write `{meant}`" if printed else f"write `{'range_in_units' if in_units else 'range'}: {meant}`"
+                )
             formula_finding(error, span, self.report)
             return None
         except UnknownError:
@@ -75,6 +96,16 @@ class Ranges:
         fixed = [(low, high) for low, high in pairs if isinstance(low, int) and isinstance(high, int)]
         moving = [Interval(low, high) for low, high in pairs if not (isinstance(low, int) and isinstance(high, int))]
         return Allowed((*_merged(fixed), *moving), listed, ())
+
+    def _two_meanings(self, raw: Seq, span: Span) -> bool:
+        """A finding for `[0, 100]`: here a list of two numbers, in other tools the ends of an interval."""
+        first, last = (raw[0], raw[1]) if len(raw) == 2 else (0, 0)
+        if not all(isinstance(one, int | Decimal) for one in (first, last)) or last - first <= 1:
+            return False
+        message = f"[{first}, {last}] could be an interval or two single numbers"
+        hint = f"write `{first}..{last}` for all between them, `{first} | {last}` for these two alone"
+        self.report.error("two-meanings", message, span, hint)
+        return True
 
     def _constant(self, draft: Draft, text: str, span: Span, in_units: bool) -> list[tuple[Bound, Bound]] | None:
         """The ends of a range that names no point and needs none for its scale; None if it does."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.families.modbus import SPACES
+from fieldscribe.language.meant import space_hint
 from fieldscribe.model import Bus, Command
 from fieldscribe.resolve.bus import NO_BUS
 from fieldscribe.resolve.drafts import humanised
@@ -45,7 +46,8 @@ def _command(scope: Scope, bus: Bus, raw: Map) -> Command | None:
     value = None if raw["value"] == "any" else integer(raw["value"], raw.span("value"), scope.report)
     space = raw.get("space", "holding")
     if space not in scope.family.spaces:
-        scope.unknown("space", space, raw.span("space"), scope.family.spaces)
+        known = scope.family.spaces
+        scope.unknown("space", space, raw.span("space"), known, space_hint(space, known))
         return None
     if address is None or function is None:
         return None

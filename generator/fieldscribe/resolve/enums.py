@@ -5,16 +5,22 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from fieldscribe.language.meant import interval_meant
+from fieldscribe.language.numbers import parse_integer
 from fieldscribe.model import Entry, Enum, Flag, Special
 from fieldscribe.resolve.drafts import Draft, humanised
 from fieldscribe.resolve.scope import Scope, titles
-from fieldscribe.resolve.values import integer, interval
+from fieldscribe.resolve.values import bits_named, integer, interval
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from fieldscribe.diagnostics import Span
     from fieldscribe.language.nodes import Map
+
+
+_MASKS = 3
+"""So many keys that are powers of two in a row are masks."""
 
 
 def enum_of(scope: Scope, draft: Draft, closed: bool) -> Enum | None:
@@ -58,6 +64,10 @@ def entries_of(scope: Scope, raw: Map) -> tuple[Entry, ...]:
 
 
 def _entry(scope: Scope, raw: Map, key: str, value: Any) -> Entry | None:
+    if interval_meant(key) is not None:
+        hint = "write a row for each number that has a name; the others need none"
+        scope.report.error("bad-number", f"`{key[:60]}` is not a single number", raw.key_span(key), hint)
+        return None
     number = integer(key, raw.key_span(key), scope.report)
     if number is None:
         return None
@@ -132,12 +142,12 @@ def flags_of(scope: Scope, draft: Draft, bits: tuple[int, int] | None, width: in
     raw: Map | None = draft.get("flags")
     if raw is None:
         return ()
+    _not_masks(scope, raw)
     taken = _Taken(scope, "bit", "bits-overlap")
     result = []
     last, first = bits or (width - 1, 0)
     for key, value in raw.items():
-        high_text, dots, low_text = key.partition("..")
-        high, low = int(high_text), int(low_text) if dots else int(high_text)
+        high, low = bits_named(key)
         span, name = raw.key_span(key), _name(value)
         if high < low:
             hint = f"the higher bit stands first: {low}..{high}"
@@ -151,6 +161,16 @@ def flags_of(scope: Scope, draft: Draft, bits: tuple[int, int] | None, width: in
         elif taken.takes((low, high), name, span, raw.span(key)):
             result.append(_flag(scope, raw, key, low - first, high - low + 1))
     return tuple(result)
+
+
+def _not_masks(scope: Scope, raw: Map) -> None:
+    """A warning where the keys look like the masks of the bits, 1, 2, 4, 8, and not like their numbers."""
+    keys = list(raw)
+    if len(keys) >= _MASKS and not any(".." in key for key in keys):
+        numbers = [parse_integer(key) for key in keys]
+        if numbers == [1 << place for place in range(len(numbers))]:
+            hint = "keys are bit numbers from 0: write 0, 1, 2, 3 for the masks 1, 2, 4, 8"
+            scope.report.warning("looks-like-masks", "these look like masks of bits", raw.key_span(keys[0]), hint)
 
 
 def _flag_values(scope: Scope, value: Map) -> tuple[Entry, ...]:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fieldscribe.language.meant import value_hint
 from fieldscribe.language.nodes import Map
+from fieldscribe.language.numbers import parse_integer
 from fieldscribe.resolve.drafts import Draft, groups, humanised
 from fieldscribe.resolve.elements import Element, elements_of, set_title
 from fieldscribe.resolve.scope import Scope, titles
@@ -15,6 +17,7 @@ if TYPE_CHECKING:
 MOST_POINTS = 100_000
 """The most points of a device: rows that stand for many could otherwise fill the memory."""
 
+_SECOND_SET, _LAST_SET = 2, 999
 _OWN = frozenset({"code", "at", "printed", "was", "name", "sets", "members", "record", "title"})
 """What a further set does not take from the point it repeats (the title is extended instead)."""
 
@@ -72,9 +75,9 @@ def _point(scope: Scope, group: Map, point: Map) -> Iterator[Draft]:
     yield from _variants(
         scope, Draft(name, layers, group, point, title, set_number=1 if sets else None, enum_name=name)
     )
-    for number, override in sets.items() if sets is not None else ():
-        own_title = titles(override.get("title")) or set_title(title, int(number))
-        own_name = f"{name}_set_{int(number)}"
+    for number, override in _further(scope, sets) if sets is not None else ():
+        own_title = titles(override.get("title")) or set_title(title, number)
+        own_name = f"{name}_set_{number}"
         enum_name = own_name if "enum" in override else name
         repeated = Draft(
             own_name,
@@ -82,11 +85,26 @@ def _point(scope: Scope, group: Map, point: Map) -> Iterator[Draft]:
             group,
             override,
             own_title,
-            set_number=int(number),
+            set_number=number,
             enum_name=enum_name,
             hidden=_OWN,
         )
         yield from _variants(scope, repeated)
+
+
+def _further(scope: Scope, sets: Map) -> Iterator[tuple[int, Map]]:
+    """The further sets by number; a number that is none, or is given twice, is a finding."""
+    seen: set[int] = set()
+    for key in sets:
+        number, span = parse_integer(key), sets.key_span(key)
+        if not _SECOND_SET <= number <= _LAST_SET:
+            hint = f"the point itself is set 1; the further sets are {_SECOND_SET}..{_LAST_SET}"
+            scope.report.error("wrong-choice", f"there is no further set {number}", span, hint)
+        elif number in seen:
+            scope.report.error("duplicate-name", f"the set {number} is given twice", span, "say it once")
+        else:
+            seen.add(number)
+            yield number, sets[key]
 
 
 def _elements(scope: Scope, group: Map, point: Map) -> Iterator[Draft]:
@@ -133,8 +151,8 @@ def _elements(scope: Scope, group: Map, point: Map) -> Iterator[Draft]:
 
 
 def _key(text: str) -> str:
-    """An element as `each` names it, without leading zeros."""
-    return "/".join(str(int(part)) for part in text.split("/"))
+    """An element as `each` names it, in decimal."""
+    return "/".join(str(parse_integer(part)) for part in text.split("/"))
 
 
 def _variants(scope: Scope, draft: Draft) -> Iterator[Draft]:
@@ -238,7 +256,8 @@ def _format(scope: Scope, point: Map) -> tuple[Map, ...]:
         return ()
     found = scope.formats.get(point["format"])
     if found is None:
-        scope.unknown("format", point["format"], point.span("format"), scope.formats)
+        hint = value_hint("type", point["format"])
+        scope.unknown("format", point["format"], point.span("format"), scope.formats, hint)
         nothing = Map(point.file, point.at)
         nothing.broken = _OF_FORMATS
         return (nothing,)

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import TYPE_CHECKING
 
+from fieldscribe.language.formula import Affine, cut_off, parse_scale, scale_rule
+from fieldscribe.model import ScaleCase
+
 if TYPE_CHECKING:
-    from fieldscribe.model import Linear, ScaleCase
+    from fieldscribe.model import Linear
     from fieldscribe.resolve.bounds import Bounds
     from fieldscribe.resolve.drafts import Draft
 
@@ -15,7 +19,8 @@ _EXACT = 1 << 53
 _MANTISSA = 24
 """Of an f32 that is a factor the mantissa takes part; its exponent only shifts the result."""
 
-_NARROW = "narrow the range of the point or of the points in its scale"
+_WIDE = 1 << 33
+"""From here on not all raw numbers of a type can have counts, but those of its range."""
 
 
 def decimals_of(draft: Draft, cases: tuple[ScaleCase, ...] | None, bounds: Bounds) -> int:
@@ -23,7 +28,7 @@ def decimals_of(draft: Draft, cases: tuple[ScaleCase, ...] | None, bounds: Bound
     said: int | None = draft.get("decimals")
     report = bounds.scales.scope.report
     if cases is None:
-        if said and "scale" not in draft.failed and draft.get("scale") is None and not draft.floating:
+        if said and "scale" not in draft.failed and draft.layer("scale") is None and not draft.floating:
             message = "`decimals` belongs to a scale, and the raw number is the value here"
             report.error("integer-path", message, draft.span("decimals"), "leave it out, or give the `scale`")
         return 0
@@ -35,21 +40,55 @@ def decimals_of(draft: Draft, cases: tuple[ScaleCase, ...] | None, bounds: Bound
     needed = max(_needed(case.rule, bounds) for case in cases)
     if needed > MOST_DECIMALS:
         message = f"one raw step can be finer than 10^-{MOST_DECIMALS} units"
-        report.error("integer-path", message, span, "give the points in the scale a narrower `range`")
+        report.error("integer-path", message, draft.span("scale"), _way_out(draft, cases, needed, 0, bounds))
         return MOST_DECIMALS
     if said is not None and said < needed:
         message = f"with {said} decimals two raw numbers would have one count"
-        report.error("integer-path", message, span, f"at least {needed} decimals are needed")
-        return needed
+        if _faults(draft, cases, needed, bounds):
+            span, said = draft.span("scale"), None  # what is needed is no way out: tell why
+        else:
+            report.error("integer-path", message, span, f"write `decimals: {needed}`, or leave it out")
+            return needed
     chosen = needed if said is None else said
-    raw = max(map(abs, bounds.holds[draft]))  # every raw number survives where the type is not too wide for that
-    if raw >= 1 << 33:
-        raw = max(map(abs, bounds.own_hull(draft)))
-    for case in cases:
-        fault = _fault(case.rule, chosen, raw, bounds)
-        if fault is not None:
-            report.error(fault[0], fault[1], span, fault[2])
+    for rule, message in _faults(draft, cases, chosen, bounds):
+        report.error(rule, message, span, _way_out(draft, cases, needed, chosen, bounds))
     return chosen
+
+
+def _faults(draft: Draft, cases: tuple[ScaleCase, ...], decimals: int, bounds: Bounds) -> list[tuple[str, str]]:
+    """Rule and message of each case of the scale that one of the paths is too narrow for."""
+    raw = max(map(abs, bounds.holds[draft]))  # every raw number survives where the type is not too wide for that
+    if raw >= _WIDE:
+        raw = max(map(abs, bounds.own_hull(draft)))
+    found = [_fault(case.rule, decimals, raw, bounds) for case in cases]
+    return [fault for fault in found if fault is not None]
+
+
+def _way_out(draft: Draft, cases: tuple[ScaleCase, ...], needed: int, chosen: int, bounds: Bounds) -> str:
+    """What to do about a fault: something that leads into no other one."""
+    for fewer in range(chosen - 1, needed - 1, -1):
+        if not _faults(draft, cases, fewer, bounds):
+            return f"write `decimals: {fewer}`"
+    said = draft.get("scale")
+    cut = cut_off(said) if isinstance(said, str) else None
+    if cut is not None and _fits(draft, cut.line, bounds):
+        return f"the decimal was cut off: write `scale: {cut.line}`"
+    used = {bounds.scales.index.by_item(factor.point).name for case in cases for factor in case.rule.factors}
+    if used:
+        return f"give {' and '.join(f'`{name}`' for name in sorted(used))} a narrower `range`"
+    if needed <= MOST_DECIMALS and max(map(abs, bounds.holds[draft])) >= _WIDE:
+        return "give the point a narrower `range`"
+    return "write a scale of fewer digits, or `scale: ~`: the point is then documented only"
+
+
+def _fits(draft: Draft, scale: str, bounds: Bounds) -> bool:
+    """Whether the point would have no fault with that scale, which uses no other point."""
+    parsed = parse_scale(scale)
+    if parsed.uses:
+        return False
+    cases = (ScaleCase(None, None, scale_rule(parsed, lambda _, __: Affine("", Fraction(1), Fraction(0)))),)
+    needed = _needed(cases[0].rule, bounds)
+    return needed <= MOST_DECIMALS and not _faults(draft, cases, needed, bounds)
 
 
 def _needed(rule: Linear, bounds: Bounds) -> int:
@@ -67,8 +106,8 @@ def _needed(rule: Linear, bounds: Bounds) -> int:
     return needed
 
 
-def _fault(rule: Linear, decimals: int, raw: int, bounds: Bounds) -> tuple[str, str, str] | None:
-    """Rule, message and hint unless all intermediates of both paths are wide enough: 62 bits integer, 53 as double."""
+def _fault(rule: Linear, decimals: int, raw: int, bounds: Bounds) -> tuple[str, str] | None:
+    """Rule and message unless all intermediates of both paths are wide enough: 62 bits integer, 53 as double."""
     up, down = abs(rule.ratio.numerator), rule.ratio.denominator
     floats = bounds.scales.floats(rule)
     for factor in rule.factors:
@@ -85,8 +124,7 @@ def _fault(rule: Linear, decimals: int, raw: int, bounds: Bounds) -> tuple[str, 
     part = rule.offset.denominator
     numerator = (raw * part + abs(rule.offset.numerator)) * down
     if numerator > _EXACT or up * part > _EXACT:
-        return "float-path", "some values of this point cannot be exact in a double", _NARROW
+        return "float-path", "some values of this point cannot be exact in a double"
     if 2 * max(numerator, up * part) * 10**decimals > _INT64:
-        message = f"counts of 10^-{decimals} units do not fit into 64 bits"
-        return "integer-path", message, f"{_NARROW}, or give fewer `decimals`"
+        return "integer-path", f"counts of 10^-{decimals} units do not fit into 64 bits"
     return None

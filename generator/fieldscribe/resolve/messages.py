@@ -12,7 +12,7 @@ from fieldscribe.language.numbers import NumberError, parse_integer, shown
 from fieldscribe.model import Bus, Message, Role
 from fieldscribe.resolve.drafts import humanised
 from fieldscribe.resolve.scope import Scope, source_of, titles
-from fieldscribe.resolve.values import formula_finding
+from fieldscribe.resolve.values import bits_named, formula_finding
 
 if TYPE_CHECKING:
     from fieldscribe.diagnostics import Span
@@ -104,11 +104,15 @@ def _roles(scope: Scope, raw: Map) -> tuple[Role, ...] | None:
     found: dict[int, Role] = {}
     fine = "layout" not in raw.broken and not layout.broken
     for key, value in layout.items():
-        first_text, dots, last_text = key.partition("..")
-        first, last = int(first_text), int(last_text) if dots else int(first_text)
+        first, last = bits_named(key)
         if last < first:
             message = f"bytes `{key}` run downwards"
             scope.report.error("range-reversed", message, layout.key_span(key), f"write {last}..{first}")
+            fine = False
+            continue
+        if last >= LENGTH:
+            message = f"byte {last} lies outside the {LENGTH} bytes of a message"
+            scope.report.error("bit-outside-word", message, layout.key_span(key), f"bytes are 0..{LENGTH - 1}")
             fine = False
             continue
         roles = _Part(scope, str(value).strip(), layout.span(key), last - first + 1).roles()

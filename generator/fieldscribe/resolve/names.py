@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from fieldscribe.language.hints import quoted
+from fieldscribe.language.meant import bits_meant, space_hint
 from fieldscribe.model import TYPES, TypeInfo
 from fieldscribe.resolve.values import integer
 
@@ -52,7 +54,9 @@ class Index:
             message = f"`{word}` is the code of {len(several)} points"
             self.scope.report.error("unknown-point", message, span, f"name one of them, such as `{several[0].name}`")
             return
-        self.scope.unknown("point", word, span, [*self.by_name, *self.by_code])
+        hexadecimal = word.isupper() and all(one in "0123456789ABCDEF" for one in word)
+        hint = f"if a hexadecimal number is meant, write 0{word}h" if hexadecimal else None
+        self.scope.unknown("point", word, span, [*self.by_name, *self.by_code], hint)
 
 
 def index_of(scope: Scope, drafts: list[Draft]) -> Index:
@@ -89,7 +93,7 @@ def space_of(scope: Scope, draft: Draft) -> str:
     known = scope.family.spaces
     if space in known:
         return space
-    scope.unknown("space", space, draft.span("space"), known)
+    scope.unknown("space", space, draft.span("space"), known, space_hint(space, known))
     draft.failed.add("space")
     return next(name for name, holds in known.items() if holds == "word")
 
@@ -105,7 +109,16 @@ def bits_of(scope: Scope, draft: Draft, space: str) -> tuple[int, int] | None:
             "bit-outside-word", f"the space `{space}` holds single bits, not words", span, "leave `bits` out"
         )
         return None
-    high_text, dots, low_text = str(text).partition("..")
+    return _bits_said(scope, str(text), span)
+
+
+def _bits_said(scope: Scope, text: str, span: Span) -> tuple[int, int] | None:
+    meant = bits_meant(text)
+    if meant is not None:
+        message = f"{quoted(text)} is not a bit or bits"
+        scope.report.error("wrong-form", message, span, f"write `bits: {meant}`")
+        return None
+    high_text, dots, low_text = text.partition("..")
     high = integer(high_text.strip(), span, scope.report)
     low = integer(low_text.strip(), span, scope.report) if dots else high
     if high is None or low is None:

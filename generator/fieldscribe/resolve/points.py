@@ -7,6 +7,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from fieldscribe.language.formula import FormulaError, condition_comparisons, parse_condition
+from fieldscribe.language.units import unit_hint
 from fieldscribe.model import TYPES, UNSETTLED_TYPE, Allowed, Enum, Place, Point, ScaleCase, Special, Unit
 from fieldscribe.resolve.addresses import Places
 from fieldscribe.resolve.allowed import Ranges
@@ -24,6 +25,9 @@ if TYPE_CHECKING:
     from fieldscribe.language.nodes import Map
     from fieldscribe.resolve.drafts import Draft
     from fieldscribe.resolve.telegrams import Telegrams
+
+
+_MOST_NAMES = 12
 
 
 @dataclass(frozen=True, slots=True)
@@ -167,13 +171,9 @@ def _reason(draft: Draft, has_place: bool, access: str) -> str | None:
 
 def _unit(scope: Scope, draft: Draft) -> Unit:
     symbol = draft.get("unit")
-    found = PLAIN if symbol is None else scope.units.get(symbol)
+    found = PLAIN if symbol is None else scope.unit(symbol)
     if found is None:
-        word = str(symbol).lower()
-        names = ((one, (one.lower(), unit.name, f"{unit.name}s")) for one, unit in scope.units.items())
-        meant = next((one for one, said in names if word in said), None)
-        hint = f"units go by their symbol: write `{meant}`" if meant else None
-        scope.unknown("unit", str(symbol), draft.span("unit"), scope.units, hint)
+        scope.unknown("unit", str(symbol), draft.span("unit"), scope.units, unit_hint(str(symbol), scope.units))
         draft.failed.add("unit")
     return found or PLAIN
 
@@ -184,6 +184,10 @@ def _default(scope: Scope, draft: Draft, enum: Enum | None) -> Fraction | None:
     for entry in enum.entries if enum is not None else ():
         if entry.name == raw:
             return Fraction(entry.raw)
+    if isinstance(raw, str) and enum is not None and raw.isidentifier():
+        hint = f"write a number, or one of {', '.join(entry.name for entry in enum.entries[:_MOST_NAMES])}"
+        scope.report.error("bad-number", f"`{raw}` is no name of this enum", draft.span("default"), hint)
+        return None
     return None if raw is None else number(raw, draft.span("default"), scope.report)
 
 

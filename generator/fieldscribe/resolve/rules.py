@@ -5,7 +5,8 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import TYPE_CHECKING, NoReturn
 
-from fieldscribe.language.formula import Affine, FormulaError, Part, parse_case, parse_scale, scale_rule
+from fieldscribe.language.formula import Affine, FormulaError, Part, cut_off, parse_case, parse_scale, scale_rule
+from fieldscribe.language.formula.meant import scale_meant
 from fieldscribe.model import Linear, ScaleCase
 from fieldscribe.resolve.values import Written, formula_finding
 
@@ -148,15 +149,24 @@ class Scales:
                 parse_scale(text), lambda name, part: self.affine(draft, name, part, formula, in_scale=True)
             )
             if all((factor.slope, factor.intercept, factor.ten_to) == (1, 0, False) for factor in self.floats(rule)):
+                self._lint(text, span)
                 return rule
             message = "a floating-point number can be a factor, but no exponent and no part of a sum"
             self.scope.report.error("bad-formula", message, span, "multiply with it, or divide by it")
         except FormulaError as error:
+            _explained(error, text, "rule" if isinstance(draft.get("scale"), list) else "scale")
             formula_finding(error, span, self.scope.report)
         except UnknownError:
             pass
         draft.failed.add("scale")
         return None
+
+    def _lint(self, text: str, span: Span) -> None:
+        """A warning for a decimal that somebody cut off: nobody can tell later what was meant."""
+        found = cut_off(text)
+        if found is not None:
+            message = f"{found.typed} looks like {found.exact}, cut off"
+            self.scope.report.warning("cut-decimal", message, span, f"write `{found.line}` to keep it exact")
 
     def _static(self, used: Draft, name: str, place: Span) -> Linear:
         """The rule of a point whose value another formula needs: it cannot need a third one."""
@@ -204,3 +214,13 @@ class Scales:
     def _refuse(self, place: Span, message: str, hint: str) -> NoReturn:
         self.scope.report.error("bad-formula", message, place, hint)
         raise UnknownError
+
+
+def _explained(error: FormulaError, text: str, key: str) -> None:
+    """Give the error a whole line as its hint, where the text is no scale but one can be guessed from it."""
+    try:
+        parse_scale(text)
+    except FormulaError:
+        meant = scale_meant(text)
+        if meant is not None:
+            error.hint = f"write `{key}: {meant}`"

@@ -3,21 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from functools import lru_cache
-from pathlib import Path
 from typing import TYPE_CHECKING
 
-from fieldscribe.diagnostics import Report, Span
 from fieldscribe.families import FAMILIES, Family
 from fieldscribe.language.hints import nearest, quoted
-from fieldscribe.language.load import load
 from fieldscribe.language.nodes import Map
-from fieldscribe.language.source import SourceFile
+from fieldscribe.language.units import shipped_unit
 from fieldscribe.model import Document, Enum, Source, Titles, Unit
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator, Mapping
 
+    from fieldscribe.diagnostics import Report, Span
     from fieldscribe.language.files import Files
 
 PLAIN = Unit("", "number", "number")
@@ -103,6 +100,10 @@ class Scope:
         for file in self.files:
             yield from file.get(section, ())
 
+    def unit(self, symbol: str) -> Unit | None:
+        """The unit of that symbol: the description's own, else a shipped one."""
+        return self.units.get(symbol) or shipped_unit(symbol)
+
     def is_lost(self, word: str, section: str) -> bool:
         """Whether a word may be the name of something that was dropped with a finding of its own."""
         marks = {word, f"*{section}"}
@@ -130,7 +131,7 @@ def open_scope(files: Files, report: Report) -> Scope:
     """The declarations of the files."""
     scope = Scope(files.maps, report, files.complete)
     units = {symbol: Unit(symbol, one["name"], one["quantity"]) for symbol, one in scope.declared("units").items()}
-    scope.units = {**shipped_units(), **units}
+    scope.units = units
     scope.formats = scope.declared("formats")
     scope.records = scope.declared("records")
     scope.named_enums = scope.declared("enums")
@@ -138,17 +139,6 @@ def open_scope(files: Files, report: Report) -> Scope:
         known = (str(value["title"]), str(value["language"]), value.get("file"), value.get("sha256"))
         scope.documents[name] = Document(name, *known)
     return scope
-
-
-@lru_cache(maxsize=1)
-def shipped_units() -> Mapping[str, Unit]:
-    """The units that need no declaration, by symbol."""
-    path = Path(__file__).parents[1] / "language" / "units.yaml"
-    report = Report()
-    table = load(SourceFile(path.name, path.read_text("utf-8")), report)
-    if table is None:
-        raise ValueError(f"units.yaml is broken: {report.findings}")
-    return {symbol: Unit(symbol, one["name"], one["quantity"]) for symbol, one in table.items()}
 
 
 def titles(value: Map | str | None, otherwise: str = "") -> Titles:

@@ -8,6 +8,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from fieldscribe.language.formula import FormulaError, evaluate, parse_expression
+from fieldscribe.language.meant import interval_meant
 from fieldscribe.language.numbers import NumberError, parse_integer, parse_number
 
 if TYPE_CHECKING:
@@ -52,6 +53,10 @@ def integer(value: Any, span: Span, report: Report) -> int | None:
 
 def interval(text: str, span: Span, report: Report) -> tuple[int, int] | None:
     """`a..b` of whole numbers, or one number as both ends."""
+    meant = None if ".." in text else interval_meant(text)
+    if meant is not None:
+        report.error("bad-number", f"`{text[:60]}` is no interval", span, f"write {meant}")
+        return None
     low_text, dots, high_text = text.partition("..")
     low = integer(low_text.strip(), span, report)
     high = integer(high_text.strip(), span, report) if dots else low
@@ -62,6 +67,12 @@ def interval(text: str, span: Span, report: Report) -> tuple[int, int] | None:
         report.error("range-reversed", message, span, f"write {high_text.strip()}..{low_text.strip()}")
         return None
     return low, high
+
+
+def bits_named(key: str) -> tuple[int, int]:
+    """The two ends that a key of that form (`5..4`, `0Fh`) names, as written; one number is both."""
+    first, dots, last = key.partition("..")
+    return parse_integer(first), parse_integer(last if dots else first)
 
 
 def formula_value(

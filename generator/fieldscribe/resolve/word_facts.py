@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from fieldscribe.model import Allowed, Digits, Enum, Fixed, Interval, Text
 from fieldscribe.resolve.drafts import humanised
 from fieldscribe.resolve.enums import entries_of
-from fieldscribe.resolve.values import integer
+from fieldscribe.resolve.values import bits_named, integer
 
 if TYPE_CHECKING:
     from fieldscribe.language.nodes import Map
@@ -112,8 +112,7 @@ def _shown(key: str) -> str:
 
 def _fixed_bits(scope: Scope, draft: Draft, raw: Map, key: str, word: int) -> tuple[int, int] | None:
     """The lowest bit that a key names, and what its bits hold at most; None after a finding."""
-    high_text, dots, low_text = key.partition("..")
-    high, low = int(high_text), int(low_text) if dots else int(high_text)
+    high, low = bits_named(key)
     if high < low:
         hint = f"the higher bit stands first: {low}..{high}"
         scope.report.error("range-reversed", f"bits `{key}` run upwards", raw.key_span(key), hint)

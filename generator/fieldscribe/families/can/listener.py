@@ -12,10 +12,10 @@ from fieldscribe.families.can.frames import LENGTH
 from fieldscribe.families.can.receiver import Receiver
 from fieldscribe.families.can.recognition import Recognised, recognise, senders
 from fieldscribe.families.can.remarks import (
-    fixed_note,
+    fixed_finding,
     identifiers_text,
     message_text,
-    request_note,
+    request_finding,
     unknown_kind,
     waiting_text,
 )
@@ -80,8 +80,8 @@ class CanListener:
         first = found.slot * per_frame
         if first >= telegram.words or per_frame == 0:
             last = -(-telegram.words // max(1, per_frame)) - 1
-            note = f"the manual knows multiplexers 0 to {last} only"
-            return replace(base, kind="cyclic", notes=(note,))
+            finding = f"the manual knows multiplexers 0 to {last} only"
+            return replace(base, kind="cyclic", findings=(finding,))
         receiver = unit.receivers.setdefault(telegram.name, Receiver(telegram, found.message, found.unit or 0))
         if not receiver.take(found.frame):
             return replace(base, kind="cyclic", notes=("its words are not read, for the frame is damaged",))
@@ -163,8 +163,8 @@ class CanListener:
         if not points:
             brings = "" if raw is None else f" ({_hex((raw,))})"
             items = [Item("parameter", address, 1, f"{address_text(address)}: no point is described here{brings}")]
-        notes = self._course(unit, found)
-        return replace(base, kind=_kind(message), items=tuple(items), notes=tuple(notes))
+        findings = self._course(unit, found)
+        return replace(base, kind=_kind(message), items=tuple(items), findings=tuple(findings))
 
     def _value(self, unit: _Unit, point: Point, address: int, raw: int | None, *, written: bool) -> Item:
         base = ("parameter", address, 1)
@@ -173,7 +173,8 @@ class CanListener:
             return named_item(point, base)
         if len(point.addresses) == 1:
             item = value_item(self._device, point, base, (raw_of(point, (raw,)), settings), written=written)
-            return replace(item, text=item.text + fixed_note(point, raw)) if written else item
+            odd = fixed_finding(point, raw) if written else ""
+            return replace(item, text=f"{item.text}; {odd}", findings=(*item.findings, odd)) if odd else item
         words = {**unit.words, address: raw}
         place = point.addresses.index(address) + 1
         part = f"word {place} of {len(point.addresses)} = {_hex((raw,))}"
@@ -206,11 +207,11 @@ class CanListener:
         return asked.direction == "request" and any(role.kind == "raw" for role in asked.roles)
 
     def _course(self, unit: _Unit, found: Recognised) -> Iterator[str]:
-        """How a frame follows from those before it."""
+        """What is wrong about how a frame follows from those before it."""
         message = found.message
         if message.direction == "request":
             unit.asked[message.name] = found
-            yield from request_note(self._device, found)
+            yield from request_finding(self._device, found)
             return
         asked = unit.asked.get(message.answers or "")
         if asked is None:

@@ -57,18 +57,18 @@ def unknown_kind(frame: CanFrame, messages: Sequence[Message]) -> str:
     return f"byte {place} is {hex_text(frame.data[place], 2)}; on this identifier it is {names}"
 
 
-def request_note(device: Device, found: Recognised) -> Iterator[str]:
+def request_finding(device: Device, found: Recognised) -> Iterator[str]:
     """What no unit will answer."""
     low, high = device.bus.units
     if found.unit is not None and not low <= found.unit <= high:
         yield f"the device cannot have unit {found.unit}: units are {low} to {high}"
 
 
-def fixed_note(point: Point, word: int) -> str:
+def fixed_finding(point: Point, word: int) -> str:
     """That a written word has not the bits beside a bit group that are always written as a constant."""
     if point.bits is None or point.fixed is None or word & point.fixed.mask == point.fixed.bits:
         return ""
-    return f"; the word breaks what is always written: {fixed_text(point)}"
+    return f"the word breaks what is always written: {fixed_text(point)}"
 
 
 def waiting_text(point: Point, parts: Sequence[Sequence[int]], per_frame: int) -> str:

@@ -129,11 +129,11 @@ class AddressBook:
         ]
         text = f"{span_text(low, high)}: no point is described here"
         gap = next((gap for gap in self._device.bus.gaps.get(area.space, ()) if gap[0] <= high and low <= gap[1]), None)
-        if gap is not None:
-            text += f"; the manual closes {hex_text(gap[0])} to {hex_text(gap[1])}"
+        closed = "" if gap is None else f"the manual closes {hex_text(gap[0])} to {hex_text(gap[1])}"
+        text += f"; {closed}" if closed else ""
         if carried:
             text += f" (carries {' '.join(carried[:16])}{' ...' if len(carried) > 16 else ''})"
-        return [Item(area.space, low, len(addresses), text)]
+        return [Item(area.space, low, len(addresses), text, findings=(closed,) if closed else ())]
 
 
 def span_text(low: int, high: int) -> str:
@@ -152,8 +152,9 @@ def _names(command: Command, area: Area, address: int) -> bool:
 def _command(command: Command, area: Area) -> Item:
     text = f"command {command.name}: {title_text(command.title)}"
     given = area.words.get(command.address)
-    if command.value is not None and given is not None and given != command.value:
-        text += f"; it takes {command.value}, here is {given}"
+    wrong = command.value is not None and given is not None and given != command.value
+    odd = f"it takes {command.value}, here is {given}" if wrong else ""
+    text += f"; {odd}" if odd else ""
     if command.wears:
         text += f"; the memory stands {command.wears} writes"
-    return Item(area.space, command.address, 1, line(text), raw=given)
+    return Item(area.space, command.address, 1, line(text), raw=given, findings=(odd,) if odd else ())

@@ -14,9 +14,10 @@ from fieldscribe.families.modbus.remarks import (
     area_of,
     area_text,
     exception_text,
-    framing_note,
+    framing_finding,
     function_text,
     manual_notes,
+    request_findings,
     request_notes,
 )
 from fieldscribe.families.modbus.replies import Reply, parse_reply
@@ -48,8 +49,10 @@ class ModbusListener:
         wrapped = recognise(data, self._device.bus.framings, self._framing)
         found = self._read(wrapped) if wrapped.mended and wrapped.pdu else _unreadable(wrapped, "")
         faults = ([wrapped.fault] if wrapped.fault else []) + list(found.faults)
-        notes = [*found.notes, framing_note(self._device, wrapped.framing), *manual_notes(self._device, data)]
-        return replace(found, faults=tuple(faults), notes=tuple(one for one in notes if one))
+        foreign = framing_finding(self._device, wrapped.framing)
+        findings = (*found.findings, foreign) if foreign else found.findings
+        notes = (*found.notes, *manual_notes(self._device, data))
+        return replace(found, faults=tuple(faults), findings=findings, notes=notes)
 
     def expect_reply_to(self, data: bytes) -> Heard:
         """Take a frame as the request that the following frames answer."""
@@ -81,7 +84,8 @@ class ModbusListener:
         said = f"{'request, or the reply that repeats it' if echo else 'request'}, {area_text(area)}"
         notes = tuple(request_notes(self._device, self._book, request))
         found = _heard(wrapped, "request_or_reply" if echo else "request", said)
-        return replace(found, items=self._items(area), notes=notes)
+        findings = tuple(request_findings(self._device, request))
+        return replace(found, items=self._items(area), findings=findings, notes=notes)
 
     def _reply(self, wrapped: Wrapped, request: Request, reply: Reply) -> Heard:
         area = area_of(request)

@@ -83,8 +83,8 @@ def area_text(area: Area) -> str:
     return f"{area.space} {where}, {area.count} {item}{'' if area.count == 1 else 's'}"
 
 
-def request_notes(device: Device, book: AddressBook, request: Request) -> Iterator[str]:
-    """What the device will not like about a request, and what looks like a slip."""
+def request_findings(device: Device, request: Request) -> Iterator[str]:
+    """What the device will not take of a request."""
     profile = profile_of(device.bus)
     low, high = profile.units
     most = profile.most.get(request.function)
@@ -93,21 +93,26 @@ def request_notes(device: Device, book: AddressBook, request: Request) -> Iterat
     elif request.count > most:
         yield f"the device takes at most {most} of them in one request"
     if request.unit == profile.broadcast:
-        yield _broadcast_note(request.function, profile)
+        yield from _broadcast_findings(request.function, profile)
     elif not low <= request.unit <= high:
         yield f"the device cannot have unit {request.unit}: units are {low} to {high}"
     if request.address + request.count > 0x10000:
         yield "it reaches beyond the last address"
+
+
+def request_notes(device: Device, book: AddressBook, request: Request) -> Iterator[str]:
+    """What is good to know about a request, and what looks like a slip."""
+    if request.unit == profile_of(device.bus).broadcast and not any(request_findings(device, request)):
+        yield "broadcast: no unit answers"
     if request.function != 0x08:
         yield from _off_by_one(book, area_of(request))
 
 
-def _broadcast_note(function: int, profile: Profile) -> str:
+def _broadcast_findings(function: int, profile: Profile) -> Iterator[str]:
     if function not in BROADCAST:
-        return "broadcast: only writes may be sent to all units"
-    if function not in profile.broadcasts:
-        return f"broadcast: the device does not take function {hex_text(function, 2)} so"
-    return "broadcast: no unit answers"
+        yield "broadcast: only writes may be sent to all units"
+    elif function not in profile.broadcasts:
+        yield f"broadcast: the device does not take function {hex_text(function, 2)} so"
 
 
 def manual_notes(device: Device, data: bytes) -> Iterator[str]:
@@ -120,7 +125,7 @@ def manual_notes(device: Device, data: bytes) -> Iterator[str]:
             return
 
 
-def framing_note(device: Device, framing: str) -> str:
+def framing_finding(device: Device, framing: str) -> str:
     """Whether the device speaks the framing at all; empty if it does."""
     known = device.bus.framings
     return "" if not known or framing in known else f"the manual knows only {' and '.join(known).upper()} frames"

@@ -114,12 +114,13 @@ class UssListener:
         task = remarks.code_text(self._device.bus.functions, part.code, "task")
         about = "" if part.code == 0 else f", {remarks.parameter_text(part, points)}"
         base = replace(base, function=part.code, summary=f"{base.summary}: request, {task}{about}")
-        notes = tuple(remarks.request_notes(self._device, part, self._link, base.unit))
+        findings = tuple(remarks.request_findings(self._device, part, base.unit))
+        notes = tuple(remarks.request_notes(part, self._link))
         details: dict[str, object] = {"task": part.code}
         if part.code:
             details |= {"parameter": part.parameter, "index": part.index}
             items = (*self._values(unit, _Brought(part, points, width, value, request=True)), *items)
-        return replace(base, items=items, notes=notes, details=details)
+        return replace(base, items=items, findings=findings, notes=notes, details=details)
 
     def _reply(self, base: Heard, unit: _Unit, words: tuple[int, ...], status: str, *, keep: bool) -> Heard:
         part_words, rest, fault = split(words, self._link, request=False)
@@ -160,7 +161,8 @@ class UssListener:
             return base
         error = part.values[0]
         base = replace(base, exception=error, summary=f"{base.summary}: {remarks.error_text(self._device, error)}")
-        return replace(base, notes=tuple(remarks.error_notes(self._device, part, task, self._link)))
+        findings = tuple(remarks.error_findings(self._device, part, task))
+        return replace(base, findings=findings, notes=tuple(remarks.error_notes(part, self._link)))
 
     def _values(self, unit: _Unit, brought: _Brought) -> tuple[Item, ...]:
         """What a parameter part says of its parameter."""
@@ -185,8 +187,8 @@ class UssListener:
         if not point.generated:
             return named_item(point, base, f"carries {words}; {point.reason or 'its meaning is open'}")
         if brought.width != point.words:
-            note = remarks.width_note(point, brought.width, request=brought.request)
-            return named_item(point, base, f"carries {words}; {note}")
+            odd = remarks.width_finding(point, brought.width, request=brought.request)
+            return replace(named_item(point, base, f"carries {words}; {odd}"), findings=(odd,))
         raw = raw_of(point, _as_words(brought.value, brought.width))
         if not brought.request:
             unit.settings.update(self._directory.settings([(point, raw)]))
@@ -205,7 +207,9 @@ class UssListener:
                 raw = raw_of(point, words[place : place + point.words])
                 if point.generated or point.scale is not None:
                     settings = {**unit.settings, **self._given}
-                    items.append(value_item(self._device, point, base, (raw, settings), written=direction == "request"))
+                    item = value_item(self._device, point, base, (raw, settings), written=direction == "request")
+                    # a word of zeros is what a master sends that has nothing to say
+                    items.append(item if raw else replace(item, findings=()))
                 else:
                     said = f"carries {word:04X}h; {point.reason or 'its meaning is open'}"
                     items.append(named_item(point, base, said))

@@ -49,8 +49,8 @@ def parameter_text(part: Part, points: list[Point]) -> str:
     return f"parameter {part.parameter}" + ("" if alone else f", {index}")
 
 
-def request_notes(device: Device, part: Part, link: Link, unit: int | None) -> Iterator[str]:
-    """What the device will not like about a request."""
+def request_findings(device: Device, part: Part, unit: int | None) -> Iterator[str]:
+    """What the device will not take of a request."""
     low, high = device.bus.units
     if unit is not None and not low <= unit <= high:
         yield f"the device cannot have unit {unit}: units are {low} to {high}"
@@ -62,10 +62,13 @@ def request_notes(device: Device, part: Part, link: Link, unit: int | None) -> I
         yield f"the device cannot do this task{f'; expect {refusals}' if refusals else ''}"
     if part.spontaneous:
         yield "bit 11 of the first word (SP) is set, it is always 0"
-    width = TASK_WIDTHS.get(part.code, 0)
-    if width == 2 and len(part.values) < 2:
+    if TASK_WIDTHS.get(part.code, 0) == 2 and len(part.values) < 2:
         yield "a double word does not fit into this parameter part"
-    if width == 1 and len(part.values) > 1:
+
+
+def request_notes(part: Part, link: Link) -> Iterator[str]:
+    """What is good to know about a request."""
+    if TASK_WIDTHS.get(part.code, 0) == 1 and len(part.values) > 1:
         yield from _misplaced(part, link)
     if part.code in KEEPING_TASKS:
         yield "it writes to the EEPROM too, which wears the memory"
@@ -80,21 +83,25 @@ def _misplaced(part: Part, link: Link) -> Iterator[str]:
         yield f"over this link a single word stands {where}{also}"
 
 
-def width_note(point: Point, width: int, *, request: bool) -> str:
+def width_finding(point: Point, width: int, *, request: bool) -> str:
     """That a value has another number of words than the parameter."""
     words = "a double word" if point.words == 2 else f"{point.words} word{'' if point.words == 1 else 's'}"
     said = f"the parameter is {words}, the {'task' if request else 'response'} carries {width}"
     return f"{said}; a device answers with a wrong data type" if request else said
 
 
-def error_notes(device: Device, part: Part, task: int | None, link: Link) -> Iterator[str]:
-    """That the error is not one of the task, or that it may stand in another word."""
+def error_findings(device: Device, part: Part, task: int | None) -> Iterator[str]:
+    """That the error is not one of the task."""
     error = part.values[0]
+    code = find_code(device.bus.exceptions, error)
+    if task is not None and code is not None and code.answers and task not in code.answers:
+        yield f"the manual does not give error {error} for task {task}"
+
+
+def error_notes(part: Part, link: Link) -> Iterator[str]:
+    """That the error may stand in another word."""
     if link.single_last and len(part.values) > 1:
         yield (
             "the error value is taken from the first value word; over this link single words stand in the second, "
             f"which holds {part.values[1]}"
         )
-    code = find_code(device.bus.exceptions, error)
-    if task is not None and code is not None and code.answers and task not in code.answers:
-        yield f"the manual does not give error {error} for task {task}"

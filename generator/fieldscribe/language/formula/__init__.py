@@ -14,7 +14,7 @@ from fieldscribe.language.formula.conditions import (
 )
 from fieldscribe.language.formula.errors import FormulaError
 from fieldscribe.language.formula.evaluation import evaluate
-from fieldscribe.language.formula.lint import looks_like_cut_binary_fraction
+from fieldscribe.language.formula.lint import CutOff, cut_off, exact_scale
 from fieldscribe.language.formula.normal import Affine, Resolve, invert, limit_rule, linear, scale_rule
 from fieldscribe.language.formula.statements import constant, parse_expression, parse_range, parse_scale
 from fieldscribe.language.formula.syntax import (
@@ -38,6 +38,7 @@ __all__ = [
     "Comparison",
     "Condition",
     "Constant",
+    "CutOff",
     "Expression",
     "FormulaError",
     "Name",
@@ -52,11 +53,12 @@ __all__ = [
     "condition_comparisons",
     "condition_names",
     "constant",
+    "cut_off",
     "evaluate",
+    "exact_scale",
     "invert",
     "limit_rule",
     "linear",
-    "looks_like_cut_binary_fraction",
     "names",
     "parse_case",
     "parse_condition",

@@ -7,6 +7,7 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, TypeAlias
 
 from fieldscribe.language.formula.errors import FormulaError
+from fieldscribe.language.formula.meant import condition_meant
 from fieldscribe.language.formula.parser import VARIABLES, Parser
 from fieldscribe.language.formula.syntax import Name
 from fieldscribe.language.formula.tokens import number
@@ -65,6 +66,15 @@ Condition: TypeAlias = Comparison | Not | AllOf | AnyOf
 @lru_cache(maxsize=4096)
 def parse_condition(text: str) -> Condition:
     """A condition; `not` binds tightest, then `and`, then `or`. Raises FormulaError."""
+    try:
+        return read_condition(text)
+    except FormulaError as error:
+        meant = condition_meant(text)
+        raise FormulaError(error.message, error.column, f"write `{meant}`" if meant else error.hint) from None
+
+
+def read_condition(text: str) -> Condition:
+    """The same, without a guess at what else could be meant."""
     parser = Parser(text)
     condition = _any(parser)
     parser.finish(_NO_ARITHMETIC)

@@ -1,4 +1,4 @@
-"""A warning for numbers that someone cut off."""
+"""A warning for numbers that someone cut off, with the fraction that was meant."""
 
 from __future__ import annotations
 
@@ -6,31 +6,70 @@ import re
 from bisect import bisect_left
 from fractions import Fraction
 from functools import cache, lru_cache
+from typing import TYPE_CHECKING, NamedTuple
 
 from fieldscribe.language.numbers import LONGEST
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
 _DECIMAL = re.compile(r"(?<![0-9A-Za-z_.,'])[0-9]+\.[0-9]+(?![0-9A-Za-z_]|\.[0-9])")
 _FEWEST_DIGITS = 5
 _NUMERATORS = range(1, 17)
-_EXPONENTS_OF_TWO = range(8, 21)
+_EXPONENTS_OF_TWO = range(8, 33)
 _EXPONENTS_OF_TEN = range(-4, 6)
+_THIRDS = (3, 6, 9, 12, 15, 18, 30, 36, 60, 90)
+_REPEATING = re.compile(r"([0-9])\1\1[0-9]?\Z")
+_LONGEST_TEXT = 2000
+
+
+class CutOff(NamedTuple):
+    """A decimal in a formula that is almost, but not quite, a simple fraction; `line` is the formula with that."""
+
+    typed: str
+    exact: str
+    line: str
 
 
 @lru_cache(maxsize=16384)
-def looks_like_cut_binary_fraction(text: str) -> str | None:
-    """A suggestion if a decimal in the text (a number or a formula) is almost, but not quite, n / 2^k * 10^m.
+def cut_off(text: str) -> CutOff | None:
+    """The first decimal of a formula that is almost n / 2^k * 10^m, or a repeating fraction such as 2 / 3.
 
     Almost is within half a unit of the last digit typed; fewer than five digits could be anything.
     """
     if "." not in text:
         return None
-    for found in _DECIMAL.finditer(text[:2000]):
+    for found, exact in _cut(text[:_LONGEST_TEXT]):
+        return CutOff(found[0], exact, exact_scale(text))
+    return None
+
+
+def exact_scale(text: str) -> str:
+    """The formula with fractions in place of its decimals that were cut off."""
+    for found, exact in reversed(list(_cut(text[:_LONGEST_TEXT]))):
+        text = _replaced(text, found, exact)
+    return text
+
+
+def _cut(text: str) -> Iterator[tuple[re.Match[str], str]]:
+    for found in _DECIMAL.finditer(text):
         typed = found[0]
         if len(typed) <= LONGEST and len(typed.replace(".", "").lstrip("0")) >= _FEWEST_DIGITS:
             exact = _almost(typed)
             if exact is not None:
-                return f"{typed} looks like {exact}, cut off: write {exact} to keep it exact"
-    return None
+                yield found, exact
+
+
+def _replaced(text: str, found: re.Match[str], exact: str) -> str:
+    """The text with the fraction in the place of the decimal: `raw * 0.33333` becomes `raw / 3`."""
+    before, behind = text[: found.start()].rstrip(), text[found.end() :]
+    top, _, bottom = exact.partition(" / ")
+    if before.endswith("/"):
+        product = f"* {bottom}" + ("" if top == "1" else f" / {top}")
+        return f"{before[:-1].rstrip()} {product}{behind}"
+    if before.endswith("*") and top == "1":
+        return f"{before[:-1].rstrip()} / {bottom}{behind}"
+    return f"{text[: found.start()]}{exact}{behind}"
 
 
 def _almost(typed: str) -> str | None:
@@ -38,24 +77,41 @@ def _almost(typed: str) -> str | None:
     whole, _, decimals = typed.partition(".")
     number = Fraction(int(whole + decimals), 10 ** len(decimals))
     half = Fraction(1, 2 * 10 ** len(decimals))
-    fractions, texts = _table()
-    at = bisect_left(fractions, number - half)
+    return _nearest(number, half, *_binary()) or (
+        _nearest(number, half, *_repeating()) if _REPEATING.search(typed) else None
+    )
+
+
+def _nearest(number: Fraction, half: Fraction, fractions: list[Fraction], texts: list[str]) -> str | None:
+    """The first of the fractions within `half`; None if there is none, or if the number itself is one of them."""
+    first = at = bisect_left(fractions, number - half)
     while at < len(fractions) and fractions[at] <= number + half:
         if fractions[at] == number:
             return None
         at += 1
-    first = bisect_left(fractions, number - half)
     return texts[first] if first < at else None
 
 
 @cache
-def _table() -> tuple[list[Fraction], list[str]]:
-    """All candidates in ascending order, each with its simplest writing."""
+def _binary() -> tuple[list[Fraction], list[str]]:
+    """All n / 2^k * 10^m in ascending order, each with its simplest writing."""
+    return _table([2**two for two in _EXPONENTS_OF_TWO])
+
+
+@cache
+def _repeating() -> tuple[list[Fraction], list[str]]:
+    """The same for fractions whose decimals never end."""
+    fractions, _ = _table(list(_THIRDS))
+    kept = [one for one in fractions if one.denominator % 3 == 0]
+    return kept, [f"{one.numerator} / {one.denominator}" for one in kept]
+
+
+def _table(bottoms: list[int]) -> tuple[list[Fraction], list[str]]:
     texts: dict[Fraction, str] = {}
     for numerator in _NUMERATORS:
-        for two in _EXPONENTS_OF_TWO:
+        for divisor in bottoms:
             for ten in _EXPONENTS_OF_TEN:
-                top, bottom = numerator * 10 ** max(ten, 0), 2**two * 10 ** max(-ten, 0)
+                top, bottom = numerator * 10 ** max(ten, 0), divisor * 10 ** max(-ten, 0)
                 texts.setdefault(Fraction(top, bottom), f"{top} / {bottom}")
     ordered = sorted(texts)
     return ordered, [texts[fraction] for fraction in ordered]

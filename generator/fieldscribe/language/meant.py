@@ -1,0 +1,295 @@
+"""What people write from other tools and languages, and what that is here: for the hints of findings."""
+
+from __future__ import annotations
+
+import re
+from decimal import Decimal
+from typing import TYPE_CHECKING, Any
+
+from fieldscribe.language.meant_words import ALSO, ENDIAN, TYPE_WORDS, WORDS
+from fieldscribe.language.nodes import Map, Seq
+from fieldscribe.language.numbers import NumberError, parse_number
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Collection, Mapping
+
+_LONGEST = 60
+_NUMBER = r"[-+]?[0-9][0-9A-Fa-fxX]*(?:\.[0-9]+)?[hH]?"
+_BETWEEN = r"(?:\.\.|-|\u2013|\u2014|~|:|;|\.\.\.|\u2026|\u00f7|to|bis|through)"
+_INTERVAL = re.compile(rf"[\[(]?\s*({_NUMBER})\s*{_BETWEEN}\s*({_NUMBER})\s*[\])]?\s*[^\s\d]{{0,4}}")
+_PAIRS = re.compile(r"([-+]?[0-9]+)\s*[=:]\s*([A-Za-z][A-Za-z0-9_ ]*)")
+
+
+def value_hint(key: Any, value: Any) -> str | None:
+    """What to write under that key instead of the value, as a whole line; None if nothing is known."""
+    if not isinstance(key, str):
+        return None
+    making = _MAKERS.get(key)
+    made = None if making is None else making(key, value)
+    return made or _word_hint(key, value)
+
+
+def space_hint(space: str, known: Collection[str]) -> str | None:
+    """The space of the family that somebody calls otherwise; None if none is known."""
+    found = WORDS["space"].get(space.strip().lower()[:_LONGEST])
+    return f"write `space: {found}`" if found in known else None
+
+
+def reversed_hint(key: str, value: Any) -> str | None:
+    """What to write for `off: 0` where numbers have names; None if the value is no number."""
+    if isinstance(value, int) and not isinstance(value, bool) and len(key) <= _LONGEST:
+        return f"the number stands first: `{value}: {key.lower().replace(' ', '_')}`"
+    return None
+
+
+def _word_hint(key: str, value: Any) -> str | None:
+    known = WORDS.get(key)
+    if known is None or not isinstance(value, str | int | Decimal):
+        return None
+    word = str(value).strip().lower()[:_LONGEST]
+    found = known.get(word) or (known.get(ENDIAN.sub("", word)) if key == "type" else None)
+    if found is None:
+        return None
+    order = "" if key != "type" or word in known else "; the order of words goes under `words`"
+    return f"write `{key}: {found}`{order}{ALSO.get(found, '') if key == 'type' else ''}"
+
+
+def _type(_: str, value: Any) -> str | None:
+    """A type that differs in case or form alone, or one of a width that no type has."""
+    if not isinstance(value, str):
+        return None
+    word = value.strip().lower()
+    if word in TYPE_WORDS:
+        return f"write `type: {word}`"
+    if re.fullmatch(r"[usi]?(int)?(24|40|48|56|128)(_t)?", word) or "bcd" in word:
+        return "no type here is like this: `type: ~` documents the point and makes no code for it"
+    return None
+
+
+def interval_meant(text: str) -> str | None:
+    """`0-100`, `0 to 100`, `[0:100]` as it is written here; None if it is nothing like that."""
+    found = _INTERVAL.fullmatch(text.strip()) if len(text) <= _LONGEST else None
+    return f"{found[1]}..{found[2]}" if found is not None and _numbers(found[1], found[2]) else None
+
+
+def _numbers(*texts: str) -> bool:
+    try:
+        return all(parse_number(text) is not None for text in texts)
+    except NumberError:
+        return False
+
+
+def _interval(key: str, value: Any) -> str | None:
+    """Intervals of raw numbers, of units or of words."""
+    if isinstance(value, Map):
+        low, high = (next((value[one] for one in names if one in value), None) for names in _ENDS)
+        whole = isinstance(low, int | Decimal | str) and isinstance(high, int | Decimal | str)
+        return f"write `{key}: {low}..{high}`" if whole else "an interval is written low..high: `0..100`"
+    if isinstance(value, Seq) and len(value) == 2 and not any(isinstance(one, Map | Seq) for one in value):
+        return f"write `{key}: {value[0]}..{value[1]}`"
+    meant = interval_meant(value) if isinstance(value, str) else None
+    return None if meant is None else f"write `{key}: {meant}`"
+
+
+_ENDS = (("min", "low", "from", "minimum"), ("max", "high", "to", "maximum"))
+
+
+def _bits(key: str, value: Any) -> str | None:
+    """Bits as pairs, with the low one first, or with a word in front."""
+    if isinstance(value, Seq) and len(value) == 2 and all(isinstance(one, int) for one in value):
+        low, high = sorted(value)
+        return f"write `{key}: {high}..{low}`"
+    return None
+
+
+def bits_meant(text: str) -> str | None:
+    """`15:8`, `b3`, `bit 3` as they are written here; None if it is nothing like that, or already so."""
+    found = re.fullmatch(r"[^\W\d]{0,5}[ .]?([0-9]{1,2})(?:(?:-|:|,|/| to )([0-9]{1,2}))?", text.strip())
+    if found is None or text.strip().isdecimal():
+        return None
+    ends = sorted((int(one) for one in found.groups() if one), reverse=True)
+    return "..".join(map(str, ends))
+
+
+def _rule(_: str, value: Any) -> str | None:
+    """The same in a case of a scale."""
+    hint = _scale("", value)
+    return None if hint is None else hint.replace("`scale: ", "`rule: ")
+
+
+def _no_value(key: str, value: Any) -> str | None:
+    return f"list the codes that mean so: `{key}: [7FFFh]`" if isinstance(value, bool) else None
+
+
+def _scale(_: str, value: Any) -> str | None:
+    """A bare factor, or an offset and a factor."""
+    if isinstance(value, bool) or not isinstance(value, int | Decimal | Map):
+        return None
+    if isinstance(value, Map):
+        factor = next((value[one] for one in ("factor", "gain", "slope", "multiplier") if one in value), None)
+        return "a scale is one formula, as in `scale: value = raw * 0.1 - 40`" if factor is None else _scale(_, factor)
+    return factor_hint(value)
+
+
+def factor_hint(number: int | Decimal) -> str:
+    """The line that a bare factor stands for: both, where it may multiply or divide."""
+    from fieldscribe.language.formula.lint import exact_scale
+
+    if number == 0:
+        return "a factor of zero makes every value 0: write the rule, as in `scale: value = raw * 0.1`"
+    if number == 1:
+        return "the raw number is the value: leave `scale` out"
+    plain = f"{number:f}" if isinstance(number, Decimal) else str(number)
+    line = exact_scale(f"value = raw * {plain}")
+    if number < 1 or number % 1:
+        return f"write the rule: `scale: {line}`"
+    return f"write the rule: `scale: {line}`, or `scale: value = raw / {plain}` if the raw number is the larger one"
+
+
+def _names(key: str, value: Any) -> str | None:
+    """Names for numbers as a list, or as one text."""
+    if isinstance(value, Seq) and 0 < len(value) <= 8 and all(isinstance(one, str) for one in value):
+        return f"write `{key}: {{{', '.join(f'{place}: {_snake(one)}' for place, one in enumerate(value))}}}`"
+    pairs = _PAIRS.findall(value) if isinstance(value, str) and len(value) < 200 else []
+    if pairs:
+        return f"write `{key}: {{{', '.join(f'{number}: {_snake(name)}' for number, name in pairs)}}}`"
+    return None
+
+
+def _snake(text: str) -> str:
+    return re.sub(r"[^a-z0-9]+", "_", text.strip().lower()).strip("_") or "name"
+
+
+def _steps(_: str, value: Any) -> str | None:
+    return f"write `steps: {{0: {value}}}`: from raw 0 on" if isinstance(value, int | Decimal) else None
+
+
+def _decimals(_: str, value: Any) -> str | None:
+    """A resolution where a count of digits belongs."""
+    if not isinstance(value, Decimal):
+        return None
+    digits = max(0, -int(value.normalize().as_tuple().exponent))
+    return f"it counts the digits behind the point: write `decimals: {digits}`"
+
+
+def _source(_: str, value: Any) -> str | None:
+    if isinstance(value, str | int | Decimal) and len(str(value)) <= _LONGEST:
+        return f'write `source: {{document: …, section: "{value}"}}`'
+    return None
+
+
+def _at(_: str, value: Any) -> str | None:
+    if isinstance(value, Seq) and value:
+        return f"a point of several words stands once, at its first: write `at: {value[0]}`"
+    return None
+
+
+def _unit(_: str, value: Any) -> str | None:
+    """A number, or several symbols."""
+    if isinstance(value, int | Decimal):
+        return "a unit is a symbol such as `Hz`: `fieldscribe units` lists them; a factor belongs to `scale`"
+    alone = isinstance(value, Seq) and len(value) == 1 and isinstance(value[0], str)
+    return f"write `unit: {value[0]}`" if alone else None
+
+
+def _when(_: str, value: Any) -> str | None:
+    """A mapping of points to numbers."""
+    plain = isinstance(value, Map) and 0 < len(value) < 5 and all(isinstance(one, int | str) for one in value.values())
+    return f"write `when: {' and '.join(f'{key} == {one}' for key, one in value.items())}`" if plain else None
+
+
+def _printed(_: str, value: Any) -> str | None:
+    """A number of which nobody says in which numbering."""
+    plain = isinstance(value, int | str) and not isinstance(value, bool) and len(str(value)) < _LONGEST
+    return f"say which number it is: `printed: {{wire: {value}}}`, or a name of `numbering`" if plain else None
+
+
+def _line(key: str, value: Any) -> str | None:
+    """Several lines where one is meant."""
+    found = re.fullmatch(r"([0-9]{1,9})\s*(?:-|\.\.|,|to).*", value) if isinstance(value, str) else None
+    return None if found is None else f"write the line where it begins: `{key}: {found[1]}`"
+
+
+def _index(key: str, value: Any) -> str | None:
+    many = {"index": "indices", "set": "sets"}[key]
+    return f"several are `{many}: {value}`" if isinstance(value, str) and ".." in value else None
+
+
+def _sets(key: str, value: Any) -> str | None:
+    """How many sets there are, where each needs its address."""
+    if isinstance(value, int | Seq):
+        return (
+            f"each set has its address: `{key}: {{2: {{at: …}}}}`; by a rule of the group: `at: {{number: …, sets: 4}}`"
+        )
+    return None
+
+
+def _digits(key: str, value: Any) -> str | None:
+    return f"write `{key}: {{count: {value}, enum: …}}`" if isinstance(value, int) else None
+
+
+def _special(key: str, value: Any) -> str | None:
+    return f"write `{key}: {{{value}: name_of_it}}`" if isinstance(value, int) else _names(key, value)
+
+
+def _functions(key: str, value: Any) -> str | None:
+    """Numbers without names."""
+    if isinstance(value, Seq) and 0 < len(value) <= 16 and all(isinstance(one, int | str) for one in value):
+        return f"each number has a name: write `{key}: {{{', '.join(f'{one}: name_of_it' for one in value)}}}`"
+    return None
+
+
+def _family(_: str, value: Any) -> str | None:
+    if isinstance(value, str) and value.lower().startswith(("modbus", "uss")):
+        name = value.lower()[: 6 if value.lower().startswith("modbus") else 3]
+        more = "; rtu and tcp are `framings` under `bus`" if name == "modbus" and len(value) > len(name) else ""
+        return f"write `family: {name}`{more}"
+    if isinstance(value, str) and value.lower() in ("canopen", "j1939", "nmea2000", "devicenet"):
+        return "the family can is for a maker's own messages, laid out byte by byte; this one is not known yet"
+    return None
+
+
+def _bytes(key: str, value: Any) -> str | None:
+    """Bytes as a list, with markers or with commas."""
+    if isinstance(value, Seq):
+        whole = 0 < len(value) <= 32 and all(isinstance(one, int) and 0 <= one < 256 for one in value)
+        return f"write `{key}: {' '.join(f'{one:02X}' for one in value)}`" if whole else None
+    words = re.split(r"[\s,;:]+", value.strip()) if isinstance(value, str) and len(value) < 200 else []
+    plain = [re.sub(r"^(0[xX]|\$)|[hH]$", "", word) for word in words]
+    fine = plain and all(re.fullmatch(r"[0-9A-Fa-f]{1,2}", word) for word in plain)
+    return f"write `{key}: {' '.join(word.upper().zfill(2) for word in plain)}`" if fine else None
+
+
+def _values(_: str, value: Any) -> str | None:
+    """The values of a variant as a list."""
+    if isinstance(value, Seq) and 0 < len(value) <= 8 and all(isinstance(one, str | int) for one in value):
+        return f"write `values: {{{', '.join(f'{one}: {{}}' for one in value)}}}`"
+    return _names("values", value)
+
+
+_MAKERS: Mapping[str, Callable[[str, Any], str | None]] = {
+    "type": _type,
+    **dict.fromkeys(("range", "range_in_units", "units", "pzd"), _interval),
+    "bits": _bits,
+    "bytes": _bytes,
+    "unit": _unit,
+    "when": _when,
+    "printed": _printed,
+    "line": _line,
+    **dict.fromkeys(("index", "set"), _index),
+    "sets": _sets,
+    "digits": _digits,
+    "special": _special,
+    "scale": _scale,
+    "rule": _rule,
+    "no_value": _no_value,
+    **dict.fromkeys(("enum", "flags"), _names),
+    "values": _values,
+    "steps": _steps,
+    "decimals": _decimals,
+    "source": _source,
+    "at": _at,
+    **dict.fromkeys(("functions", "exceptions", "responses"), _functions),
+    "family": _family,
+}
+"""What makes the hint, by key; words alone stand in the table above."""

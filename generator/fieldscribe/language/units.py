@@ -1,0 +1,147 @@
+"""The shipped units: which symbols are known, how they relate to each other, and what somebody may have meant."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from fieldscribe.diagnostics import Report
+from fieldscribe.language.load import load
+from fieldscribe.language.source import SourceFile
+from fieldscribe.model import Unit
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator, Mapping
+
+LISTED = "`fieldscribe units` lists what is known"
+_NO_UNIT = frozenset({"-", "--", "1", "none", "n/a", "number", "count", "counts", "raw", "bool", "enum", "hex"})
+_SAME = str.maketrans({"\u03bc": "\u00b5", "\u2126": "\u03a9"})
+"""Micro and ohm have two characters each that look alike."""
+_PREFIX_LETTERS = frozenset("yzafpnµmcdhkMGTPEZY")
+
+
+@dataclass(frozen=True, slots=True)
+class Known:
+    """A unit that needs no declaration: 1 of it is `factor` of the unit `base`, the same without its prefix."""
+
+    unit: Unit
+    base: str
+    factor: Fraction
+    prefix: str
+    spellings: tuple[str, ...]
+    """What else people write for it."""
+
+
+@cache
+def shipped() -> Mapping[str, Known]:
+    """All units that need no declaration, by symbol; each unit is followed by itself with its prefixes."""
+    table = _table()
+    found: dict[str, Known] = {}
+    for symbol, one in table["units"].items():
+        for known in _with_prefixes(symbol, one, table["prefixes"]):
+            if known.unit.symbol in found:
+                raise ValueError(f"units.yaml: `{known.unit.symbol}` has two meanings")
+            found[known.unit.symbol] = known
+    return found
+
+
+def shipped_unit(symbol: str) -> Unit | None:
+    """The shipped unit of that symbol; micro may be written with either of its characters."""
+    found = shipped().get(symbol.translate(_SAME))
+    return None if found is None else found.unit
+
+
+def factor_between(typed: str, unit: Unit) -> Fraction | None:
+    """How many of the unit one of the `typed` are; None where they are not one unit with different prefixes."""
+    mine, other = shipped().get(typed.translate(_SAME)), shipped().get(unit.symbol)
+    if mine is None or other is None or other.unit != unit or mine.base != other.base:
+        return None
+    return mine.factor / other.factor
+
+
+def unit_hint(typed: str, declared: Iterable[str]) -> str:
+    """What to do about an unknown unit. A unit of another magnitude or quantity is never suggested alone."""
+    if typed.casefold() in _NO_UNIT:
+        return "a plain number has no unit: leave `unit` out"
+    meant = _meant(typed, declared)
+    if not meant:
+        return f"declare it under `units`: `units: {{{_as_key(typed)}: {{name: …, quantity: …}}}}`; {LISTED}"
+    return f"write {' or '.join(_told(symbol, alone=len(meant) == 1) for symbol in meant)}"
+
+
+def _told(symbol: str, *, alone: bool) -> str:
+    """A symbol; where there is a choice, with its name."""
+    known = shipped().get(symbol)
+    return f"`{symbol}`" if alone or known is None else f"`{symbol}` ({known.unit.name})"
+
+
+def _as_key(typed: str) -> str:
+    """A symbol as a key in braces, quoted where YAML needs it."""
+    return typed if typed.replace("/", "").isalnum() else f'"{typed}"'
+
+
+def _meant(typed: str, declared: Iterable[str]) -> list[str]:
+    """The symbols that the text spells in another way; those that only differ in the prefix come along, last."""
+    folded = _folded(typed)
+    found = [symbol for symbol in declared if _folded(symbol) == folded]
+    spelled = [known for known in shipped().values() if folded in _spelled(known)]
+    near = [known for known in spelled if _same_prefix(typed, known)]
+    if not near:
+        return found
+    exact = [known for known in near if _with_micro(typed) in (known.unit.symbol, *known.spellings)]
+    if exact:
+        return [known.unit.symbol for known in exact]
+    far = [known for known in spelled if known not in near]
+    return list(dict.fromkeys((*found, *(known.unit.symbol for known in (*near, *far)))))
+
+
+def _same_prefix(typed: str, known: Known) -> bool:
+    """Whether the prefix is the one typed: `MV` is no `mV`, but `KW` can only be `kW`, and names are words."""
+    first = typed.translate(_SAME)[:1].replace("u", "µ")
+    if not known.prefix or first == known.prefix or first not in _PREFIX_LETTERS:
+        return True
+    return _folded(typed) in _named(known)
+
+
+@cache
+def _named(known: Known) -> frozenset[str]:
+    name = known.unit.name.casefold()
+    return frozenset({name, f"{name}s"})
+
+
+@cache
+def _spelled(known: Known) -> frozenset[str]:
+    return _named(known) | {_folded(one) for one in (known.unit.symbol, *known.spellings)}
+
+
+def _folded(text: str) -> str:
+    """The text without what people write differently: case, and the character for micro."""
+    return _with_micro(text.translate(_SAME).casefold())
+
+
+def _with_micro(text: str) -> str:
+    """The text with the proper character for micro; keyboards have `u`."""
+    text = text.translate(_SAME)
+    return f"µ{text[1:]}" if text[:1] == "u" else text
+
+
+def _with_prefixes(symbol: str, one: Mapping[str, Any], prefixes: Mapping[str, Any]) -> Iterator[Known]:
+    also = tuple(one.get("also", ()))
+    yield Known(Unit(symbol, one["name"], one["quantity"]), symbol, Fraction(1), "", also)
+    for prefix in one.get("prefixes", "").split():
+        said = prefixes[prefix]
+        unit = Unit(prefix + symbol, said["name"] + one["name"], one["quantity"])
+        spellings = tuple(prefix + other for other in also)
+        yield Known(unit, symbol, Fraction(10) ** int(said["power"]), prefix, spellings)
+
+
+def _table() -> Mapping[str, Any]:
+    path = Path(__file__).with_name("units.yaml")
+    report = Report()
+    table = load(SourceFile(path.name, path.read_text("utf-8")), report)
+    if table is None or report.has_errors:
+        raise ValueError(f"units.yaml is broken: {report.findings}")
+    return table

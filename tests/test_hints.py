@@ -1,0 +1,321 @@
+"""Hints lead out: what a hint says to write passes, and leads into no other finding."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+import pytest
+from fieldscribe.diagnostics import Report
+from fieldscribe.pipeline import load_device
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from fieldscribe.diagnostics import Diagnostic
+
+HEAD = """\
+fieldscribe: 1
+device: made_up
+version: 1.0.0
+vendor: Maker
+model: M1
+title: Test device
+family: modbus
+documents: {manual: {title: Manual, language: en}}
+bus:
+  framings: [rtu]
+  units: 1..247
+  functions: {01h: read_coils, 03h: read, 05h: write_coil, 06h: write, 10h: write_many}
+groups:
+- group: main
+  space: holding
+  source: {document: manual, section: "1"}
+  points:
+  - {name: mode, at: 900, range: 0..5}
+"""
+_LINE = re.compile(r"`(([a-z_]+): .*?)`(?= |$|,|;|:)")
+
+WRITTEN = [
+    ("scale: 0.1", "scale: value = raw * 0.1"),
+    ("scale: 10", "scale: value = raw * 10"),
+    ("scale: 0.0000152588", "scale: value = raw / 65536"),
+    ("scale: x 0.1", "scale: value = raw * 0.1"),
+    ('scale: "0,1"', "scale: value = raw * 0.1"),
+    ("scale: raw/10", "scale: value = raw/10"),
+    ('scale: "*10"', "scale: value = raw * 10"),
+    ("scale: 1/10", "scale: value = raw / 10"),
+    ('scale: "1:10"', "scale: value = raw / 10"),
+    ("scale: 0.1 V", "scale: value = raw * 0.1"),
+    ("scale: 10^-1", "scale: value = raw * 10 ** -1"),
+    ("scale: y = 0.1 * x", "scale: value = 0.1 * raw"),
+    ("scale: value = raw x 0.1", "scale: value = raw * 0.1"),
+    ("scale: value == raw * 0.1", "scale: value = raw * 0.1"),
+    ("scale: {factor: 0.1}", "scale: value = raw * 0.1"),
+    ("range: 0-100", "range: 0..100"),
+    ("range: 0 to 100", "range: 0..100"),
+    ("range: 0...100", "range: 0..100"),
+    ("range: {min: 0, max: 100}", "range: 0..100"),
+    ("range_in_units: 0.0-50.0", "range_in_units: 0.0..50.0"),
+    ("access: ro", "access: r"),
+    ("access: R/W", "access: rw"),
+    ("access: read-only", "access: r"),
+    ("type: int16", "type: s16"),
+    ("type: INT32", "type: s32"),
+    ("type: float", "type: f32"),
+    ("type: real", "type: f32"),
+    ("type: double", "type: f64"),
+    ("type: uint16", "type: u16"),
+    ("type: word", "type: u16"),
+    ("type: DWORD", "type: u32"),
+    ("type: bool", "type: bit"),
+    ("type: U16", "type: u16"),
+    ("type: uint32_be", "type: u32"),
+    ("keeps: true", "keeps: yes"),
+    ("words: little endian, type: u32", "words: low first"),
+    ("changes: constant", "changes: never"),
+    ("steps: 10", "steps: {0: 10}"),
+    ("bits: 15:8", "bits: 15..8"),
+    ("bits: [8, 15]", "bits: 15..8"),
+    ("bits: b3", "bits: 3"),
+    ("enum: [Off, On line]", "enum: {0: off, 1: on_line}"),
+    ('enum: "0=off, 1=on"', "enum: {0: off, 1: on}"),
+    ("flags: [ready, fault]", "flags: {0: ready, 1: fault}"),
+    ("section: 4.2", 'section: "4.2"'),
+    ("when: mode in (0, 1)", 'when: "mode in (0, 1)"'),
+    ("range: 0, 1, 2", 'range: "0, 1, 2"'),
+    ("title: Speed, actual value", 'title: "Speed, actual value"'),
+]
+
+COUNTS = [
+    "type: u32, decimals: 12, scale: value = raw * 0.1",
+    "type: u32, decimals: 0, scale: value = raw * 0.1",
+    "decimals: 1, scale: value = raw * 0.01",
+    "type: s32, decimals: 12, scale: value = raw * 0.01",
+    "type: u32, scale: value = raw * 0.0000152588",
+    "type: s32, scale: value = raw * 0.000000011920929",
+    "type: u32, scale: value = raw * 0.00001525878906",
+    "type: u32, scale: value = raw * 0.0000000001",
+    "type: u32, decimals: 3, scale: value = raw * 0.0000000001",
+    "type: u32, decimals: 12, scale: value = raw * 0.0000000001",
+    "scale: value = raw * 0.0000000000000001",
+    "decimals: 0.01, scale: value = raw * 0.01",
+]
+"""Points whose counts do not fit, or whose decimals are wrong."""
+
+
+def findings(folder: Path, facts: str, *, number: int = 1) -> tuple[Diagnostic, ...]:
+    """What is found of a point with these facts."""
+    space = ", space: coil" if "type: bit" in facts or "type: bool" in facts else ""
+    file = folder / "device.yaml"
+    file.write_text(f"{HEAD}  - {{name: made, at: {number}{space}, {facts}}}\n", "utf-8")
+    report = Report()
+    load_device(file, report)
+    return report.findings
+
+
+def told(hint: str) -> str:
+    """The whole line that a hint shows; the first where it shows a choice."""
+    found = _LINE.search(hint)
+    if found is not None:
+        return found[1]
+    quoted = re.fullmatch(r'quote it: (".*")', hint)
+    return "" if quoted is None else f"section: {quoted[1]}"
+
+
+@pytest.mark.parametrize(("wrong", "right"), WRITTEN)
+def test_the_line_that_a_hint_shows_works(tmp_path: Path, wrong: str, right: str) -> None:
+    (first, *_) = (one for one in findings(tmp_path, wrong) if one.severity == "error")
+    assert told(first.hint or "") == right
+    key = right.partition(":")[0]
+    rest = wrong.split(f"{key}: ", 1)[1].rpartition(", type: ")
+    others = f", type: {rest[2]}" if rest[1] else ""
+    assert not findings(tmp_path, right + others)
+
+
+def applied(facts: str, hint: str) -> str:
+    """The facts with what the hint says instead of what they said of that key."""
+    line = told(hint)
+    key = line.partition(":")[0]
+    parts = re.split(r", (?=[a-z_]+: )", facts)
+    return ", ".join([*(one for one in parts if not one.startswith(f"{key}: ")), line])
+
+
+@pytest.mark.parametrize("facts", COUNTS)
+def test_hints_about_decimals_lead_out(tmp_path: Path, facts: str) -> None:
+    """Each hint is applied once; then nothing is wrong. A circle of hints would come back here."""
+    found = [one for one in findings(tmp_path, facts) if one.severity == "error"]
+    for one in found:
+        assert told(one.hint or ""), one.hint
+    if found:
+        assert not findings(tmp_path, applied(facts, found[0].hint or ""))
+
+
+@pytest.mark.parametrize(
+    ("facts", "line"),
+    [
+        ("scale: value = raw * 0.0000152588", "value = raw / 65536"),
+        ("scale: value = raw * 0.00610352", "value = raw * 100 / 16384"),
+        ("scale: raw = value / 0.33333", "raw = value * 3"),
+    ],
+)
+def test_a_cut_decimal_is_a_warning_that_can_be_followed(tmp_path: Path, facts: str, line: str) -> None:
+    (only,) = findings(tmp_path, facts)
+    assert (only.severity, only.rule) == ("warning", "cut-decimal")
+    assert only.hint == f"write `{line}` to keep it exact"
+    assert not findings(tmp_path, f"scale: {line}")
+
+
+@pytest.mark.parametrize(
+    ("facts", "rule", "hint"),
+    [
+        ("range: [0, 100]", "two-meanings", "`0..100` for all between them, `0 | 100` for these two alone"),
+        ("enum: {off: 0, on: 1}", "unknown-key", "the number stands first: `0: off`"),
+        ("flags: {ready: 0}", "unknown-key", "the number stands first: `0: ready`"),
+        ("type: int48", "wrong-choice", "`type: ~` documents the point"),
+        ("unit: mw", "unknown-unit", "`mW` (milliwatt) or `MW` (megawatt)"),
+        ("unit: furlong", "unknown-unit", "`fieldscribe units` lists what is known"),
+        ("scale: [{when: mode == 0, rule: 0.1}]", "wrong-type", "`rule: value = raw * 0.1`"),
+        ("scale: [{when: mode == 0, rule: x 0.1}]", "bad-formula", "`rule: value = raw * 0.1`"),
+        ("scale: [{if: mode == 0, then: value = raw}]", "unknown-key", "did you mean `when`?"),
+        ("no_value: true", "wrong-type", "`no_value: [7FFFh]`"),
+        ("size: 2", "unknown-key", "the `type` says how wide a number is"),
+        ("byte_order: little", "unknown-key", "`words: low first`"),
+        ("multiplier: 0.1", "unknown-key", "`scale: value = raw * 0.1`"),
+        ("divisor: 10", "unknown-key", "`scale: value = raw / 10`"),
+        ("offset: -40", "unknown-key", "what is added to a number stands in its rule"),
+        ("precision: 1", "unknown-key", "did you mean `decimals`?"),
+        ("readonly: true", "unknown-key", "write `access: r`"),
+        ("writable: true", "unknown-key", "write `access: rw`"),
+        ("writable: false", "unknown-key", "did you mean `access`?"),
+        ("function: 3", "unknown-key", "the `space` says what is read and written"),
+        ("min: 0", "unknown-key", "`range: low..high`"),
+        ("comment: x", "unknown-key", "did you mean `note`?"),
+        ("space: HR", "unknown-space", "write `space: holding`"),
+        ("space: input_registers", "unknown-space", "write `space: input`"),
+        ("format: int16", "unknown-format", "write `type: s16`"),
+        ("unit: 10", "wrong-type", "a unit is a symbol such as `Hz`"),
+        ("default: auto, enum: {0: off, 1: on}", "bad-number", "write a number, or one of off, on"),
+        ("enum: {0: off, 1-3: on}", "bad-number", "write a row for each number"),
+        ("enum: {0: {name: off, title: Off}}", "unknown-key", "`{name: off, en: Off}`"),
+        ("flags: {bit0: ready}", "unknown-key", "write `0`"),
+        ("flags: {0-3: mode_bits}", "unknown-key", "write `3..0`"),
+        ("flags: {1: a1, 2: a2, 4: a3, 8: a4}", "looks-like-masks", "keys are bit numbers from 0"),
+        ("flags: {0: {name: fault, inverted: true}}", "unknown-key", "write `active: 0`"),
+        ("special: 65535", "wrong-type", "write `special: {65535: name_of_it}`"),
+        ("when: mode is 1", "bad-formula", "write `mode == 1`"),
+        ("when: if mode == 1", "bad-formula", "write `mode == 1`"),
+        ('when: "mode in [0, 1]"', "bad-formula", "write `mode in (0, 1)`"),
+        ('when: "mode in 0..1"', "bad-formula", "write `mode >= 0 and mode <= 1`"),
+        ("when: mode == 1 || mode == 2", "bad-formula", "write `mode == 1 or mode == 2`"),
+        ("when: {mode: 1}", "wrong-type", "write `when: mode == 1`"),
+        ("printed: 40002", "wrong-type", "`printed: {wire: 40002}`"),
+        ("printed: {modicon: 40002}", "unknown-key", "`numbering: {modicon: wire + 1}`"),
+        ("line: 780-790", "wrong-type", "write the line where it begins: `line: 780`"),
+        ("range: 0..FFFF", "unknown-point", "if a hexadecimal number is meant, write 0FFFFh"),
+        ('range: ">= 0"', "bad-formula", "an interval has both ends"),
+        ("range: 0.0..50.0", "bad-number", "write `range_in_units: 0.0..50.0`"),
+        ("keeps: eeprom", "unknown-command", "write `keeps: yes`"),
+        ("digits: 4", "wrong-type", "write `digits: {count: 4, enum: …}`"),
+        ("sets: 4", "wrong-type", "has its address"),
+        ("title: {english: X}", "unknown-key", "write `en`"),
+        ("keeps: choice", "wrong-choice", "write `keeps: yes`, `keeps: no`, or the command that stores"),
+        ("type", "yaml-comma", "give it a value: `type: …`"),
+        ("type: BYTE", "wrong-choice", "write `type: u8` with the `bits: 7..0`"),
+        ("type: string", "wrong-choice", "write `type: text` with `characters: …`"),
+        ("type: bool", "wrong-choice", "one bit of a word is `bits: 0`"),
+    ],
+)
+def test_hints_name_what_is_meant(tmp_path: Path, facts: str, rule: str, hint: str) -> None:
+    found = [one for one in findings(tmp_path, facts) if one.rule == rule]
+    assert hint in (found[0].hint or "")
+
+
+@pytest.mark.parametrize(
+    ("name", "hint"),
+    [
+        ("größe", "write `groesse`"),
+        ("2nd_speed", "a name starts with a letter: `speed_2`, not `2nd_speed`"),
+        ("Base Frequency", "write `base_frequency`"),
+    ],
+)
+def test_names_are_made(tmp_path: Path, name: str, hint: str) -> None:
+    (tmp_path / "device.yaml").write_text(f"{HEAD}  - {{name: {name}, at: 1}}\n", "utf-8")
+    report = Report()
+    load_device(tmp_path / "device.yaml", report)
+    assert report.findings[0].hint == hint
+
+
+@pytest.mark.parametrize("at", ["1 - 2", "1..2", "[1, 2]"])
+def test_a_point_of_two_words_stands_once(tmp_path: Path, at: str) -> None:
+    (tmp_path / "device.yaml").write_text(f"{HEAD}  - {{name: made, at: {at}, type: u32}}\n", "utf-8")
+    report = Report()
+    load_device(tmp_path / "device.yaml", report)
+    assert "write `at: 1`" in (report.findings[0].hint or "")
+
+
+def test_an_address_may_be_computed(tmp_path: Path) -> None:
+    (tmp_path / "device.yaml").write_text(f"{HEAD}  - {{name: made, at: 1029h - 1}}\n", "utf-8")
+    report = Report()
+    device = load_device(tmp_path / "device.yaml", report)
+    assert device is not None
+    assert device.points[1].address == 0x1028
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong", "hint"),
+    [
+        ("family: modbus", "family: Modbus RTU", "write `family: modbus`; rtu and tcp are `framings` under `bus`"),
+        ("family: modbus", "family: canopen", "the family can is for a maker's own messages"),
+        ("language: en", "language: German", "write `language: de`"),
+        ("units: 1..247", "units: 1-247", "write 1..247"),
+        ("units: 1..247", "units: [1, 247]", "write `units: 1..247`"),
+        ("units: 1..247", "units: 1..247\n  gaps: {holding: [100-200]}", "write 100..200"),
+        ("units: 1..247", "units: 1..247\n  words: little", "write `words: low first`"),
+        ("units: 1..247", "units: 1..247\n  baud: 9600", "`serial: {baud: 9600}`"),
+        ("framings: [rtu]", "framings: [RTU]", "did you mean `rtu`?"),
+        ("functions: {01h: read_coils,", "functions: {read_coils: 1,", "the number stands first: `1: read_coils`"),
+        ("- group: main", "- name: main", "did you mean `group`?"),
+        ('source: {document: manual, section: "1"}', "source: page 5", 'section: "page 5"}`'),
+        ("space: holding", "space: HR", "write `space: holding`"),
+        ("space: holding", "space: holding\n  numbering: {modicon: +1}", "write a formula: wire + 1"),
+        ("groups:", "frames: [{name: f, bytes: [1, 3, 0]}]\ngroups:", "write `bytes: 01 03 00`"),
+        ("groups:", "frames: [{name: f, bytes: 0x01 0x3}]\ngroups:", "write `bytes: 01 03`"),
+        ("groups:", "points: [{name: x, at: 1}]\ngroups:", "points stand in a group"),
+    ],
+)
+def test_hints_for_the_whole_file(tmp_path: Path, right: str, wrong: str, hint: str) -> None:
+    assert right in HEAD
+    (tmp_path / "device.yaml").write_text(HEAD.replace(right, wrong, 1), "utf-8")
+    report = Report()
+    load_device(tmp_path / "device.yaml", report)
+    hints = [one.hint or "" for one in report.findings]
+    assert any(hint in one for one in hints), hints
+    assert len(hints) == 1 or "group" in right, hints
+
+
+def test_a_number_for_people_is_no_address(tmp_path: Path) -> None:
+    file = tmp_path / "device.yaml"
+    file.write_text(f"{HEAD}  - {{name: made, at: 4x0010}}\n", "utf-8")
+    report = Report()
+    load_device(file, report)
+    assert "on the wire it is 9, in the space `holding`" in (report.findings[0].hint or "")
+
+
+@pytest.mark.parametrize(
+    "facts",
+    [
+        "flags: {0Fh: last, 0x0: first, H'3..02h: middle}",
+        "fixed: {0Ah: 1, 3h..0: 0}, bits: 15",
+        "enum: {FFh: off, 0x10: on, 0b11: third}",
+        "special: {FFFFh: broken}",
+        "steps: {0Ah: 10}",
+    ],
+)
+def test_numbers_as_keys_are_taken_as_manuals_write_them(tmp_path: Path, facts: str) -> None:
+    assert not findings(tmp_path, facts)
+
+
+def test_the_two_notations_of_a_key_are_one_number(tmp_path: Path) -> None:
+    (only,) = findings(tmp_path, "flags: {10: ten, 0Ah: also_ten}")
+    assert "bit 10 is taken twice" in only.message
