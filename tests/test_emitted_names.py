@@ -160,7 +160,7 @@ def doubles(device: Device) -> list[object]:
     """Names that generated code defines twice in one place."""
     found: list[object] = []
     for _, path, text in outputs(device, NAMESPACES):
-        own = device.id in path and "fieldscribe_" not in path.removeprefix("c/") and "conformance" not in path
+        own = device.id in path and not re.search("fieldscribe_|conformance|/tests/", path.removeprefix("c/"))
         if not own:
             continue
         if path.endswith(".h"):
