@@ -84,7 +84,11 @@ def _report_too_long(subject: Subject, verb: str, function: int, points: list[Re
         hint = f"list {function:02X}h under `functions`, or correct the type or `access`"
     else:
         message = f"`{first.name}` has {first.words} words, and {function:02X}h {verb}s {most} at once{also}"
-        hint = f"correct `max` of {function:02X}h or the type; what the device {verb}s in parts has a point for each part"
+        hint = (
+            f"correct `max` of {function:02X}h or the type; what the device {verb}s in parts has a point for each part"
+        )
+        if most == modbus.PROTOCOL_MOST[function]:
+            hint = "no request of Modbus is longer: give each part a point of its own, or correct `access`"
     draft = points[0].draft
     key = "characters" if first.text is not None else "type"
     subject.report.error("too-long", message, draft.span(key if draft.layer(key) is not None else None), hint)

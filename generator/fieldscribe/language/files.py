@@ -21,10 +21,11 @@ if TYPE_CHECKING:
 
 _UNSAFE_NAMES = frozenset({"con", "prn", "aux", "nul", *(f"{port}{n}" for port in ("com", "lpt") for n in range(10))})
 _HEADERS = frozenset(
-    "assert complex ctype errno fenv float inttypes iso646 limits locale malloc math memory setjmp signal stdalign stdarg"
-    " stdatomic stdbool stddef stdint stdio stdlib stdnoreturn string strings tgmath threads time uchar unistd wchar"
-    " wctype".split()
+    {"assert", "complex", "ctype", "errno", "fenv", "float", "inttypes", "iso646", "limits", "locale", "malloc", "math"}
+    | {"memory", "setjmp", "signal", "stdalign", "stdarg", "stdatomic", "stdbool", "stddef", "stdint", "stdio"}
+    | {"stdlib", "stdnoreturn", "string", "strings", "tgmath", "threads", "time", "uchar", "unistd", "wchar", "wctype"}
 )
+"""Headers of C libraries, which one of the same name in a folder of `-I` hides."""
 _CRATES = frozenset({"alloc", "core", "proc_macro", "std", "test"})
 _NEEDED = ("device", "family", "documents")
 
