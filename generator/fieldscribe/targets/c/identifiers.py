@@ -78,7 +78,7 @@ _MACROS = (
 
 def identifiers(device: Device) -> Iterator[Identifier]:
     """All that the headers of a device define, in the one namespace of C."""
-    view, scope = device_view(device)
+    view, scope = device_view(device, names_only=True)
     for name in _HELPERS:
         yield Identifier("C", f"{view.prefix}_{name}", OWN)
     for name in (*(f"{view.upper}_{name}" for name in _MACROS), *(name for name, _ in view.spaces)):
