@@ -348,3 +348,18 @@ def test_a_point_without_codes_has_nothing_of_them() -> None:
     assert "Codes" not in third[: third.index("    )")]
     header = dict(c.outputs(kitchen_sink(), render))["c/kitchen_sink.h"]
     assert "kitchen_sink_third_is_special" not in header
+
+
+def test_what_stands_above_a_point_names_its_codes_and_which_may_be_written() -> None:
+    for target, file, mark in (
+        (c, "c/kitchen_codes.h", ""),
+        (python, "python/kitchen_codes/points.py", ""),
+        (rust, "rust/kitchen_codes/src/points.rs", "`"),
+    ):
+        said = " ".join(dict(target.outputs(device(), render))[file].replace(" * ", "").split())
+        for sentence in (
+            f"Special codes: 0 {mark}inactive{mark} (may be written), 7FFEh {mark}out_of_order{mark}.",
+            f"Special codes: Fh {mark}unknown{mark}, Eh {mark}none{mark}.",
+            f"Special code: 7FF8000000000000h {mark}not_available{mark}.",
+        ):
+            assert sentence in said, (file, sentence)
