@@ -191,7 +191,7 @@ def special_text(special: Special, width: int) -> str:
 
 
 def codes_text(point: Point, mark: str = "") -> str:
-    """The special codes of a point: `Special codes: 0 inactive (may be written), FFFCh fault`; `mark` quotes the names."""
+    """The codes of a point: `Special codes: 0 inactive (may be written), FFFCh fault`; `mark` quotes the names."""
     named = []
     for one in point.specials:
         written = " (may be written)" if one.writable and point.writable else ""

@@ -108,7 +108,7 @@ def value_type(point: Point) -> str:
 
 
 def comment_lines(point: Point, scope: Scope) -> tuple[str, ...]:
-    """The comment above a point: code, title, range, access, default, special codes, and what is wrong in the manual."""
+    """The comment above a point: code, title, range, access, default, special codes, errors of the manual."""
     head = f"{point.code}: {point.title['en']}" if point.code else point.title["en"]
     facts = ["" if point.untyped is not None else _range(point), access_text(point.access)]
     if point.default is not None:
