@@ -24,7 +24,15 @@ def ruled_view(point: Point, scope: Scope) -> RuledView:
         total=any(not case.test for case in cases),
         tens=signed(10 ** (point.decimals or 0)),
         pass_scale=scope.place(point.scale_arguments),
+        beyond=_too_large(point),
     )
+
+
+def _too_large(point: Point) -> str:
+    if point.most_raw is None:
+        return ""
+    above = f"raw > {bare(point.most_raw)}"
+    return f"raw < {bare(-point.most_raw)} || {above}" if point.least < 0 else above
 
 
 def limit_view(limit: Limit, name: str, is_low: bool, scope: Scope) -> LimitView:
