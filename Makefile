@@ -2,7 +2,7 @@
 FIELDSCRIBE = .venv/bin/fieldscribe
 PYTHON = .venv/bin/python
 
-.PHONY: generate test core bench check prove fuzz clean
+.PHONY: generate test core bench mutants prove fuzz check clean
 
 generate:           ## compile all descriptions into generated/
 	@sh generator/setup.sh compiler
@@ -32,6 +32,10 @@ prove:              ## prove that no input makes the frame parsers and builders 
 fuzz:               ## throw mutated descriptions, frames and words at everything that reads them (SEED=1)
 	@sh generator/setup.sh tests
 	$(PYTHON) tests/fuzz/run.py --seed $(or $(SEED),1)
+
+mutants:            ## change one thing at a time, say what nothing notices (SEED=1 COUNT=300 ONLY=c|python|rust|descriptions)
+	@sh generator/setup.sh tests
+	PYTHONPATH=tests nice $(PYTHON) -m mutants
 
 clean:              ## remove the virtual environment and caches
 	rm -rf .venv .cache .mypy_cache .pytest_cache .ruff_cache .hypothesis

@@ -1,98 +1,136 @@
-"""What the comparisons of the descriptions with their second readings share.
+"""The comparison of a description with the second reading of its manual.
 
-A description is transcribed from its manual once, and the manual is read a second time by other eyes that do not see
-the description: `readings/<device>.jsonl`, one fact a line. Each device has a `test_second_reading_<device>.py` that
-says how a row of its reading and a point show the same facts. Where the two differ it was settled against the manual;
-SETTLED there says why the description stays. A row that agrees now and differs later is a slip in the description.
+A description is transcribed from its manual once, and the manual is read a second time by other eyes: both say the same
+facts in one schema (`readings/README.md`). What was settled between them is stored as settled, so here is no excuse: a
+fact is equal or not.
 """
 
 from __future__ import annotations
 
 import json
 import re
-from functools import lru_cache
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import pytest
 from fieldscribe.diagnostics import Report
-from fieldscribe.pipeline import load_device, load_subject
+from fieldscribe.pipeline import load_device
+from second_reading_facts import described, notes
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping
+    from collections.abc import Iterator
 
     from fieldscribe.model import Device
-    from fieldscribe.resolve.drafts import Draft
+    from second_reading_facts import Row
 
 ROOT = Path(__file__).resolve().parents[1]
-
-Row = dict[str, Any]
-"""One fact of a reading, as its reader wrote it down."""
-Seen = dict[str, tuple[object, object]]
-"""What the description and the reading say, by kind of fact."""
+READINGS = ROOT / "tests/readings"
+READ_TWICE = sorted(path.stem for path in READINGS.glob("*.jsonl"))
 
 
-def device(name: str) -> Device:
-    """The described device."""
-    found, report = _loaded(name)
-    assert found is not None, report.findings
-    return found
+@dataclass(frozen=True, slots=True)
+class Difference:
+    """One fact that a description and its reading do not have alike; None is what one of them does not have."""
+
+    device: str
+    row: str
+    line: int | None
+    fact: str
+    described: object
+    read: object
+
+    def __str__(self) -> str:
+        where = f"{self.device}: {self.row}, line {self.line} of the manual"
+        return f"{where}: {self.fact}: the description says {_text(self.described)}, the reading {_text(self.read)}"
 
 
-@lru_cache
-def _loaded(name: str) -> tuple[Device | None, Report]:
+def differences(device_name: str, folder: Path) -> list[Difference]:
+    """Where the description in a folder is not what its second reading says; empty if they agree in every fact."""
     report = Report()
-    return load_device(ROOT / "descriptions" / name / "device.yaml", report), report
+    device = load_device(folder / "device.yaml", report)
+    if device is None:
+        return [Difference(device_name, "the description", None, "check", str(one), None) for one in report.findings]
+    ours = {key(row): row for row in described(device)}
+    theirs = {key(row): row for row in rows(device_name) if row["kind"] != "note"}
+    found = [one for of in {**theirs, **ours} for one in _compared(device_name, of, ours.get(of), theirs.get(of))]
+    return found + list(_unsaid(device_name, device))
 
 
-@lru_cache
-def drafts(name: str) -> Mapping[str, Draft]:
-    """What the author wrote of each point, by its item: what is printed is no part of the model."""
-    subject = load_subject(ROOT / "descriptions" / name / "device.yaml", Report())
-    assert subject is not None
-    return {one.point.item: one.draft for one in subject.resolved}
+def errata(folder: Path) -> set[str]:
+    """What the description in a folder says of its manual."""
+    device = load_device(folder / "device.yaml", Report())
+    return {one.id for one in device.errata} if device else set()
 
 
-@lru_cache
-def rows(name: str) -> tuple[Row, ...]:
+def rows(name: str) -> list[Row]:
     """All rows of a reading."""
-    path = ROOT / f"tests/readings/{name}.jsonl"
-    return tuple(json.loads(line) for line in path.read_text("utf-8").splitlines())
+    return [json.loads(line) for line in (READINGS / f"{name}.jsonl").read_text("utf-8").splitlines()]
 
 
-def each_row(name: str, key: Callable[[Row], object]) -> pytest.MarkDecorator:
-    """A test of each row, called by what tells the row from the others."""
-    return pytest.mark.parametrize("row", [pytest.param(row, id=str(key(row))) for row in rows(name)])
+def key(row: Row) -> str:
+    """What tells a row from the others."""
+    dropped = {"kind", "facts", "settled"} if row["kind"] == "frame" else {"kind", "line", "facts", "settled"}
+    told = {name: value for name, value in row.items() if name not in dropped}
+    return " ".join([row["kind"], *(f"{name}={value}" for name, value in told.items() if value is not None)])
 
 
-def assert_same(found: Iterable[Seen], key: object, settled: Mapping[tuple[Any, str], str]) -> None:
-    """Both readings of a row agree, but for what is settled; what is settled does differ."""
-    differing = {fact: pair for seen in found for fact, pair in seen.items() if pair[0] != pair[1]}
-    told = {fact for of, fact in settled if of == key}
-    opened = {fact: pair for fact, pair in differing.items() if fact not in told}
-    assert not opened, f"{key}: the description and the reading (fact: description, reading) differ: {opened}"
-    assert told <= differing.keys(), f"{key}: settled, but no longer different: {sorted(told - differing.keys())}"
+def _compared(device: str, of: str, ours: Row | None, theirs: Row | None) -> Iterator[Difference]:
+    line = (theirs or ours or {})["line"]
+    if ours is None or theirs is None:
+        yield Difference(device, of, line, "the whole row", ours and ours["facts"], theirs and theirs["facts"])
+        return
+    if ours["line"] is not None and ours["line"] != theirs["line"]:
+        yield Difference(device, of, line, "line", ours["line"], theirs["line"])
+    for fact in {**theirs["facts"], **ours["facts"]}:
+        said, read = ours["facts"].get(fact), theirs["facts"].get(fact)
+        if said != read:
+            yield from (Difference(device, of, line, *part) for part in _parts(fact, said, read))
 
 
-def joined(pairs: Iterable[tuple[int, int]]) -> list[tuple[int, int]]:
-    """Spans of whole numbers in ascending order, those that touch made one."""
-    result: list[tuple[int, int]] = []
-    for low, high in sorted(pairs):
-        if result and low <= result[-1][1] + 1:
-            result[-1] = (result[-1][0], max(high, result[-1][1]))
-        else:
-            result.append((low, high))
-    return result
+def _parts(fact: str, said: object, read: object) -> Iterator[tuple[str, object, object]]:
+    """The entries of a fact that differ, so that a message shows one of a hundred names."""
+    if isinstance(said, dict) and isinstance(read, dict):
+        for name in {**read, **said}:
+            if said.get(name) != read.get(name):
+                yield f"{fact} {name}", said.get(name), read.get(name)
+    else:
+        yield fact, said, read
 
 
-def numbered_findings(name: str) -> list[int]:
-    """The numbers of what the second reader found wrong in the manual."""
-    text = (ROOT / f"tests/readings/{name}_findings.md").read_text("utf-8")
-    return [int(number) for number in re.findall(r"(?m)^(\d+)\. ", text)]
+def _unsaid(name: str, device: Device) -> Iterator[Difference]:
+    """What the reading found said in words, and the description's note does not say."""
+    said = notes(device)
+    for row in rows(name):
+        for phrase in row["facts"]["says"] if row["kind"] == "note" else ():
+            if phrase not in said.get(row["of"], ""):
+                yield Difference(name, f"note of {row['of']}", row["line"], "words", None, phrase)
 
 
-def assert_answered(name: str, answers: Mapping[int, tuple[str, ...] | str]) -> None:
-    """Each finding has its errata, or the reason why there is none; and the description has these errata."""
-    assert sorted(answers) == numbered_findings(name)
-    named = {one for answer in answers.values() if isinstance(answer, tuple) for one in answer}
-    assert named <= {one.id for one in device(name).errata}
+def settled_wrongly(name: str, named: set[str]) -> list[str]:
+    """What is said to be settled, but was read as it counts now, has no reason, or rests on an erratum that is none."""
+    settled = [(row, fact, told) for row in rows(name) for fact, told in row.get("settled", {}).items()]
+    wrong = [f"{key(row)}: {fact}" for row, fact, told in settled if told["read"] == row["facts"].get(fact)]
+    wrong += [f"{key(row)}: {fact}: no reason" for row, fact, told in settled if not told["why"]]
+    lists = [
+        (key(row), ids) for row, _, told in settled for ids in re.findall(r"errat(?:um|a)( [\w, ]+|\))", told["why"])
+    ]
+    return wrong + [
+        f"{of}: {one} is no erratum" for of, ids in lists for one in ids.split(", ") if one.strip() not in named
+    ]
+
+
+def unanswered(name: str, named: set[str]) -> list[str]:
+    """Findings of the second reader without an erratum or a reason, and answers that name what is not there."""
+    answers: dict[str, Any] = json.loads((READINGS / f"{name}_answers.json").read_text("utf-8"))
+    text = (READINGS / f"{name}_findings.md").read_text("utf-8")
+    numbers = re.findall(r"(?m)^(\d+)\. ", text)
+    wrong = [f"{number}: no answer" for number in numbers if not answers.get(number)]
+    wrong += [f"{number}: no finding" for number in answers if number not in numbers]
+    told = {number: one for number, one in answers.items() if isinstance(one, list)}
+    return wrong + [
+        f"{number}: {one} is no erratum" for number, some in told.items() for one in some if one not in named
+    ]
+
+
+def _text(value: object) -> str:
+    return "nothing" if value is None else json.dumps(value, ensure_ascii=False)

@@ -118,6 +118,17 @@ def test_models_conform(device: str, build: Build, folders: dict[str, Path], tmp
     conforms(folders[device], device, build, tmp_path)
 
 
+@pytest.mark.parametrize("device", MADE)
+def test_models_conform_in_binary32(device: str, folders: dict[str, Path], tmp_path: Path) -> None:
+    """All vectors again where values are float; those that a float cannot hold are not asked."""
+    flags = (*WARNINGS, "-std=c99", "-DFIELDSCRIBE_FLOAT32")
+    program = compiled("gcc", flags, conformance_source(folders[device], device), tmp_path / "conformance")
+    vectors = folders[device] / "vectors" / f"{device}.txt"
+    done = run([program, vectors])
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert passed(done.stdout) == {kind: n for kind, n in counts_of(vectors.read_text("utf-8"), "c").items() if n}
+
+
 @pytest.mark.parametrize("build", quick_first(builds(CORE, "-O0", ["c99"])), ids=named)
 @pytest.mark.parametrize("device", SHIPPED)
 def test_shipped_devices_conform(device: str, build: Build, tmp_path: Path) -> None:

@@ -548,6 +548,25 @@ table! { code code {
     "error access_level_too_low" exceptions (named ACCESS_LEVEL_TOO_LOW);
 } }
 
+table! { documented documented {
+    "display_value" points (documented DISPLAY_VALUE);
+    "firmware_version" points (documented FIRMWARE_VERSION);
+    "output_frequency" points (documented OUTPUT_FREQUENCY);
+    "output_current" points (documented OUTPUT_CURRENT);
+    "second_control_word_display" points (documented SECOND_CONTROL_WORD_DISPLAY);
+    "remote_local_selection_index_0" points (documented REMOTE_LOCAL_SELECTION_INDEX_0);
+    "remote_local_selection_index_1" points (documented REMOTE_LOCAL_SELECTION_INDEX_1);
+    "jog_acceleration_time" points (documented JOG_ACCELERATION_TIME);
+    "jog_deceleration_time" points (documented JOG_DECELERATION_TIME);
+    "acceleration_time" points (documented ACCELERATION_TIME);
+    "deceleration_time" points (documented DECELERATION_TIME);
+    "rs485_control_word_1" points (documented RS485_CONTROL_WORD_1);
+    "rs485_control_word_2" points (documented RS485_CONTROL_WORD_2);
+    "secret_password" points (documented SECRET_PASSWORD);
+    "second_setpoint" points (documented SECOND_SETPOINT);
+    "second_actual_value" points (documented SECOND_ACTUAL_VALUE);
+} }
+
 fn run(kind: &str, vector: &runner::Vector) -> Option<runner::Outcome> {
     match kind {
         "decode" => decode(vector),
@@ -573,6 +592,7 @@ fn run(kind: &str, vector: &runner::Vector) -> Option<runner::Outcome> {
         "fixed" => fixed(vector),
         "code" => code(vector),
         "constant" => constant(vector),
+        "documented" => documented(vector),
         "read" => read_by_read(vector).or_else(|| read_by_receive(vector)),
         "write" => write_by_write(vector).or_else(|| write_by_send_only(vector)),
         "store" => store_by_store(vector),

@@ -2311,6 +2311,19 @@ table! { can_taken can_taken {
     "visualisation" telegrams (telegram Visualisation);
 } }
 
+table! { documented documented {
+    "generator_reactive_power" points (documented GENERATOR_REACTIVE_POWER);
+    "analog_input_1" points (documented ANALOG_INPUT_1);
+    "analog_input_2" points (documented ANALOG_INPUT_2);
+    "analog_input_3" points (documented ANALOG_INPUT_3);
+    "analog_input_4" points (documented ANALOG_INPUT_4);
+    "analog_input_5" points (documented ANALOG_INPUT_5);
+    "analog_input_6" points (documented ANALOG_INPUT_6);
+    "analog_input_7" points (documented ANALOG_INPUT_7);
+    "analog_input_8" points (documented ANALOG_INPUT_8);
+    "frequency_controller_ramp" points (documented FREQUENCY_CONTROLLER_RAMP);
+} }
+
 fn run(kind: &str, vector: &runner::Vector) -> Option<runner::Outcome> {
     match kind {
         "decode" => decode(vector),
@@ -2338,6 +2351,7 @@ fn run(kind: &str, vector: &runner::Vector) -> Option<runner::Outcome> {
         "text_encode" => text_encode(vector),
         "can_telegram" => can_telegram(vector),
         "can_taken" => can_taken(vector),
+        "documented" => documented(vector),
         "digits" => digits(vector),
         "digits_encode" => digits_encode(vector),
         "read" => read_by_read(vector).or_else(|| read_by_read_text(vector)),

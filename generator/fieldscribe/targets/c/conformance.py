@@ -39,6 +39,8 @@ class SuiteView:
     names: tuple[str, ...]
     """The kinds of codes that a function names."""
     commands: tuple[tuple[str, str, str], ...]
+    documented: tuple[tuple[str, str], ...]
+    """Points whose words alone are known, and what their macros begin with."""
     telegrams: tuple[str, ...]
 
 
@@ -59,11 +61,16 @@ def conformance_view(device: Device, view: DeviceView, scope: Scope, more: Itera
     )
     return SuiteView(
         adapters=tuple(_adapter(point, views[point.item], scope, extra) for point in points),
-        spaces=tuple(dict.fromkeys(point.space for point in points)),
+        spaces=tuple(dict.fromkeys(point.space for point in device.points if point.generated or point.raw_only)),
         statuses=tuple((f"{scope.upper}_{upper(status)}", status) for status in _STATUSES),
         family=device.family,
         groups=tuple(groups),
         codes=tuple(_codes(device, scope)),
+        documented=tuple(
+            (one.item, f"{scope.upper}_{upper(one.item)}")
+            for one in device.points
+            if one.raw_only and one.address is not None
+        ),
         names=tuple(kind for kind, codes in _code_kinds(device) if codes and device.family == "uss"),
         commands=tuple(
             (one.name, f"{scope.prefix}_command_{one.name}_request", f"{scope.upper}_COMMAND_{upper(one.name)}_VALUE")

@@ -83,6 +83,10 @@ def _protocol(device: Device) -> Iterator[Table]:
     if heard:
         names = [f"{rust_string(one.name)} telegrams (telegram {type_name(one.name)})" for one in heard]
         yield "can_taken", "can_taken", tuple(names)
+    places = [one for one in device.points if one.raw_only and one.address is not None]
+    if places:
+        names = [f"{rust_string(one.item)} points (documented {one.item.upper()})" for one in places]
+        yield "documented", "documented", tuple(names)
     if device.commands:
         sent = (f"{rust_string(one.name)} commands (sent {one.name.upper()})" for one in device.commands)
         yield "command", "command", tuple(sent)
@@ -159,7 +163,7 @@ def _change(subject: Subject, change: str, update: str, text: str) -> tuple[str,
     point = subject.point
     if point.bits:
         return update, ()
-    if not point.readable or not point.encodes_values:
+    if not (point.readable and point.encodes_values):
         return f"{change}_only", ()
     return f"{change}{text}", () if text else (_of_scale(subject), _of_all(subject))
 

@@ -58,6 +58,9 @@ def collect(device: Device) -> Lines:
             _point(lines, oracle, point)
             exchanges.of(point)
             lines.gather()
+    for point in device.points:
+        if point.raw_only and point.address is not None:
+            lines.add("documented", point.item, point.places[0].space, point.address, point.words, point.index)
     frames(lines, device)
     return lines
 

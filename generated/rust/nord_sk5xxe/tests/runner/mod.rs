@@ -13,8 +13,8 @@ use std::sync::Arc;
 use std::task::{Context, Poll, Wake, Waker};
 
 use fieldscribe_runtime::{
-    BitGroup, Code, Coded, CountReadable, CountWritable, Decoded, Encodable, Error, Point, Raw,
-    Readable, Reading, Text, Whole, Writable,
+    BitGroup, Code, Coded, CountReadable, CountWritable, Decoded, Documented, Encodable, Error,
+    Point, Raw, Readable, Reading, Text, Whole, Writable,
 };
 
 /// Nothing, or what differs.
@@ -71,6 +71,9 @@ macro_rules! table {
     };
     ($run:ident $module:ident (telegram $name:ident) $vector:ident) => {
         runner::frames::$run::<device::$module::$name>($vector)
+    };
+    ($run:ident $module:ident (documented $name:ident) $vector:ident) => {
+        runner::documented($vector, &device::$module::documented::$name)
     };
     ($run:ident $module:ident (code $constant:ident) $vector:ident) => {
         runner::code(
@@ -253,6 +256,7 @@ impl<'a> Vector<'a> {
             "code" | "constant" => return [self.text("what"), self.text("name")].join(" "),
             "command" => return self.text("command"),
             "can_taken" => return self.text("telegram"),
+            "documented" => return self.text("name"),
             _ => return self.text("point"),
         };
         [self.text("point"), part].join(" ")
@@ -583,6 +587,14 @@ pub fn special_name<P: Coded<Raw: Number>>(vector: &Vector) -> Outcome {
     same(vector.said("name").as_deref(), name)?;
     let no_value = code.map(|code| i128::from(code.is_no_value()));
     same(vector.number("no_value"), no_value)
+}
+
+/// Where the words of a point are that is documented only.
+pub fn documented(vector: &Vector, found: &Documented) -> Outcome {
+    same(vector.text("space").as_str(), found.space.name())?;
+    same(vector.raw("address"), found.address)?;
+    same(vector.raw("words"), found.words)?;
+    same(vector.number("index"), found.index.map(i128::from))
 }
 
 /// A number of the protocol by its name, and its name where a function tells it.

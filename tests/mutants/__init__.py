@@ -1,0 +1,18 @@
+"""Mutants: one thing changed at a time in what is generated, in the runtimes and in the descriptions.
+
+A mutant that nothing notices shows what the conformance vectors, or the checks, the audit and the second readings, do
+not cover. It is measured on demand and is in no gate:
+
+    make mutants                                300 a language (C, Python, Rust) and 300 of the descriptions
+    make mutants ONLY=c COUNT=60 SEED=7         fewer, of one language, others
+    make mutants ONLY=descriptions              needs the manuals' texts in FIELDSCRIBE_MANUALS
+
+It prints what was killed by kind of file and each survivor with its place, before and after, and ends with 1 if a mark
+is missed. Each result is stored in `.cache/mutants`, by the seed and a digest of all that was judged: a run that was
+stopped goes on where it was, and a larger COUNT starts where the smaller one ended.
+
+What is changed: numbers, operators, names in strings, neighbouring constants, truth, named constants, statements and
+conditions. What is not: comments, heads, docstrings, attributes, decorators, and texts with spaces, which are for
+people. A mutant that does not compile or import is left out of the count. `equivalent.jsonl` names the mutants that
+change nothing which can be seen, each with its reason.
+"""

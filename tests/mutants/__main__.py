@@ -1,0 +1,125 @@
+"""`make mutants`: SEED, COUNT (a language) and ONLY are taken from the environment."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+import time
+from hashlib import sha256
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from mutants.equivalents import entry, named
+from mutants.judges import JUDGES, LEFT_OUT, ROOT
+from mutants.results import Results
+from mutants.sources import drawn
+from mutants.table import MARKS, Table
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+    from mutants.judges import Verdict
+    from mutants.sources import Mutant
+
+HERE = Path(__file__).parent
+CACHE = ROOT / ".cache/mutants"
+PROGRESS = 10.0
+"""Seconds between two lines that say how far it is."""
+
+
+def main() -> int:
+    """Measure what was asked for; 1 if a mark is missed."""
+    seed, count = os.environ.get("SEED") or "1", int(os.environ.get("COUNT") or 300)
+    wanted = (os.environ.get("ONLY") or " ".join(MARKS)).replace(",", " ").split()
+    if unknown := set(wanted) - set(MARKS):
+        print(f"there is no {', '.join(sorted(unknown))}: ONLY takes {', '.join(MARKS)}", file=sys.stderr)
+        return 2
+    if "descriptions" in wanted and not Path(os.environ.get("FIELDSCRIBE_MANUALS", "?")).is_dir():
+        print("the descriptions need FIELDSCRIBE_MANUALS, the folder of the manuals' texts", file=sys.stderr)
+        return 2
+    tables = []
+    for one in wanted:
+        tables.append(_descriptions(seed, count) if one == "descriptions" else _code(one, seed, count))
+        print("", *tables[-1].survivor_lines(), "", *tables[-1].lines(), "", sep="\n", flush=True)
+    for table in tables if len(tables) > 1 else ():
+        print(*table.lines(), "", sep="\n")
+    return 0 if all(table.met for table in tables) else 1
+
+
+def _code(language: str, seed: str, count: int) -> Table:
+    """The mutants of one language."""
+    work = CACHE / language
+    base = _generated(work / "base")
+    runner = [ROOT / "tests/conformance.py", *sorted(ROOT.glob("tests/vector*.py"))]
+    state = _digest([base / language, base / "vectors", *runner, HERE / "judges.py"])
+    results = Results(CACHE / f"{language}-{seed}-{state}.jsonl")
+    judge: list[object] = []
+
+    def judged(mutant: Mutant) -> Verdict:
+        if not judge:  # made when the first one is not known yet
+            judge.append(JUDGES[language](base, work / "work"))
+        made = judge[0]
+        assert isinstance(made, JUDGES[language])
+        return made.verdict(mutant)
+
+    return _measure(Table(language), drawn(language, base, seed), results, count, judged)
+
+
+def _descriptions(seed: str, count: int) -> Table:
+    """The mutants of the descriptions."""
+    from mutants.descriptions import DescriptionJudge, drawn_facts
+
+    judge = DescriptionJudge(CACHE / "descriptions")
+    parts = [ROOT / "descriptions", ROOT / "generator/fieldscribe", *judge.readings, HERE / "descriptions.py"]
+    results = Results(CACHE / f"descriptions-{seed}-{_digest([*parts, judge.manuals])}.jsonl")
+    return _measure(Table("descriptions"), drawn_facts(judge.folder, seed), results, count, judge.verdict)
+
+
+def _measure(table: Table, mutants: Iterable[Mutant], results: Results, count: int, judged: _Judged) -> Table:
+    """Judge until so many count."""
+    equivalent, told = named(), time.monotonic()
+    for mutant in mutants:
+        if table.judged >= count:
+            break
+        verdict = results.get(mutant.key)
+        if verdict is None:
+            verdict = judged(mutant)
+            results.put(mutant.key, verdict)
+        table.add(mutant, verdict, equivalent=entry(table.language, mutant) in equivalent)
+        if verdict.outcome != LEFT_OUT and time.monotonic() - told > PROGRESS:
+            told = time.monotonic()
+            print(f"{table.language}: {table.judged} of {count}, {len(table.survivors)} survived", flush=True)
+    return table
+
+
+def _generated(folder: Path) -> Path:
+    """What the compiler makes now of the shipped devices and of those that the tests made."""
+    shutil.rmtree(folder, ignore_errors=True)
+    command = [str(Path(sys.executable).parent / "fieldscribe"), "generate", "descriptions", "tests/devices"]
+    subprocess.run([*command, "--out", str(folder)], cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
+    return folder
+
+
+def _digest(paths: Iterable[Path]) -> str:
+    """What is judged, and by what."""
+    total = sha256()
+    for file in _files(paths):
+        total.update(file.name.encode() + b"\0" + file.read_bytes())
+    return total.hexdigest()[:16]
+
+
+def _files(paths: Iterable[Path]) -> Iterator[Path]:
+    for path in paths:
+        inside = sorted(path.rglob("*")) if path.is_dir() else [path]
+        yield from (one for one in inside if one.is_file() and one.suffix not in (".pyc", ".jsonl"))
+
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    _Judged = Callable[[Mutant], Verdict]
+
+if __name__ == "__main__":
+    sys.exit(main())

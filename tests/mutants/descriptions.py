@@ -1,0 +1,195 @@
+"""Mutants of the descriptions: one fact of a random point is another, and somebody should notice.
+
+Judged by `fieldscribe check`, by `fieldscribe audit` (it reports something that it did not report before) and by the
+tests that compare the description with the second reading of its manual, each as users run it, in a copy of the tree.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import importlib
+import io
+import json
+import os
+import random
+import shutil
+import signal
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from mutants.fact_changes import changes_of, siblings
+from mutants.facts import read
+from mutants.judges import KILLED, ROOT, SURVIVED, Verdict
+from mutants.sources import TRIES, Mutant
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from mutants.fact_changes import Edits
+    from mutants.facts import Description, Fact, Point
+
+SHARED = 0.25
+_KEPT = ("fieldscribe", "yaml", "pytest", "_pytest", "pluggy", "xdist", "hypothesis")
+"""What forked judges need not import again."""
+LIMIT = 60
+"""Seconds after which a check is taken to hang."""
+
+
+def drawn_facts(folder: Path, seed: str) -> Iterator[Mutant]:
+    """Different mutants: a device, a point of it, a key of the point, a fact below the key, a change of the fact.
+
+    A device counts by the root of its points and a key by the root of its facts; what a group says for all of its
+    points (space, access, numbering) is drawn less often than what a point says for itself.
+    """
+    chance = random.Random(f"{seed} descriptions")
+    devices = [read(path.parent) for path in sorted(folder.glob("*/device.yaml"))]
+    weights = [len(one.points) ** 0.5 for one in devices]
+    seen: set[str] = set()
+    tries = 0
+    while tries < TRIES:
+        device = chance.choices(devices, weights)[0]
+        mutant = _mutant(device, chance)
+        tries += 1
+        if mutant is not None and mutant.key not in seen:
+            seen.add(mutant.key)
+            tries = 0
+            yield mutant
+
+
+def _mutant(device: Description, chance: random.Random) -> Mutant | None:
+    point = chance.choice(device.points)
+    weights = [len(facts) ** 0.5 if key in point.own else SHARED for key, facts in point.facts.items()]
+    key = chance.choices(list(point.facts), weights)[0]
+    fact = chance.choice(point.facts[key])
+    changes = changes_of(fact, _neighbours(device, point, fact), _used(device))
+    return _changed(device, point, key, fact.path, chance.choice(changes)) if changes else None
+
+
+def _neighbours(device: Description, point: Point, fact: Fact) -> list[Fact]:
+    """Facts that could be taken for this one: of the same point, or the name of another point in the file."""
+    if fact.keys == ("name",):
+        return [one.facts["name"][0] for one in device.points if one.facts["name"][0].path == fact.path]
+    return siblings(fact, point)
+
+
+def _used(device: Description) -> dict[str, list[str]]:
+    used: dict[str, list[str]] = {}
+    for point in device.points:
+        for some in point.facts.values():
+            for fact in some:
+                used.setdefault(fact.keys[-1], []).append(fact.text)
+    return used
+
+
+def _changed(device: Description, point: Point, key: str, path: str, edits: Edits) -> Mutant:
+    before = text = device.texts[path]
+    for start, end, after in sorted(edits, reverse=True):
+        text = text[:start] + after + text[end:]
+    pairs = [
+        (number, old, new)
+        for number, (old, new) in enumerate(zip(before.split("\n"), text.split("\n"), strict=True), 1)
+        if old != new
+    ]
+    shown = " / ".join(old.strip() for _, old, _ in pairs), " / ".join(new.strip() for _, _, new in pairs)
+    return Mutant(key, device.device, path, pairs[0][0] if pairs else 0, *shown, f"{point.name}: {key}", text)
+
+
+class DescriptionJudge:
+    """A copy of the descriptions, the tests and the readings, in which one file is changed."""
+
+    def __init__(self, work: Path) -> None:
+        self.work, self.folder = work, work / "descriptions"
+        self.manuals = Path(os.environ["FIELDSCRIBE_MANUALS"]).resolve()
+        shutil.rmtree(work, ignore_errors=True)
+        shutil.copytree(ROOT / "descriptions", self.folder)
+        shutil.copytree(ROOT / "tests", work / "tests", ignore=shutil.ignore_patterns("mutants", "__pycache__"))
+        shutil.copyfile(ROOT / "pyproject.toml", work / "pyproject.toml")
+        self.readings = [
+            *sorted((ROOT / "tests").glob("*second_reading*.py")),
+            *sorted((ROOT / "tests/readings").iterdir()),
+        ]
+        self.audits = {path.parent.name: self._first(path.parent.name) for path in self.folder.glob("*/device.yaml")}
+
+    def _first(self, device: str) -> set[str]:
+        """What the audit reports without a change; all else passes. What this imports is imported here."""
+        file = self.work / f"{device}.json"
+
+        def judge() -> bool:
+            found = sorted(_audited(device, self.manuals))
+            noticed = _check(device) or _second_reading(device)
+            file.write_text(json.dumps([found, [name for name in sys.modules if name.startswith(_KEPT)]]), "utf-8")
+            return noticed
+
+        assert not _noticed(judge, self.work), f"it is noticed without a change: {device}"
+        found, modules = json.loads(file.read_text("utf-8"))
+        for module in modules:
+            with contextlib.suppress(ImportError):
+                importlib.import_module(module)
+        return set(found)
+
+    def verdict(self, mutant: Mutant) -> Verdict:
+        """The first that notices."""
+        changed, device = self.folder / mutant.path, mutant.device
+        judges: dict[str, Callable[[], bool]] = {
+            "check": lambda: _check(device),
+            "audit": lambda: bool(_audited(device, self.manuals) - self.audits[device]),
+            "second reading": lambda: _second_reading(device),
+        }
+        changed.write_text(mutant.text, encoding="utf-8")
+        try:
+            by = next((name for name, judge in judges.items() if _noticed(judge, self.work)), None)
+        finally:
+            shutil.copyfile(ROOT / "descriptions" / mutant.path, changed)
+        return Verdict(SURVIVED, "") if by is None else Verdict(KILLED, by)
+
+
+def _noticed(judge: Callable[[], bool], folder: Path) -> bool:
+    """Runs a judge in a process of its own, so that no module remembers another mutant; a crash notices it too."""
+    sys.stdout.flush()
+    process = os.fork()
+    if process:
+        return os.waitpid(process, 0)[1] != 0
+    noticed = True
+    try:
+        signal.alarm(LIMIT)
+        os.chdir(folder)
+        silent = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(silent, 1)
+        os.dup2(silent, 2)
+        noticed = judge()
+    finally:
+        os._exit(1 if noticed else 0)
+
+
+def _check(device: str) -> bool:
+    return _fieldscribe("check", f"descriptions/{device}")[0] != 0
+
+
+def _audited(device: str, manuals: Path) -> set[str]:
+    """Everything that the audit reports, each as text."""
+    _, said = _fieldscribe("audit", f"descriptions/{device}", "--manual", str(manuals), "--format", "json")
+    data = json.loads(said)
+    return {f"{name} {json.dumps(one)}" for name, found in data.items() if isinstance(found, list) for one in found}
+
+
+def _fieldscribe(*words: str) -> tuple[int, str]:
+    from fieldscribe.cli import main
+
+    said = io.StringIO()
+    with contextlib.redirect_stdout(said):
+        code = main(list(words))
+    return code, said.getvalue()
+
+
+def _second_reading(device: str) -> bool:
+    """Whether a comparison with the second reading fails: the tests of the device, and those of all devices."""
+    import pytest
+
+    of_all = {
+        path.stem.removeprefix("test_second_reading_"): path.name for path in Path("tests").glob("test_second_reading*")
+    }
+    others = {path.name for path in Path("descriptions").iterdir()} - {device}
+    files = [f"tests/{name}" for of, name in of_all.items() if of not in others]
+    options = ("-q", "-x", "-n0", "-p", "no:cacheprovider", "-p", "no:randomly", "--rootdir", ".")
+    return pytest.main([*options, *sorted(files)]) != 0

@@ -1,0 +1,250 @@
+"""Whether the conformance vectors notice a changed file: one command a language, run as users run it."""
+
+from __future__ import annotations
+
+import re
+import resource
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+from mutants.sources import RUNTIME
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    from mutants.sources import Mutant
+
+CPU_LIMIT, RUN_LIMIT, BUILD_LIMIT = 10, 120, 600
+"""Seconds of work after which a program is taken to hang, and seconds of waiting for it and for a compiler."""
+MEMORY = 4 << 30
+"""What a mutant that runs away may take."""
+
+ROOT = Path(__file__).resolve().parents[2]
+FAMILIES = ("modbus", "can", "uss")
+
+KILLED, SURVIVED, LEFT_OUT = "killed", "survived", "left out"
+
+
+Way = tuple[str, tuple[str, ...]]
+"""A device and how its program is built."""
+
+
+class Verdict(NamedTuple):
+    """What became of a mutant, and what noticed it, or why it is left out."""
+
+    outcome: str
+    by: str
+
+
+class DoesNotBuildError(Exception):
+    """The changed file does not compile or import."""
+
+
+class Judge:
+    """Runs the vectors of devices against a copy of the output in which one file is changed."""
+
+    language = ""
+    builds: tuple[tuple[str, ...], ...] = ((),)
+
+    def __init__(self, base: Path, work: Path) -> None:
+        self.work = work / self.language
+        self.base = base
+        shutil.rmtree(self.work, ignore_errors=True)
+        for part in (self.language, "vectors"):
+            shutil.copytree(base / part, self.work / part)
+        sized = sorted((path.stat().st_size, path.name) for path in (base / "vectors").iterdir() if path.is_file())
+        self.vectors = {name.partition(".")[0]: self.work / "vectors" / name for _, name in sized}
+        self.sound: dict[Way, bool] = {}
+        self.prepare()
+
+    def prepare(self) -> None:
+        """What is made once."""
+
+    def passes(self, device: str, build: Sequence[str]) -> bool:
+        """Whether all vectors of a device pass. Raises DoesNotBuildError."""
+        raise NotImplementedError
+
+    def verdict(self, mutant: Mutant) -> Verdict:
+        """Run the devices that use the file, the small ones first, until one fails that passes without the change."""
+        while True:
+            ways = [(device, build) for build in self.builds for device in self.users(mutant, build)]
+            found = self._first_failing(mutant, [way for way in ways if self.sound.get(way, True)])
+            if found is None:
+                return Verdict(SURVIVED, "")
+            (device, build), outcome, reason = found
+            if self._is_sound(device, build):
+                return Verdict(outcome, reason or " ".join((device, *build)))
+
+    def _first_failing(self, mutant: Mutant, ways: Iterable[Way]) -> tuple[Way, str, str] | None:
+        """The device and build that do not pass with the change, and how; the file is as it was afterwards."""
+        changed = self.work / mutant.path
+        changed.write_text(mutant.text, encoding="utf-8")
+        try:
+            for way in ways:
+                try:
+                    if not self.passes(*way):
+                        return way, KILLED, ""
+                except DoesNotBuildError as error:
+                    return way, LEFT_OUT, str(error)
+                except subprocess.TimeoutExpired:
+                    return way, KILLED, "time"
+        finally:
+            shutil.copyfile(self.base / mutant.path, changed)
+        return None
+
+    def _is_sound(self, device: str, build: tuple[str, ...]) -> bool:
+        """Whether the device passes in that build without a change: one that does not can tell nothing."""
+        known = self.sound.get((device, build))
+        if known is None:
+            known = self.sound[device, build] = self.passes(device, build)
+            if not known and not build:
+                raise SystemExit(f"{self.language}: the vectors of {device} fail without a change; mend that first")
+            if not known:
+                print(f"{self.language}: {device} fails without a change, so it is left out: {' '.join(build)}")
+        return known
+
+    def users(self, mutant: Mutant, build: tuple[str, ...]) -> list[str]:
+        """The devices whose vectors run the file in that build."""
+        del build
+        if mutant.kind != RUNTIME:
+            return [mutant.device]
+        named = [family for family in FAMILIES if re.search(rf"[/_]{family}\b", mutant.path)]
+        return [one for one in self.vectors if not named or (self.base / f"c/{one}_{named[0]}.h").exists()]
+
+    def run(self, *words: object, memory: int = MEMORY) -> subprocess.CompletedProcess[str]:
+        """Runs a program that may be wrong in any way. Raises TimeoutExpired."""
+        return subprocess.run(
+            [str(word) for word in words],
+            cwd=self.work,
+            capture_output=True,
+            text=True,
+            errors="replace",
+            check=False,
+            timeout=RUN_LIMIT,
+            preexec_fn=lambda: _bound(memory),
+        )
+
+    def compile(self, *words: object, folder: Path | None = None) -> str:
+        """Runs a compiler; what it said. Raises DoesNotBuildError."""
+        command = [str(word) for word in words]
+        done = subprocess.run(
+            command, cwd=folder or self.work, capture_output=True, text=True, check=False, timeout=BUILD_LIMIT
+        )
+        if done.returncode:
+            raise DoesNotBuildError("it does not compile")
+        return done.stdout + done.stderr
+
+
+NO_FLOAT, FLOAT32 = ("-DFIELDSCRIBE_NO_FLOAT",), ("-DFIELDSCRIBE_FLOAT32",)
+
+
+def _bound(memory: int) -> None:
+    resource.setrlimit(resource.RLIMIT_AS, (memory, resource.RLIM_INFINITY))
+    resource.setrlimit(resource.RLIMIT_CPU, (CPU_LIMIT, CPU_LIMIT))
+
+
+SANITIZED = ("-fsanitize=address,undefined", "-fno-sanitize-recover=all")
+
+
+class OfC(Judge):
+    """The conformance program, built by one call of the compiler; the branches that defines choose are builds too."""
+
+    language = "c"
+    builds = ((), NO_FLOAT, FLOAT32, SANITIZED)
+
+    def users(self, mutant: Mutant, build: tuple[str, ...]) -> list[str]:
+        """All in the plain build, and in those that switch the changed branch; one small one with sanitizers."""
+        found = super().users(mutant, build)
+        if build in (NO_FLOAT, FLOAT32):
+            switched = any("FLOAT" in condition for condition in conditions_around(mutant.text, mutant.line))
+            return found if switched else []
+        return found[:1] if build else found
+
+    def passes(self, device: str, build: Sequence[str]) -> bool:
+        """Compile and run."""
+        program = self.work / "program"
+        source = self.work / f"c/conformance/{device}_conformance.c"
+        self.compile("gcc", "-O0", "-w", *build, "-I", self.work / "c", "-o", program, source)
+        done = self.run(program, self.vectors[device], memory=resource.RLIM_INFINITY if build == SANITIZED else MEMORY)
+        return done.returncode == 0
+
+
+def conditions_around(text: str, line: int) -> list[str]:
+    """The `#if` lines that decide whether a line of C is compiled."""
+    opened: list[str] = []
+    for one in text.splitlines()[: line - 1]:
+        if one.startswith("#if"):
+            opened.append(one)
+        elif one.startswith("#endif"):
+            opened.pop()
+    return opened
+
+
+class OfPython(Judge):
+    """The runner of the tests on a copy of the packages."""
+
+    language = "python"
+
+    def passes(self, device: str, build: Sequence[str]) -> bool:
+        """Run it; a package that cannot be imported tells nothing."""
+        del build
+        folder = self.work / "python"
+        done = self.run(sys.executable, "-B", ROOT / "tests/conformance.py", folder, device, self.vectors[device])
+        if done.returncode and not done.stdout.strip():
+            program = f"import sys; sys.path.insert(0, {str(folder)!r}); import {device}"
+            if self.run(sys.executable, "-B", "-c", program).returncode:
+                raise DoesNotBuildError("it does not import")
+        return done.returncode == 0
+
+
+WORKSPACE = """\
+[workspace]
+resolver = "2"
+members = [{members}]
+
+[profile.dev]
+debug = 0
+incremental = true
+"""
+
+
+class OfRust(Judge):
+    """The conformance test of each crate in one workspace, whose build stays warm from mutant to mutant."""
+
+    language = "rust"
+
+    def prepare(self) -> None:
+        """One workspace of all crates."""
+        crates = sorted(path.parent.name for path in self.work.glob("rust/*/Cargo.toml"))
+        members = ", ".join(f'"{crate}"' for crate in crates)
+        (self.work / "rust/Cargo.toml").write_text(WORKSPACE.format(members=members), encoding="utf-8")
+        self.target = self.work.parent / "target"
+        self.cargo("test", "--no-run", "--test", "conformance")
+
+    def cargo(self, *words: str) -> str:
+        """Runs cargo, with what is there already if that is enough."""
+        command = ("cargo", *words, "-j1", "--target-dir", self.target)
+        try:
+            return self.compile(*command, "--offline", folder=self.work / "rust")
+        except DoesNotBuildError:
+            if self.builds_once:
+                raise
+            self.builds_once = True
+            return self.compile(*command, folder=self.work / "rust")
+
+    builds_once = False
+
+    def passes(self, device: str, build: Sequence[str]) -> bool:
+        """Compile the test and run it."""
+        del build
+        said = self.cargo("test", "--no-run", "--test", "conformance", "--package", device)
+        found = re.search(r"Executable .*\((.*)\)", said)
+        assert found is not None, said
+        program = self.work / "rust" / found[1]
+        return self.run(program, memory=MEMORY).returncode == 0
+
+
+JUDGES: dict[str, type[Judge]] = {"c": OfC, "python": OfPython, "rust": OfRust}

@@ -1,0 +1,36 @@
+"""What is known of mutants already: one line of JSON for each, in a folder that git ignores."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING
+
+from mutants.judges import Verdict
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+
+class Results:
+    """The verdicts of one seed on one state of what is judged."""
+
+    def __init__(self, file: Path) -> None:
+        self.file = file
+        file.parent.mkdir(parents=True, exist_ok=True)
+        lines = file.read_text("utf-8").splitlines() if file.exists() else []
+        self._known = dict(_entry(line) for line in lines if line.endswith("}"))
+
+    def get(self, key: str) -> Verdict | None:
+        """What became of a mutant in an earlier run."""
+        return self._known.get(key)
+
+    def put(self, key: str, verdict: Verdict) -> None:
+        """Keep a verdict at once, so that a run may be stopped anywhere."""
+        self._known[key] = verdict
+        with self.file.open("a", encoding="utf-8") as file:
+            file.write(json.dumps({"key": key, "outcome": verdict.outcome, "by": verdict.by}) + "\n")
+
+
+def _entry(line: str) -> tuple[str, Verdict]:
+    data = json.loads(line)
+    return data["key"], Verdict(data["outcome"], data["by"])
