@@ -392,9 +392,9 @@ def test_what_stands_above_a_point_names_its_codes_and_which_may_be_written() ->
     ):
         said = " ".join(dict(target.outputs(device(), render))[file].replace(" * ", "").split())
         for sentence in (
-            f"Special codes: 0 {mark}inactive{mark} (may be written), 7FFEh {mark}out_of_order{mark}.",
-            f"Special codes: Fh {mark}unknown{mark}, Eh {mark}none{mark}.",
-            f"Special code: 7FF8000000000000h {mark}not_available{mark}.",
+            f"Special codes: {mark}0{mark} {mark}inactive{mark} (may be written), {mark}7FFEh{mark} {mark}out_",
+            f"Special codes: {mark}Fh{mark} {mark}unknown{mark}, {mark}Eh{mark} {mark}none{mark}.",
+            f"Special code: {mark}7FF8000000000000h{mark} {mark}not_available{mark}.",
         ):
             assert sentence in said, (file, sentence)
 

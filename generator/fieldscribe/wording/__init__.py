@@ -191,11 +191,11 @@ def special_text(special: Special, width: int) -> str:
 
 
 def codes_text(point: Point, mark: str = "") -> str:
-    """The codes of a point: `Special codes: 0 inactive (may be written), FFFCh fault`; `mark` quotes the names."""
+    """The codes of a point: `Special codes: 0 inactive (may be written), FFFCh fault`; `mark` quotes both."""
     named = []
     for one in point.specials:
         written = " (may be written)" if one.writable and point.writable else ""
-        named.append(f"{special_numbers(one, point.width)} {mark}{one.name}{mark}{written}")
+        named.append(f"{mark}{special_numbers(one, point.width)}{mark} {mark}{one.name}{mark}{written}")
     return f"Special code{'s' if len(named) > 1 else ''}: {', '.join(named)}" if named else ""
 
 
