@@ -93,9 +93,10 @@ def codes(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="session")
-def folders(sample: Path, rare: Path, sink: Path, codes: Path, can: Path, uss: Path) -> dict[str, Path]:
+def folders(request: pytest.FixtureRequest) -> dict[str, Path]:
     """Where the generated files of a device are: the committed ones, or those of this run."""
-    made = dict(zip(MADE, (sample, rare, sink, codes, can, uss), strict=True))
+    fixtures = ("sample", "rare", "sink", "codes", "can", "uss")
+    made = {device: request.getfixturevalue(one) for device, one in zip(MADE, fixtures, strict=True)}
     return {**dict.fromkeys(SHIPPED, GENERATED), **made}
 
 
