@@ -173,6 +173,8 @@ def test_explain_and_decode_name_codes(capsys: Any) -> None:
         ("mode unknown", 1, "only read"),
         ("outputs not_set", 0, "raw 65535 = FFFFh"),
         ("input_delays not_set", 1, "only read"),
+        ("control released", 0, "raw 0 = 0000h"),
+        ("control start", 0, "raw 1025 = 0401h"),
         ("setpoint released", 0, "raw 2143289344 = 7FC00000h"),
         ("amplified 5 --with gain=10", 0, "amplified = 5"),
         ("amplified 5 --with gain=out_of_order", 1, "gain is zero or no quantity"),
