@@ -49,6 +49,7 @@ MODELS: dict[str, Callable[[], Device]] = {
     "odd": odd_device,
     "trips": trip_device,
     "kitchen_sink": kitchen_sink,
+    "kitchen_codes": partial(kitchen, "kitchen_codes"),
     "kitchen_can": partial(kitchen, "kitchen_can"),
     "kitchen_uss": partial(kitchen, "kitchen_uss"),
     "result": partial(kitchen, "odd_names"),
