@@ -161,6 +161,20 @@ def test_check(run: Callable[..., Result], small: Path) -> None:
     assert json.loads(run("explain", "small_drive", "P1", "--format", "json").out)["findings"]
 
 
+def test_check_finds_the_same_device_twice_as_generate_does(run: Callable[..., Result], small: Path) -> None:
+    """Both ask the one rule."""
+    other = small.parent / "second"
+    other.mkdir()
+    for file in small.iterdir():
+        (other / file.name).write_text(file.read_text("utf-8"), "utf-8")
+    for words in (("check",), ("generate", "--target", "docs", "--list-outputs")):
+        told = run(*words)
+        assert told.code == 1, words
+        assert "duplicate-device" in told.out + told.err
+        assert "described twice in this run, first in descriptions/second/device.yaml" in told.out + told.err
+    assert run("check").out.count("4 points") == 1
+
+
 def test_device_arguments(run: Callable[..., Result], small: Path, tmp_path: Path) -> None:
     for device in ("small_drive", "descriptions/small_drive", str(small / "device.yaml")):
         assert run("explain", device, "P1").out.startswith("P1 speed: Speed\n")
