@@ -499,3 +499,43 @@ def test_decode_ends_with_0_for_notes_and_for_what_replies_bring(
 @pytest.mark.parametrize("command", COMMANDS)
 def test_every_help_says_how_the_command_ends(run: Callable[..., Result], command: str) -> None:
     assert "nds with " in run(command, "--help").out
+
+
+CONDITIONS = """\
+- {name: mode, title: {en: Mode}, at: 17h, enum: {0: local, 1: remote}}
+- {name: cascade, title: {en: Cascade}, at: 18h, range: 0..100, when: size == large and mode == remote}
+- {name: simple, title: {en: Simple}, at: 19h, range: 0..100, when: size == small}
+- {name: double, title: {en: Double}, at: 19h, range: 0..200, when: size == large}
+"""
+
+
+def test_what_the_chosen_variant_does_not_have_is_refused(run: Callable[..., Result], small: Path) -> None:
+    """A condition that the variant makes impossible is named, in every command that takes variants."""
+    (small / "main.yaml").write_text(MAIN.replace("TITLE", "Speed") + CONDITIONS, "utf-8")
+    only = "it exists only when size == large and mode == remote"
+    encode, chosen = ("encode", "small_drive", "cascade", "10", "--frame"), ("--variant", "size=small")
+    frame = run(*encode).out.strip()
+    assert run(*encode, "--variant", "size=large").out.strip() == frame
+    refused = run(*encode, *chosen)
+    assert (refused.code, refused.out) == (1, "")
+    assert f"cascade: {only}" in refused.err
+    heard = run("decode", "small_drive", frame, *chosen)
+    assert heard.code == 1
+    assert f"Cascade; {only}" in heard.out
+    assert run("decode", "small_drive", frame).code == 0
+    read = "01 03 00 18 00 01 04 0D"
+    assert only in run("decode", "small_drive", read, *chosen).out
+    told = run("explain", "small_drive", "wire:0x18", *chosen)
+    assert (told.code, told.out) == (1, "")
+    assert only in told.err
+    assert run("explain", "small_drive", "cascade").code == 0
+
+
+def test_of_points_at_one_address_the_chosen_variant_has_one(run: Callable[..., Result], small: Path) -> None:
+    (small / "main.yaml").write_text(MAIN.replace("TITLE", "Speed") + CONDITIONS, "utf-8")
+    frame = run("encode", "small_drive", "wire:0x19", "10", "--frame", "--variant", "size=small").out.strip()
+    heard = run("decode", "small_drive", frame, "--variant", "size=small")
+    assert heard.code == 0
+    assert "simple = 10" in heard.out
+    assert "double" not in heard.out
+    assert "double" not in run("explain", "small_drive", "wire:0x19", "--variant", "size=small").out
