@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from fieldscribe.targets.python.commands import commands, variants
-from fieldscribe.targets.python.existence import only_for
+from fieldscribe.targets.python.existence import only_for, uncertain
 from fieldscribe.targets.python.families import FAMILIES
 from fieldscribe.targets.python.families.family import RUNTIME, Family
 from fieldscribe.targets.python.forms import NUMBERED, allowed, form, number, place
@@ -146,6 +146,8 @@ def _arguments(point: Point, scope: Scope) -> list[Node]:
     if found := only_for(point, scope.variants):
         values = Group("(", tuple([python_string(value) for value in found[1]]))
         arguments.append(Group("only_for=(", (python_string(found[0]), values)))
+    if uncertain(point, scope.variants):
+        arguments.append("uncertain=True")
     return arguments
 
 

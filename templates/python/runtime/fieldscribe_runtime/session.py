@@ -171,6 +171,12 @@ class Session(PointTable, ABC):
         variant = point.facts.variant
         return exists and (variant is None or self.variants.get(variant[0]) == variant[1])
 
+    def _surely_has(self, point: Point) -> bool:
+        """Whether the point is there for all that is known: no condition is open."""
+        axis, _ = point.facts.only_for or ("", ())
+        known = not axis or self.variants.get(axis) is not None
+        return known and not point.facts.uncertain and self._has(point)
+
     def _read_raw_steps(self, point: Point) -> Steps[int]:
         """Read a point's raw number."""
         with _about(point):

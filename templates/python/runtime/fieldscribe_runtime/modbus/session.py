@@ -76,7 +76,8 @@ class ModbusSession(Session):
 
     def _gather_steps(self, points: Sequence[Point], group: str | None) -> Steps[dict[str, int]]:
         """Read the raw numbers of several points with few requests, in the blocks that the group was planned in."""
-        blocks: tuple[Block, ...] = self.BLOCKS.get(group, ()) if group is not None else ()
+        planned: tuple[Block, ...] = self.BLOCKS.get(group, ()) if group is not None else ()
+        blocks = [block for block in planned if any(block.covers(one.facts.at) for one in points)]
         rest = [one.facts.at for one in points if not any(block.covers(one.facts.at) for block in blocks)]
         raws: dict[str, int] = {}
         for block in (*blocks, *plan(rest, self.PROFILE, self._bridges())):
@@ -88,9 +89,9 @@ class ModbusSession(Session):
         return raws
 
     def _bridges(self) -> frozenset[tuple[str, int]]:
-        """The addresses of all points that are known to be readable."""
+        """The addresses of all points that are known to be there, and readable."""
         if self._readable is None:
-            readable = [one for one in self.POINTS.values() if isinstance(one, Decoding) and self._has(one)]
+            readable = [one for one in self.POINTS.values() if isinstance(one, Decoding) and self._surely_has(one)]
             places = [point.facts.at for point in readable]
             self._readable = frozenset((place.space, address) for place in places for address in place.addresses)
         return self._readable
