@@ -15,7 +15,7 @@ from fieldscribe.targets.python.identifiers import Identifiers, attribute, sorte
 from fieldscribe.targets.python.layout import WIDTH, Group, Node, assigned, call, comment, laid_out
 from fieldscribe.targets.python.scope import Scope
 from fieldscribe.text import python_doc, python_string
-from fieldscribe.wording import codes_text, range_text
+from fieldscribe.wording import codes_text, condition_text, range_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -192,6 +192,8 @@ def _doc(point: Point, errata: Mapping[str, Erratum], by_name: Mapping[str, Poin
     limits = range_text(point, by_name) if point.writable and point.form in ("scaled", "float", "integer") else ""
     first = f"{point.title['en']}: {limits}" if limits else point.title["en"]
     first = first if first.endswith(".") else f"{first}."
+    if point.when is not None:
+        first += f" Exists only when {condition_text(point.when, by_name)}."
     if point.conditions and point.writable:
         first += f" To write it takes: {', '.join(one.replace('_', ' ') for one in point.conditions)}."
     if point.specials:
