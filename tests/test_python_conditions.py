@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+import asyncio
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import pytest
 from fieldscribe.diagnostics import Report
-from fieldscribe.pipeline import load_device
+from fieldscribe.pipeline import load_device, outputs
+from fieldscribe.plain import for_code
 from python_package import Slave, error, imported, write_package
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+
+    from fieldscribe.model import Device
 
 TEMPCO = """\
 fieldscribe: 1
@@ -55,13 +60,19 @@ class Basic(Slave):
 
 
 @pytest.fixture(scope="module")
-def package(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Any]:
-    folder = tmp_path_factory.mktemp("tempco")
-    (folder / "device.yaml").write_text(TEMPCO, "utf-8")
+def tempco(tmp_path_factory: pytest.TempPathFactory) -> Device:
+    file = tmp_path_factory.mktemp("tempco") / "device.yaml"
+    file.write_text(TEMPCO, "utf-8")
     report = Report()
-    device = load_device(folder / "device.yaml", report)
+    device = load_device(file, report)
     assert device is not None, report.findings
-    yield from imported(write_package(device, folder), "tempco")
+    return device
+
+
+@pytest.fixture(scope="module")
+def package(tempco: Device, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Any]:
+    folder = tmp_path_factory.mktemp("package")
+    yield from imported(write_package(for_code(tempco), folder), "tempco")
 
 
 def test_a_group_is_read_without_what_the_variant_does_not_have(package: Any) -> None:
@@ -84,6 +95,58 @@ def test_reads_of_listed_points_cross_nothing_that_may_be_missing(package: Any) 
         slave.log.clear()
         package.Tempco(slave, 1, model=model).read_many(["highest", "output", "last", "final"])
         assert slave.log == [(3, 10, 1), (3, 12, 2), (3, 16, 1)], model
+    newest = Slave()
+    package.Tempco(newest, 1, model="pro").read_many(["last", "final"])
+    assert newest.log == [(3, 13, 1), (3, 16, 1)]
     whole = Slave()
     package.Tempco(whole, 1, model="pro").read_many(["highest", "output"])
     assert whole.log == [(3, 10, 3)]
+
+
+def test_every_language_says_when_a_point_exists(tempco: Device) -> None:
+    texts = {path: text for _, path, text in outputs(tempco, ("c", "python", "rust", "docs"))}
+    assert "Exists only when model == pro.\n" in texts["c/tempco.h"]
+    assert "Exists only when model == pro and highest == 1." in texts["c/tempco.h"]
+    assert "Exists only when model == pro." in texts["python/tempco/points.py"]
+    assert "only when `model == pro`" in "".join(text for path, text in texts.items() if path.endswith(".rs"))
+    assert "exists when model == pro" in texts["docs/tempco.md"]
+
+
+class Silent(Slave):
+    """Nobody answers; `log` says what was sent all the same."""
+
+    def exchange(self, request: bytes) -> bytes:
+        super().exchange(request)
+        raise TimeoutError("the port says nothing")
+
+
+class AsyncSilent(Silent):
+    """The same, asynchronously."""
+
+    async def exchange(self, request: bytes) -> bytes:  # type: ignore[override]  # the async twin of the protocol
+        return super().exchange(request)
+
+
+def test_a_device_that_does_not_answer_is_a_no_reply_error(package: Any) -> None:
+    """As in the other families: the transport's TimeoutError is its cause."""
+
+    async def ask() -> Any:
+        await package.TempcoAsync(AsyncSilent(), 7).actual.read()
+
+    for call in (package.Tempco(Silent(), 7).actual.read, lambda: asyncio.run(ask())):
+        raised = error(call)
+        assert (type(raised).__name__, raised.status) == ("NoReplyError", "timeout")
+        assert str(raised) == "actual: unit 7 did not reply to function 03h"
+        assert isinstance(raised.__cause__, TimeoutError)
+
+
+def test_what_is_never_written_is_refused_before_any_traffic(package: Any) -> None:
+    slave = Slave()
+    cascade = package.Tempco(slave, 1).cascade
+    raised = error(cascade.write, cascade.special.off)
+    assert (raised.status, str(raised)) == ("special", "cascade: raw 50 is the special code off: it is only read")
+    assert error(cascade.write_raw, 50).status == "special"
+    for call in (cascade.write, cascade.write_raw):
+        assert error(call, "off").status == "wrong_type"
+    assert error(cascade.write, replace(cascade.special.off, name="on")).status == "unknown_value"
+    assert slave.log == []

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Generator, Mapping, Sequence
 from typing import TYPE_CHECKING, ClassVar, TypeVar
 
-from ..errors import RequestError
+from ..errors import NoReplyError, RequestError
 from ..points import Decoding, Point
 from ..session import Session, check_unit
 from .frames import (
@@ -54,7 +54,13 @@ class ModbusSession(Session):
         """One request and its reply."""
         self._transaction = self._transaction + 1 & 0xFFFF
         request = Request(self.unit, function, address, count, values)
-        reply = yield build(request, self.PROFILE, self._framing, self._transaction)
+        frame = build(request, self.PROFILE, self._framing, self._transaction)
+        try:
+            reply = yield frame
+        except TimeoutError as error:
+            if self.unit == self.PROFILE.broadcast:
+                return ()
+            raise NoReplyError(f"unit {self.unit} did not reply to function {function:02X}h") from error
         if self.unit == self.PROFILE.broadcast:
             return ()
         return parse(request, reply, self.PROFILE, self._framing, self._transaction)
