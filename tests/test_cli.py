@@ -175,6 +175,27 @@ def test_check_finds_the_same_device_twice_as_generate_does(run: Callable[..., R
     assert run("check").out.count("4 points") == 1
 
 
+def test_without_paths_the_device_of_the_folder_is_meant(
+    run: Callable[..., Result], small: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(small)
+    told = run("check")
+    assert (told.code, told.err) == (0, "")
+    assert told.out.startswith("small_drive: ")
+    listed = run("generate", "--target", "docs", "--list-outputs")
+    assert (listed.code, "docs/small_drive.md" in listed.out) == (0, True)
+    assert "hitachi" not in listed.out
+
+
+def test_a_part_is_no_device(run: Callable[..., Result], small: Path) -> None:
+    """One finding, not one for each key that a device has."""
+    told = run("check", str(small / "device.yaml"), str(small / "main.yaml"))
+    assert told.code == 1
+    assert "`main.yaml` is a part of a description and no device file" in told.out
+    assert "name device.yaml beside it" in told.out
+    assert "1 error in 1 file" in told.out
+
+
 def test_device_arguments(run: Callable[..., Result], small: Path, tmp_path: Path) -> None:
     for device in ("small_drive", "descriptions/small_drive", str(small / "device.yaml")):
         assert run("explain", device, "P1").out.startswith("P1 speed: Speed\n")
@@ -539,3 +560,17 @@ def test_of_points_at_one_address_the_chosen_variant_has_one(run: Callable[..., 
     assert "simple = 10" in heard.out
     assert "double" not in heard.out
     assert "double" not in run("explain", "small_drive", "wire:0x19", "--variant", "size=small").out
+
+
+def test_decode_says_that_limits_could_not_be_checked(run: Callable[..., Result], small: Path) -> None:
+    """A write that nobody held against its limits is not told as if it were fine."""
+    limited = "- {name: limited, title: {en: Limited}, at: 1Ah, range: 0 .. ratio.raw}\n"
+    (small / "main.yaml").write_text(MAIN.replace("TITLE", "Speed") + limited, "utf-8")
+    frame = run("encode", "small_drive", "limited", "10", "--with", "P2=20", "--frame").out.strip()
+    heard = run("decode", "small_drive", frame)
+    assert heard.code == 0
+    assert "not held against its limits, which depend on P2 ratio: give --with ratio=VALUE" in " ".join(
+        heard.out.split()
+    )
+    assert "not held" not in run("decode", "small_drive", frame, "--with", "P2=20").out
+    assert run("decode", "small_drive", frame, "--with", "P2=5").code == 1

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.dialogue import Item
 from fieldscribe.dialogue.codec import setting_of
-from fieldscribe.dialogue.meanings import meaning_of, range_remark, raw_text
+from fieldscribe.dialogue.meanings import meaning_of, range_remark, raw_text, unchecked_remark
 from fieldscribe.dialogue.selection import absence, label, same_meaning
 from fieldscribe.existence import absent
 from fieldscribe.families import FAMILIES
@@ -93,7 +93,8 @@ def value_item(device: Device, point: Point, base: Base, numbers: Numbers, *, wr
     meaning = meaning_of(device, point, raw, settings)
     text = f"{label(point)} = {meaning.text} ({raw_text(point, raw)}): {title_of(point)}"
     odd = (absence(device, point) or range_remark(device, point, raw, settings)) if written else ""
-    text += f"; {odd}" if odd else ""
+    open_limits = unchecked_remark(device, point, raw, settings) if written and not odd else ""
+    text += "".join(f"; {said}" for said in (odd, open_limits) if said)
     text += f"; {meaning.hint}" if meaning.hint else ""
     shown = None if point.text is not None else raw
     findings = (odd,) if odd else ()
