@@ -338,9 +338,8 @@ class Runner:
     def _command(self, vector: Vector) -> bool:
         for kind, script in ((self.device, Script), (self.awaited, AsyncScript)):
             transport = script({**vector, "needs": {}}, self.can.Frame)
-            handle = kind.__dict__.get(vector["command"], getattr(kind, vector["command"])).__get__(
-                kind(transport, vector["unit"]), kind
-            )
+            name = next(one for one in _names_of_command(vector["command"]) if one in attributes(kind))
+            handle = getattr(kind(transport, vector["unit"]), name)
             self._ran(transport, vector, handle.send)
         return True
 
@@ -433,6 +432,16 @@ def _with(vector: Vector) -> dict[str, int]:
 def _only(only_for: Any) -> tuple[str, Any] | None:
     """One of the values of an axis for which a point exists."""
     return (only_for[0], only_for[1][0]) if only_for else None
+
+
+def _names_of_command(name: str) -> tuple[str, ...]:
+    """What a command may be called: a point has the plain name where both have the same, a keyword gets an underscore."""
+    return f"{name}_command", name, f"{name}_"
+
+
+def attributes(kind: type) -> dict[str, Any]:
+    """What a class has, with what it is made of, as it stands there."""
+    return {name: one for base in reversed(kind.__mro__) for name, one in vars(base).items()}
 
 
 def _now(result: Any) -> Any:
