@@ -24,7 +24,7 @@ from vector_file import counts_of, spoil
 if TYPE_CHECKING:
     from fieldscribe.model import Device
 
-RUNNER = Path(__file__).with_name("conformance.py")
+RUNNER = Path(__file__).with_name("conformance")
 
 
 def conformance(folder: Path, text: str, device: str = "sample_drive") -> tuple[int, str]:

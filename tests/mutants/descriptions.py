@@ -1,7 +1,7 @@
 """Mutants of the descriptions: one fact of a random point is another, and somebody should notice.
 
-Judged by `fieldscribe check`, by `fieldscribe audit` (it reports something that it did not report before), both as users
-run them, and by the comparison with the second reading of the manual, in a copy of the descriptions.
+Judged by `fieldscribe check`, by `fieldscribe audit` (it reports something that it did not report before), both as they
+are run, and by the comparison with the second reading of the manual, in a copy of the descriptions.
 """
 
 from __future__ import annotations
