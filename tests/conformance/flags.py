@@ -53,9 +53,10 @@ def _widen(package: Package, vector: Vector, one: Any) -> None:
     package.widest[key] = max(seen, vector["number"]), one
 
 
-def widths(package: Package) -> bool:
-    """Whether no flag is wider than the largest number that there is for it."""
-    return all(one.width == max(1, largest.bit_length()) for largest, one in package.widest.values())
+def check_widths(package: Package) -> None:
+    """No flag is wider than the largest number that there is for it."""
+    wide = [key for key, (largest, one) in package.widest.items() if one.width != max(1, largest.bit_length())]
+    assert not wide, f"wider or narrower than their numbers: {wide}"
 
 
 def flag_name(package: Package, vector: Vector) -> bool:

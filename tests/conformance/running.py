@@ -1,4 +1,4 @@
-"""All vectors of a file against a package, and what concerns the package as a whole."""
+"""All vectors of a file against a package, and what the runtime promises beside."""
 
 from __future__ import annotations
 
@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING
 
 from vector_file import File
 
-from conformance import can, exchanges, facts, flags, modbus, names, numbers, uss, words
+from conformance import can, exchanges, facts, flags, modbus, names, numbers, runtime, uss, words
 from conformance.package import Package
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
     from pathlib import Path
 
     from vector_file import Vector
@@ -45,4 +46,18 @@ def run(folder: Path, device: str, vectors: Path, show: int = 0) -> tuple[Counte
     if file.counts != dict(passed + failed):
         shown.append({"kind": "other counts than the file says"})
         failed["incomplete"] += 1
+    for reason in _whole(package):
+        (failed if reason else passed)["runtime"] += 1
+        shown += [{"kind": "runtime", "reason": reason}] if reason else []
     return passed, failed, shown
+
+
+def _whole(package: Package) -> Iterator[str]:
+    """What is wrong with each promise of the runtime, and with the flags of the package; empty where nothing is."""
+    for check in (flags.check_widths, *runtime.CHECKS):
+        try:
+            check(package)
+        except Exception as error:  # whatever it raises, the promise is not kept
+            yield f"{check.__module__} {check.__name__}: {type(error).__name__}: {error}"
+        else:
+            yield ""
