@@ -99,7 +99,8 @@ def _only(only_for: Any) -> tuple[str, Any] | None:
 
 def variant(package: Package, vector: Vector) -> bool:
     """A device of each value of an axis, and of no value."""
-    axis, link = vector["axis"], ()
+    axis = vector["axis"]
+    link: tuple[Any, ...] = ()
     if "pkw" in vector:
         link = (package.uss.Link(vector["pkw"], package.device.PROFILE.pzd[0]),)
     for kind, script in ((package.device, Script), (package.awaited, AsyncScript)):
@@ -111,7 +112,7 @@ def variant(package: Package, vector: Vector) -> bool:
                 return False
         if kind(transport, vector["unit"], *link).variants != others or not _refuses(kind, transport, vector, link):
             return False
-    return list(package.device.VARIANTS[axis]) == vector["choices"]
+    return bool(list(package.device.VARIANTS[axis]) == vector["choices"])
 
 
 def _parameter(kind: Any, axis: str) -> str:

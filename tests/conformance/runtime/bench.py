@@ -29,8 +29,12 @@ def refuses(kind: Any, message: str, function: Callable[..., Any], *arguments: A
 
 def devices(package: Package, points: dict[str, Any], *bases: type) -> list[Any]:
     """Classes of devices with these points, one on each base, as generated ones are."""
-    table = type("Points", (package.runtime.PointTable,), points)
-    return [type("Made", (table, base), {}) for base in bases]
+    return [type("Made", (table(package, **points), base), {}) for base in bases]
+
+
+def table(package: Package, **points: Any) -> Any:
+    """A table of points that belongs to no device."""
+    return type("Points", (package.runtime.PointTable,), points)
 
 
 class Memory:

@@ -68,7 +68,7 @@ class AsyncWaiting(AsyncBus):
 
 
 def _roles(package: Package, text: str) -> Any:
-    """Eight bytes: `c5` a constant, `u` the unit, `a8` and `r0` parts of address and raw number, `m`, `w0`, `x` a check."""
+    """Eight bytes: `c5` a constant, `u` the unit, `a8`, `r0` parts of address and raw number, `m`, `w0`, `x`."""
     kinds = {"c": "constant", "u": "unit", "a": "address", "r": "raw", "m": "multiplexer", "w": "word", "x": "xor"}
     return tuple(package.can.Role(kinds[part[0]], int(part[1:] or 0)) for part in text.split())
 
@@ -158,21 +158,26 @@ def check_among_others(package: Package) -> None:
     for device, bus, words in _pairs(package, waiting=True):
         answer, bus.waits = _unit(package, words), 0.1
         frames = [_beat(package, 0, 1, 2, 3), package.can.Frame(0x209, b"\4"), answer(bus_frame(package, 6))[0]]
-        bus.answer = lambda frame, frames=frames, answer=answer: [*frames, *answer(frame)]
+        bus.answer = _followed(frames, answer)
         assert now(device.speed.read()) == 50
         assert now(device.beat.read()) == 2
         assert not bus.queue
-        bus.answer = lambda frame, frames=frames: list(frames)
+        bus.answer = _followed(frames)
         refused = refusal(device.speed.read)
         assert (type(refused), str(refused)) == (package.runtime.NoReplyError, "P5 speed: told for 5 did not come")
         assert isinstance(refused.__cause__, TimeoutError)
         spoiled = answer(bus_frame(package, 5))[0]
         spoiled = package.can.Frame(spoiled.id, spoiled.data[:7] + bytes((spoiled.data[7] ^ 1,)))
-        bus.answer = lambda frame, spoiled=spoiled: [spoiled, package.can.Frame(1, b"")]
+        bus.answer = _followed([spoiled, package.can.Frame(1, b"")])
         refused = refusal(device.speed.read)
         wrong = f"a byte that told has as its check is {spoiled.data[7]:02X}h"
         assert str(refused) == f"P5 speed: told for 5 did not come ({wrong})"
         assert refused.__cause__.status == "wrong_check"
+
+
+def _followed(frames: list[Any], answer: Callable[[Any], list[Any]] = lambda _: []) -> Callable[[Any], list[Any]]:
+    """What comes where these frames come before the answer."""
+    return lambda frame: [*frames, *answer(frame)]
 
 
 def bus_frame(package: Package, address: int) -> Any:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import enum
 from typing import TYPE_CHECKING, Any
 
-from conformance.runtime.bench import refusal, refuses
+from conformance.runtime.bench import refusal, refuses, table
 
 if TYPE_CHECKING:
     from conformance.package import Package
@@ -35,7 +35,7 @@ def _point(package: Package, form: Any, **facts: Any) -> Any:
     """A point of that form."""
     runtime = package.runtime
     made = runtime.ReadWrite(form, at=runtime.holding(4, 5), code="A1", unit="V", **facts)
-    return type("Made", (runtime.PointTable,), {"one": made}).one
+    return table(package, one=made).one
 
 
 def check_types(package: Package) -> None:

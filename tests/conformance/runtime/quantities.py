@@ -7,7 +7,7 @@ from decimal import Decimal
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from conformance.runtime.bench import refusal, refuses
+from conformance.runtime.bench import refusal, refuses, table
 
 if TYPE_CHECKING:
     from conformance.package import Package
@@ -17,7 +17,7 @@ def _point(package: Package, form: Any, **facts: Any) -> Any:
     """A point of that form."""
     runtime = package.runtime
     made = runtime.ReadWrite(form, at=runtime.holding(4), unit="V", **facts)
-    return type("Made", (runtime.PointTable,), {"one": made}).one
+    return table(package, one=made).one
 
 
 def check_scaled(package: Package) -> None:

@@ -24,6 +24,7 @@ class Line:
         self.busy = 0
         self.fails: BaseException | None = None
         self.turns = 0
+        self.most = 4
         self.refuses: int | None = None
 
     def exchange(self, request: bytes) -> bytes:
@@ -33,7 +34,7 @@ class Line:
         if self.fails is not None:
             raise self.fails
         part = words[: len(words) - self.pzd]
-        return self._closed(bytes((request[2],)), (*self._answer(part), *self.heard))
+        return self._closed(bytes((request[2],)), (*self._answer(part)[: self.most], *self.heard))
 
     def _answer(self, part: tuple[int, ...]) -> tuple[int, ...]:
         if not part:
@@ -215,8 +216,7 @@ def check_groups(package: Package) -> None:
     for (pkw, pzd), names in {(3, 3): "ramp state actual", (0, 2): "state", (4, 0): "ramp wide"}.items():
         for device, line in _pairs(package, pkw, pzd):
             line.values = {(6, 0): (0, 0)}
-            if pkw == 3:
-                line._answer = lambda part, line=line: Line._answer(line, part)[:3]  # type: ignore[method-assign]
+            line.most = pkw
             assert list(now(device.read_many("g"))) == [
                 name for name in ("ramp", "wide", "state", "actual") if name in names.split()
             ]

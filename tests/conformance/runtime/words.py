@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import enum
+import types
 from typing import TYPE_CHECKING, Any
 
-from conformance.runtime.bench import refusal, refuses
+from conformance.runtime.bench import refusal, refuses, table
 
 if TYPE_CHECKING:
     from conformance.package import Package
@@ -22,16 +23,17 @@ def _word(package: Package) -> Any:
     """A word with a flag, one that 0 makes true, a field and a field without names."""
     runtime = package.runtime
 
-    class Readers(runtime.Word):  # type: ignore[misc]  # the runtime is imported while it runs
-        on = runtime.Flag(0)
-        fault = runtime.Flag(1, active=0)
-        mode = runtime.Field(4, 2, Mode)
-        rest = runtime.Field(8, 3)
+    flags = {"on": runtime.Flag(0), "fault": runtime.Flag(1, active=0)}
+    fields = {"mode": runtime.Field(4, 2, Mode), "rest": runtime.Field(8, 3)}
+    return _named(type("Readers", (runtime.Word,), {**flags, **fields}))
 
-    class Word(Readers, enum.IntFlag):
-        ON = 1
 
-    return Word
+def _named(readers: type) -> Any:
+    """A word with one named bit, as generated ones are."""
+    bases = (readers, enum.IntFlag)
+    names = types.prepare_class("Word", bases)[1]
+    names["ON"] = 1
+    return enum.EnumType("Word", bases, names)  # type: ignore[arg-type]  # the names of an enum are of a type of their own
 
 
 def check_flags(package: Package) -> None:
@@ -50,10 +52,8 @@ def check_flags(package: Package) -> None:
     assert (word.on.width, word.mode.width, word.mode.names, word.rest.names) == (1, 2, Mode, None)
     assert (word.on.told("on", 1), word.on.told("on", 0), word.mode.told("mode", 0x10)) == ("on", "", "mode=1")
 
-    class Bare(package.runtime.Word, enum.IntFlag):  # type: ignore[misc]  # as above
-        ON = 1
-
-    assert (str(Bare(2)), f"{Bare(2)}") == ("0x0002", "0x0002")
+    bare = _named(package.runtime.Word)
+    assert (str(bare(2)), f"{bare(2)}") == ("0x0002", "0x0002")
 
 
 def _codes(package: Package) -> Any:
@@ -84,20 +84,15 @@ def check_coded(package: Package) -> None:
     """A point with codes: none is computed with, and only some are written."""
     runtime, codes = package.runtime, _codes(package)
     facts = {"at": runtime.holding(1), "code": "A1", "unit": "V", "allowed": ((1, 0xFFFF),)}
-    table = type(
-        "Made",
-        (runtime.PointTable,),
-        {
-            "read": runtime.ReadWrite(runtime.WithCodes(runtime.Integer(runtime.U16), codes), **facts),
-            "write": runtime.ReadWrite(runtime.WithWritableCodes(runtime.Integer(runtime.U16), codes), **facts),
-            "fixed": runtime.ReadWrite(
-                runtime.WithCodes(runtime.Integer(runtime.U16), runtime.Codes({"off": 0x81})),
-                fixed=(0x00F0, 0x0010),
-                **facts,
-            ),
-        },
+    plain = runtime.Integer(runtime.U16)
+    fixed_form = runtime.WithCodes(plain, runtime.Codes({"off": 0x81}))
+    made = table(
+        package,
+        read=runtime.ReadWrite(runtime.WithCodes(plain, codes), **facts),
+        write=runtime.ReadWrite(runtime.WithWritableCodes(plain, codes), **facts),
+        fixed=runtime.ReadWrite(fixed_form, fixed=(0x00F0, 0x0010), **facts),
     )
-    read, write, fixed = table.read, table.write, table.fixed
+    read, write, fixed = made.read, made.write, made.fixed
     assert (read.decode(5), read.decode(0), read.encode(5), write.encode(codes.off), write.encode(5)) == (
         5,
         codes.off,
