@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from conformance.package import attributes, raw_of, raws_of, same
+from conformance.package import attribute_of, attributes, raw_of, raws_of, same
 from conformance.scripts import AsyncScript, Script, now
 from conformance.uss import link_of
 
@@ -25,7 +25,7 @@ def _handles(package: Package, vector: Vector) -> list[tuple[Script, Any]]:
     for kind, script in ((package.device, Script), (package.awaited, AsyncScript)):
         transport = script(vector, package.can.Frame)
         device = kind(transport, vector["unit"], *link, **given)
-        found.append((transport, getattr(device, _attribute(kind, vector["point"]))))
+        found.append((transport, getattr(device, attribute_of(kind, vector["point"]))))
     return found
 
 
@@ -76,20 +76,17 @@ def command(package: Package, vector: Vector) -> bool:
     """A named write."""
     for kind, script in ((package.device, Script), (package.awaited, AsyncScript)):
         transport = script({**vector, "needs": {}}, package.can.Frame)
-        name = next(one for one in _names_of_command(vector["command"]) if one in attributes(kind))
+        name = _name_of_command(package, vector["command"])
         handle = getattr(kind(transport, vector["unit"]), name)
         _ran(package, transport, vector, handle.send)
     return True
 
 
-def _attribute(kind: type, item: str) -> str:
-    """The attribute of a point: a keyword has an underscore behind it."""
-    return item if item in attributes(kind) else f"{item}_"
-
-
-def _names_of_command(name: str) -> tuple[str, ...]:
-    """What a command may be called: the plain name may be a point's, or a keyword."""
-    return f"{name}_command", name, f"{name}_"
+def _name_of_command(package: Package, name: str) -> str:
+    """What a command is called: the plain name may be a point's, a keyword or a method."""
+    found = attributes(package.device)
+    names = f"{name}_command", name, f"{name}_"
+    return next(one for one in names if isinstance(found.get(one), package.runtime.Command))
 
 
 def _only(only_for: Any) -> tuple[str, Any] | None:

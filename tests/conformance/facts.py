@@ -5,7 +5,7 @@ from __future__ import annotations
 import warnings
 from typing import TYPE_CHECKING, Any
 
-from conformance.package import attributes
+from conformance.package import attribute_of, attributes
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -67,9 +67,8 @@ def _chosen(package: Package, point: Any) -> bool:
 
 
 def _attribute(package: Package, name: str) -> Any:
-    """What stands in the class under a name, or under the name with an underscore where that is a keyword."""
-    found = attributes(package.device)
-    return found[name] if name in found else found[f"{name}_"]
+    """What stands in the class for a name."""
+    return attributes(package.device)[attribute_of(package.device, name)]
 
 
 def alias(package: Package, vector: Vector) -> bool:

@@ -77,6 +77,11 @@ def attributes(kind: type) -> dict[str, Any]:
     return {name: one for base in reversed(kind.__mro__) for name, one in vars(base).items()}
 
 
+def attribute_of(kind: type, name: str) -> str:
+    """What a point is called as an attribute: a name that is a keyword or a method has an underscore behind it."""
+    return f"{name}_" if f"{name}_" in attributes(kind) else name
+
+
 if TYPE_CHECKING:
     Check = Callable[[Package, Vector], bool]
     """Whether the generated code does what a vector says."""
