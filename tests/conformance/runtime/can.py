@@ -210,7 +210,9 @@ def check_late_answers(package: Package) -> None:
             assert refusal(device.speed.read).status == "timeout"
             bus.queue = [*answer(bus_frame(package, 5)), _beat(package, 0, 1, 2, 3)]
             words[5], bus.answer = 51, answer
+            begun = bus.clock
             assert (now(device.speed.read()), bus.queue, now(device.beat.read())) == (51, [], 2)
+            assert round(bus.clock - begun, 3) == (0.02 if waiting else 0.04)  # a silent bus is settled
             bus.queue = answer(bus_frame(package, 5))
             words[5] = 52
             assert (now(device.speed.read()), len(bus.queue)) == ((52, 0) if waiting else (51, 1))

@@ -61,6 +61,13 @@ def check_whole(package: Package) -> None:
     refuses(runtime.RangeError, "A1 one: 2.5 is no integer", point.encode, 2.5)
     assert refusal(point.encode, 6).__cause__ is None
     free = _point(package, runtime.Integer(runtime.S16))
+    for function in (free.decode, free.decode_count):
+        assert (function(-32768), function(32767)) == (-32768, 32767)
+        sign = "A1 one: 32768 is no raw number, which is -32768..32767, with its sign: from_words gives it"
+        refuses(runtime.RangeError, sign, function, 32768)
+        refuses(
+            runtime.RangeError, "A1 one: -1 is no raw number, which is 0..65535", getattr(point, function.__name__), -1
+        )
     assert (free.raw_limits, free.allowed, free.name_of(1)) == ((-32768, 32767), ((-32768, 32767),), None)
     assert (free.decimals, free.names, free.scale_needs, free.limit_needs, free.size) == (0, None, (), (), 1)
     huge = refusal(free.encode, 10**5000)
@@ -92,6 +99,8 @@ def check_bits(package: Package) -> None:
     assert (bit.check(True), bit.width, bit.size) == (None, 1, 1)
     assert type(bit.encode(True)) is int
     refuses(runtime.RangeError, "A1 one: 2 V is outside 0..1 V", bit.encode, 2)
+    refuses(runtime.RangeError, "A1 one: 1.0 is no integer", bit.encode, 1.0)
+    refuses(runtime.WrongTypeError, "A1 one: takes an integer, not '1'", bit.encode, "1")
     group = _point(package, runtime.Integer(runtime.S16), bits=(6, 4), fixed=(0x8001, 0x0001))
     assert (group.width, group.size, group.extract(0x0070), group.from_words((0x30,))) == (3, 1, -1, 3)
     assert (group.insert(0xFFFF, 0), group.insert(0, -1), group.raw_limits) == (0x7F8F, 0x71, (-4, 3))
@@ -136,7 +145,7 @@ def check_texts(package: Package) -> None:
         assert refusal(text.check, bad_raw).status == "out_of_range"
     for function in (text.decode_count, text.encode_count):
         refuses(TypeError, "a text has no integer path", function, 1)
-    assert text.decode(0x141422020) == "AB"
+    refuses(runtime.RangeError, "A1 one: 4294967296 is no raw number, which is 0..4294967295", text.decode, 1 << 32)
     digits = _point(package, runtime.Digits(runtime.U16, Color, count=3))
     assert (digits.decode(4132), digits.encode((1, Color.BLUE, 1))) == ((41, Color.BLUE, 2), 131)
     digits.check(131)

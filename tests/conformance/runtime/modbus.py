@@ -222,6 +222,7 @@ def check_requests(package: Package) -> None:
     }
     for one, reason in reasons.items():
         refuses(package.runtime.RequestError, reason, modbus.build, one, profile)
+    assert (request(1, 6, 0).count, request(1, 6, 0).values) == (0, ())
     assert modbus.build(request(0, 6, 1, values=(2,)), profile)[:6] == bytes.fromhex("000600010002")
     known = package.runtime.Profile(functions=_MOST, exceptions={2: "bad_address"})
     for code, name in ((2, "bad_address"), (3, None)):

@@ -53,6 +53,17 @@ def check_scaled(package: Package) -> None:
             _point(package, runtime.Scaled(runtime.U64, runtime.Rule(), decimals=0)).decode_count, 1 << 63)  # fmt: skip
 
 
+def check_exact(package: Package) -> None:
+    """Where the other languages cannot compute a scale exactly, it overflows."""
+    runtime = package.runtime
+    point = _point(package, runtime.Scaled(runtime.S32, runtime.Rule(), decimals=0, most=100))
+    for function in (point.decode, point.decode_count):
+        assert (function(100), function(-100)) == (100, -100)
+        for raw in (101, -101):
+            beyond = f"one: raw {raw} is beyond 100, up to which the scale is exact"
+            refuses(runtime.ResultOverflowError, beyond, function, raw)
+
+
 def check_floating(package: Package) -> None:
     """Numbers of two widths, with limits and without."""
     runtime = package.runtime
@@ -72,6 +83,8 @@ def check_floating(package: Package) -> None:
     assert (free.same(0x7FC00000, 0x7FC00000), free.decimals) == (True, 0)
     for function in (free.decode_count, free.encode_count):
         refuses(TypeError, "a floating-point pattern has no integer path", function, 1)
+    open_ended = _point(package, runtime.Floating(runtime.F32, units=((-1e39, 5.0),)))
+    assert (open_ended.encode(1.0), refusal(open_ended.encode, 6.0).status) == (0x3F800000, "out_of_range")
     assert _point(package, runtime.Floating(runtime.F64)).encode(0.1) == 0x3FB999999999999A
 
 

@@ -85,7 +85,7 @@ def check_coded(package: Package) -> None:
     runtime, codes = package.runtime, _codes(package)
     facts = {"at": runtime.holding(1), "code": "A1", "unit": "V", "allowed": ((1, 0xFFFF),)}
     plain = runtime.Integer(runtime.U16)
-    fixed_form = runtime.WithCodes(plain, runtime.Codes({"off": 0x81}))
+    fixed_form = runtime.WithWritableCodes(plain, runtime.Codes({"off": 0x81}, writable=("off",)))
     made = table(
         package,
         read=runtime.ReadWrite(runtime.WithCodes(plain, codes), **facts),
@@ -100,7 +100,7 @@ def check_coded(package: Package) -> None:
         0,
         5,
     )
-    hints = {0: "write that", 0xFFFF: "it is only read"}
+    hints = {0: "to write that, write special.off", 0xFFFF: "it is only read"}
     for raw, hint in hints.items():
         name = str(codes(raw))
         for point in (read, write):
@@ -120,12 +120,15 @@ def check_coded(package: Package) -> None:
         runtime.Special("other", 0),
     )
     assert refusal(write.encode, codes.fault).status == "special"
+    taken = "A1 write: takes a number or a special code, as in special.name, not 'off'"
+    refuses(runtime.WrongTypeError, taken, write.encode, "off")
+    assert (codes.said(codes.off), codes.said(codes(0xFFF1))) == ("special.off", "special(65521)")
     assert (write.check(0), write.check(7), read.special, read.special(0).name) == (None, None, codes, "off")
     assert (write.told(0), write.told(7)) == ("off", "7 V")
     assert (fixed.encode(0x0F), fixed.encode_count(0x0101), fixed.decode(0x81).name) == (0x1F, 0x0111, "off")
     message = "A1 fixed: raw 32 has not 0010h in the bits 00F0h, as it must"
     refuses(runtime.RangeError, message, fixed.check, 0x20)
-    assert fixed.check(0x10) is None
+    assert (fixed.check(0x10), fixed.check(0x81), fixed.encode(fixed.special.off)) == (None, None, 0x81)
     assert (fixed.decimals, fixed.width, fixed.raw_limits, fixed.name_of(1)) == (0, 16, (1, 0xFFFF), None)
 
 
