@@ -91,8 +91,8 @@ KINDS = _table(
         "write": _EXCHANGE,
         "store": _EXCHANGE,
         # what Python alone says of a point beside: C and Rust do so in comments, which no program can hold
-        "facts": "only:python group:word name:word type:word symbol:text? default:real? changes:word? changes_with:names? "
-        "variant:text? only_for:names? write_space:word? write_addresses:ints?",
+        "facts": "only:python group:word name:word type:word symbol:text? default:real? changes:word? "
+        "changes_with:names? variant:text? only_for:names? write_space:word? write_addresses:ints?",
         # names that are still taken for a point, the values of an axis of variants, all that is documented only
         "alias": "only:python old:word new:word",
         "variant": "only:python axis:word choices:names",

@@ -54,7 +54,6 @@ def facts(lines: Lines, point: Point, variants: Mapping[str, tuple[str, ...]]) -
         other.addresses if other is not None and apart else None,
     )
 
-
     for old in point.was:
         lines.add("alias", old, point.name)
 
