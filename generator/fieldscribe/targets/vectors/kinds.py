@@ -93,8 +93,9 @@ KINDS = _table(
         # what Python alone says of a point beside: C and Rust do so in comments, which no program can hold
         "facts": "only:python group:word name:word type:word symbol:text? default:real? changes:word? "
         "changes_with:names? variant:text? only_for:names? write_space:word? write_addresses:ints?",
-        # names that are still taken for a point, the values of an axis of variants, all that is documented only
+        # what a point was called before
         "alias": "only:python old:word new:word",
+        # the values of an axis of variants, and all that is documented only
         "variant": "only:python axis:word choices:names",
         "left_out": "only:python names:names",
         # where the words of points are that are documented only

@@ -36,7 +36,7 @@ def address(lines: Lines, point: Point) -> None:
 
 
 def facts(lines: Lines, point: Point, variants: Mapping[str, tuple[str, ...]]) -> None:
-    """What a point belongs to, what it has beside its numbers, and what it was called."""
+    """What a point belongs to, and what it has beside its numbers."""
     other = next((place for place in point.places if place.purpose == "write"), None)
     apart = other is not None and other is not point.places[0]
     lines.add(
@@ -54,8 +54,11 @@ def facts(lines: Lines, point: Point, variants: Mapping[str, tuple[str, ...]]) -
         other.addresses if other is not None and apart else None,
     )
 
+
+def aliases(lines: Lines, point: Point) -> None:
+    """What the point was called before; a variant keeps its suffix."""
     for old in point.was:
-        lines.add("alias", old, point.name)
+        lines.add("alias", old + point.item.removeprefix(point.name), point.item)
 
 
 def _only_for(point: Point, variants: Mapping[str, tuple[str, ...]]) -> tuple[str, ...] | None:
