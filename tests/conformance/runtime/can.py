@@ -322,6 +322,7 @@ def check_messages(package: Package) -> None:
     )
     plain = package.can.Message("plain", "request", 0x10, ask.roles)
     assert (plain.identifier(5), ask.identifier(5), plain.answers, plain.adds_unit) == (0x10, 0x105, None, False)
+    assert package.can.build(profile.message("put"), profile, 9).data == bytes((6, 9, 0, 0, 0, 0, 0, 15))
     good = bus_frame(package, 5)
     wrong = {
         "identifier 108h is not that of ask": (0x108, good.data),
