@@ -2,142 +2,22 @@
 
 from __future__ import annotations
 
-import sys
 from typing import TYPE_CHECKING, Any
 
-from conformance.runtime.bench import devices, refusal, refuses
+from conformance.runtime.bench import refusal, refuses
+from conformance.runtime.can_bus import Bus, answers_of, beat_of, bus_frame, kinds_of, on_lines, profile_of
 from conformance.scripts import now
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable
 
     from conformance.package import Package
-
-
-class Bus:
-    """A bus with one unit: `answer` gives what comes for a frame that is sent; every wait takes a second."""
-
-    def __init__(self, package: Package, answer: Callable[[Any], list[Any]] = lambda _: []) -> None:
-        self.clock = 1000.0
-        self.sent: list[Any] = []
-        self.queue: list[Any] = []
-        self.answer = answer
-        self.waits = 1.0
-        session = sys.modules[f"{package.can.__name__}.session"]
-        session.monotonic = lambda: self.clock  # type: ignore[attr-defined]  # so that no time passes
-
-    def send(self, frame: Any) -> None:
-        """A frame to the unit."""
-        self.sent.append(frame)
-        self.queue += self.answer(frame)
-
-    def receive(self) -> Any:
-        """The next frame."""
-        self.clock += self.waits
-        if not self.queue:
-            raise TimeoutError
-        return self.queue.pop(0)
-
-
-class Waiting(Bus):
-    """A bus that can tell what came already."""
-
-    def receive_waiting(self) -> Any:
-        """The next frame that is there."""
-        return self.queue.pop(0) if self.queue else None
-
-
-class AsyncBus(Bus):
-    """The bus with `await`."""
-
-    async def send(self, frame: Any) -> None:  # type: ignore[override]  # as the async transports are
-        """A frame to the unit."""
-        super().send(frame)
-
-    async def receive(self) -> Any:
-        """The next frame."""
-        return super().receive()
-
-
-class AsyncWaiting(AsyncBus):
-    """The same that can tell what came already."""
-
-    def receive_waiting(self) -> Any:
-        """The next frame that is there."""
-        return self.queue.pop(0) if self.queue else None
-
-
-def _roles(package: Package, text: str) -> Any:
-    """Eight bytes: `c5` a constant, `u` the unit, `a8`, `r0` parts of address and raw number, `m`, `w0`, `x`."""
-    kinds = {"c": "constant", "u": "unit", "a": "address", "r": "raw", "m": "multiplexer", "w": "word", "x": "xor"}
-    return tuple(package.can.Role(kinds[part[0]], int(part[1:] or 0)) for part in text.split())
-
-
-def _profile(package: Package) -> Any:
-    message = package.can.Message
-    read, write = "c3 u a8 a0 c0 c0 c0 x127", "c6 u a8 a0 r8 r0 c0 x127"
-    return package.can.Profile(
-        units=(1, 30),
-        identifier_bits=11,
-        messages=(
-            message("ask", "request", 0x100, _roles(package, read), True),
-            message("told", "response", 0x200, _roles(package, write.replace("c6", "c4")), True, "ask"),
-            message("put", "request", 0x100, _roles(package, write), True),
-            message("done", "response", 0x200, _roles(package, write.replace("c6", "c7")), True, "put"),
-            message("cyclic", "cyclic", 0x300, _roles(package, "m w0 w1 w2 w3 w4 w5 u"), True),
-        ),
-        telegrams=(package.can.Telegram("beat", "cyclic", 5, "cyclic"),),
-    )
-
-
-def _made(package: Package) -> list[Any]:
-    runtime = package.runtime
-    word, wide = runtime.Integer(runtime.U16), runtime.Integer(runtime.U32)
-    points = {
-        "PROFILE": _profile(package),
-        "speed": runtime.ReadWrite(word, at=runtime.parameter(5), code="P5"),
-        "long": runtime.ReadWrite(wide, at=runtime.parameter(8, 7), group="g"),
-        "again": runtime.ReadOnly(word, at=runtime.parameter(7), group="g"),
-        "same": runtime.ReadOnly(wide, at=runtime.parameter(8, 7), group="g"),
-        "number": runtime.ReadWrite(runtime.Floating(runtime.F32), at=runtime.parameter(10)),
-        "beat": runtime.ReadOnly(word, at=runtime.telegram("beat", 1), code="B1", group="heard"),
-        "late": runtime.ReadOnly(wide, at=runtime.telegram("beat", 2, 3), group="heard"),
-    }
-    return devices(package, points, package.can.CanDevice, package.can.AsyncCanDevice)
-
-
-def _unit(package: Package, words: dict[int, int]) -> Callable[[Any], list[Any]]:
-    """What a unit answers."""
-    profile = _profile(package)
-    names = {3: ("ask", "told"), 6: ("put", "done")}
-
-    def answer(frame: Any) -> list[Any]:
-        request, response = names[frame.data[0]]
-        address, raw = package.can.parse(profile.message(request), 9, frame)
-        if request == "put":
-            words[address] = raw
-        return [package.can.build(profile.message(response), profile, 9, address, words.get(address, 0))]
-
-    return answer
-
-
-def _pairs(package: Package, waiting: bool) -> Iterator[tuple[Any, Bus, dict[int, int]]]:
-    kinds = (Waiting, AsyncWaiting) if waiting else (Bus, AsyncBus)
-    for kind, line in zip(_made(package), kinds, strict=True):
-        words = {5: 50, 7: 0x7777, 8: 0x8888}
-        bus = line(package, _unit(package, words))
-        yield kind(bus, 9), bus, words
-
-
-def _beat(package: Package, place: int, *words: int) -> Any:
-    data = bytes((place,)) + b"".join(word.to_bytes(2, "big") for word in words) + bytes((9,))
-    return package.can.Frame(0x309, data)
 
 
 def check_parameters(package: Package) -> None:
     """Words are asked for one by one, in ascending order."""
     for waiting in (False, True):
-        for device, bus, words in _pairs(package, waiting):
+        for device, bus, words in on_lines(package, waiting):
             assert (now(device.speed.read()), now(device.long.read())) == (50, 0x88887777)
             assert [(frame.id, frame.data[3]) for frame in bus.sent] == [(0x109, 5), (0x109, 7), (0x109, 8)]
             now(device.long.write(0x00010002))
@@ -155,9 +35,9 @@ def check_parameters(package: Package) -> None:
 
 def check_among_others(package: Package) -> None:
     """Other frames that come meanwhile are no answer; words of a telegram among them are kept."""
-    for device, bus, words in _pairs(package, waiting=True):
-        answer, bus.waits = _unit(package, words), 0.1
-        frames = [_beat(package, 0, 1, 2, 3), package.can.Frame(0x209, b"\4"), answer(bus_frame(package, 6))[0]]
+    for device, bus, words in on_lines(package, waiting=True):
+        answer, bus.waits = answers_of(package, words), 0.1
+        frames = [beat_of(package, 0, 1, 2, 3), package.can.Frame(0x209, b"\4"), answer(bus_frame(package, 6))[0]]
         bus.answer = _followed(frames, answer)
         assert now(device.speed.read()) == 50
         assert now(device.beat.read()) == 2
@@ -180,15 +60,9 @@ def _followed(frames: list[Any], answer: Callable[[Any], list[Any]] = lambda _: 
     return lambda frame: [*frames, *answer(frame)]
 
 
-def bus_frame(package: Package, address: int) -> Any:
-    """The question for a parameter."""
-    profile = _profile(package)
-    return package.can.build(profile.message("ask"), profile, 9, address)
-
-
 def check_patience(package: Package) -> None:
     """A wait among frames that never answer ends."""
-    for device, bus, _ in _pairs(package, waiting=False):
+    for device, bus, _ in on_lines(package, waiting=False):
         bus.answer = lambda frame: [package.can.Frame(1, b"")] * 100
         refused = refusal(device.speed.read)
         assert str(refused) == "P5 speed: told for 5 did not come within 10 s"
@@ -203,12 +77,12 @@ def check_patience(package: Package) -> None:
 def check_late_answers(package: Package) -> None:
     """An answer that came too late is no answer to the next question for the same parameter."""
     for waiting in (False, True):
-        for device, bus, words in _pairs(package, waiting):
+        for device, bus, words in on_lines(package, waiting):
             answer = bus.answer
             bus.waits = 0.01
             bus.answer = lambda frame: []
             assert refusal(device.speed.read).status == "timeout"
-            bus.queue = [*answer(bus_frame(package, 5)), _beat(package, 0, 1, 2, 3)]
+            bus.queue = [*answer(bus_frame(package, 5)), beat_of(package, 0, 1, 2, 3)]
             words[5], bus.answer = 51, answer
             begun = bus.clock
             assert (now(device.speed.read()), bus.queue, now(device.beat.read())) == (51, [], 2)
@@ -226,8 +100,8 @@ def check_late_answers(package: Package) -> None:
 
 def check_echoes(package: Package) -> None:
     """A write is confirmed with the number that was written, or one that means the same."""
-    for device, bus, words in _pairs(package, waiting=True):
-        answer = _unit(package, words)
+    for device, bus, words in on_lines(package, waiting=True):
+        answer = answers_of(package, words)
 
         def other(frame: Any, answer: Any = answer) -> list[Any]:
             data = bytearray(frame.data)
@@ -250,20 +124,20 @@ def check_echoes(package: Package) -> None:
 def check_telegrams(package: Package) -> None:
     """Words of a telegram are those that came a moment ago, or that come."""
     for waiting in (False, True):
-        for device, bus, _ in _pairs(package, waiting):
+        for device, bus, _ in on_lines(package, waiting):
             bus.waits = 0.3
             assert not device.take(package.can.Frame(1, b""))
-            assert device.take(_beat(package, 0, 1, 2, 3))
+            assert device.take(beat_of(package, 0, 1, 2, 3))
             bus.clock += 1.0
             assert now(device.beat.read()) == 2
             bus.clock += 0.5
-            bus.queue = [_beat(package, 0, 4, 5, 6), _beat(package, 1, 7, 8, 9), _beat(package, 0, 4, 5, 6)]
+            bus.queue = [beat_of(package, 0, 4, 5, 6), beat_of(package, 1, 7, 8, 9), beat_of(package, 0, 4, 5, 6)]
             assert (now(device.beat.read()), len(bus.queue)) == (5, 2)
             assert (now(device.late.read()), bus.queue) == (0x00060007, [])
             assert now(device.read_at("beat", 0, 2)) == (4, 5)
             assert now(device.read_many("heard")) == {"beat": 5, "late": 0x00060007}
             bus.clock += 5
-            bus.queue = [_beat(package, 1, 1, 1, 1), _beat(package, 0, 4, 5, 7)]
+            bus.queue = [beat_of(package, 1, 1, 1, 1), beat_of(package, 0, 4, 5, 7)]
             refused = refusal(device.late.read)
             torn = "words (2, 3) of beat may belong to different values"
             assert str(refused) == f"late: beat with words 2, 3 did not come ({torn})"
@@ -274,20 +148,20 @@ def check_telegrams(package: Package) -> None:
             assert refusal(device.read_at, "beat", 5).status == "bad_address"
             assert refusal(device.write_at, "beat", 0, 1).status == "bad_space"
             device.fresh_for = 0.0
-            device.take(_beat(package, 0, 1, 2, 3))
+            device.take(beat_of(package, 0, 1, 2, 3))
             bus.clock += 0.1
             assert refusal(device.beat.read).status == "timeout"
 
 
 def check_receiver(package: Package) -> None:
     """A receiver by itself."""
-    profile = _profile(package)
+    profile = profile_of(package)
     receiver = package.can.Receiver(profile, "beat", 9)
     assert (receiver.telegram, receiver.unit) == ("beat", 9)
     refuses(package.runtime.TelegramError, "not all frames of beat with words (0,) came yet", receiver.word, 0)
     refuses(package.runtime.RequestError, "beat has 5 words, and none at 5", receiver.word, 5)
     refuses(package.runtime.RequestError, "beat has 5 words, and none at -1", receiver.word, -1)
-    assert [receiver.take(_beat(package, place, 1, 2, 3)) for place in (0, 1, 2)] == [True, True, False]
+    assert [receiver.take(beat_of(package, place, 1, 2, 3)) for place in (0, 1, 2)] == [True, True, False]
     assert ([receiver.word(at) for at in range(5)], receiver.words((0, 1, 2, 3))) == ([1, 2, 3, 1, 2], (1, 2, 3, 1))
     assert (receiver.newer((0,), 0.0), receiver.newer((0,), 0.1)) == (True, False)
     refuses(
@@ -298,13 +172,13 @@ def check_receiver(package: Package) -> None:
         "beat",
         31,
     )
-    for kind in _made(package):
+    for kind in kinds_of(package):
         assert refusal(kind, Bus(package), 31).status == "bad_unit"
 
 
 def check_messages(package: Package) -> None:
     """Messages by name and by what they do, and what is wrong with a frame."""
-    profile, access = _profile(package), package.runtime.AccessError
+    profile, access = profile_of(package), package.runtime.AccessError
     refuses(access, "the device has no message none", profile.message, "none")
     refuses(access, "the device has no telegram none", profile.telegram, "none")
     assert [profile.request(writes=writes).name for writes in (False, True)] == ["ask", "put"]

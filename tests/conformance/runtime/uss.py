@@ -2,130 +2,20 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from conformance.runtime.bench import devices, refusal, refuses
+from conformance.runtime.bench import refusal, refuses
+from conformance.runtime.uss_line import Line, kinds_of, on_lines, profile_of
 from conformance.scripts import now
 
 if TYPE_CHECKING:
     from conformance.package import Package
 
-_TASKS = {0: (0,), 1: (1, 2), 2: (1,), 3: (2,), 6: (4, 5), 7: (4,), 8: (5,), 11: (5,), 12: (4,), 13: (2,), 14: (1,)}
-
-
-class Line:
-    """A unit that answers tasks and notes the words of each telegram; `heard` is its own process data."""
-
-    def __init__(self, pzd: int = 3) -> None:
-        self.pzd = pzd
-        self.asked: list[tuple[int, ...]] = []
-        self.values: dict[tuple[int, int], tuple[int, ...]] = {}
-        self.heard = (0x1111, 0x2222, 0x3333)[:pzd]
-        self.busy = 0
-        self.fails: BaseException | None = None
-        self.turns = 0
-        self.most = 4
-        self.refuses: int | None = None
-
-    def exchange(self, request: bytes) -> bytes:
-        """The reply to a telegram."""
-        words = tuple(int.from_bytes(request[at : at + 2], "big") for at in range(3, len(request) - 1, 2))
-        self.asked.append((request[2], *words))
-        if self.fails is not None:
-            raise self.fails
-        part = words[: len(words) - self.pzd]
-        return self._closed(bytes((request[2],)), (*self._answer(part)[: self.most], *self.heard))
-
-    def _answer(self, part: tuple[int, ...]) -> tuple[int, ...]:
-        if not part:
-            return ()
-        task, number = part[0] >> 12, (part[0] & 0xFFF, part[1])
-        if task == 0:
-            return (0, 0, 0, 0)
-        if self.busy:
-            self.busy -= 1
-            return (0, 0, 0, 0)
-        if self.refuses is not None:
-            return (0x7000 | number[0], number[1], self.refuses, 0)
-        if task not in (1, 6):
-            wide = task in (3, 8, 11, 13)
-            self.values[number] = part[2:4] if wide else part[2:3]
-        words = self.values.get(number, (0,))
-        words = (*words[:-1], words[-1] ^ self.turns)
-        response = len(words) + (3 if number[1] and task != 1 else 0)
-        return (response << 12 | number[0], number[1], *words, *(0,) * (2 - len(words)))
-
-    def _closed(self, unit: bytes, words: tuple[int, ...]) -> bytes:
-        data = b"".join(word.to_bytes(2, "big") for word in words)
-        frame = bytes((2, len(data) + 2)) + unit + data
-        check = 0
-        for byte in frame:
-            check ^= byte
-        return frame + bytes((check,))
-
-    def since(self) -> list[tuple[int, ...]]:
-        """The telegrams since the last time."""
-        asked, self.asked = self.asked, []
-        return asked
-
-
-class AsyncLine(Line):
-    """The same with `await`."""
-
-    async def exchange(self, request: bytes) -> bytes:  # type: ignore[override]  # as the async transports are
-        """The reply to a telegram."""
-        return super().exchange(request)
-
-
-def _profile(package: Package) -> Any:
-    telegram = package.uss.Telegram
-    return package.uss.Profile(
-        units=(0, 30),
-        pkw=(0, 3, 4, 127),
-        pzd=(0, 4),
-        tasks=_TASKS,
-        broadcast=32,
-        errors={2: "limit_exceeded"},
-        telegrams=(telegram("task", "request", 3), telegram("answer", "response", 3)),
-        variant_pzd={("model", "small"): (0, 2)},
-    )
-
-
-def _made(package: Package) -> list[Any]:
-    runtime, stored = package.runtime, package.uss.Stored
-    word, wide = runtime.Integer(runtime.U16), runtime.Integer(runtime.U32)
-    points = {
-        "PROFILE": _profile(package),
-        "VARIANTS": {"model": ("small", "large")},
-        "ramp": stored(word, at=runtime.parameter(5), code="P5", group="g"),
-        "wide": stored(wide, at=runtime.parameter(6), group="g"),
-        "first": stored(word, at=runtime.parameter(7, index=1)),
-        "second": stored(wide, at=runtime.parameter(7, index=2)),
-        "silent": package.uss.StoredWriteOnly(word, at=runtime.parameter(9)),
-        "number": stored(runtime.Floating(runtime.F32), at=runtime.parameter(10)),
-        "bits": stored(word, at=runtime.parameter(11), bits=(3, 0)),
-        "on": runtime.ReadWrite(runtime.Bit(), at=runtime.telegram("task", 0), bits=(0, 0), fixed=(0x0400, 0x0400)),
-        "left": runtime.ReadWrite(runtime.Bit(), at=runtime.telegram("task", 0), bits=(1, 1), fixed=(0x0800, 0x0800)),
-        "setpoint": runtime.ReadWrite(word, at=runtime.telegram("task", 1), code="HSW"),
-        "state": runtime.ReadOnly(word, at=runtime.telegram("answer", 0), group="g", code="ZSW"),
-        "actual": runtime.ReadOnly(wide, at=runtime.telegram("answer", 1, 2), group="g"),
-    }
-    return devices(package, points, package.uss.UssDevice, package.uss.AsyncUssDevice)
-
-
-def _pairs(package: Package, pkw: int = 4, pzd: int = 3, **more: Any) -> list[tuple[Any, Line]]:
-    link = package.uss.Link(pkw, pzd, True)
-    made = []
-    for kind, line in zip(_made(package), (Line, AsyncLine), strict=True):
-        transport = line(pzd)
-        made.append((kind(transport, 9, link, **more), transport))
-    return made
-
 
 def check_parameters(package: Package) -> None:
     """Parameters of one word and two, elements, and the tasks that keep them."""
     zeros = (0, 0, 0)
-    for device, line in _pairs(package):
+    for device, line in on_lines(package):
         line.values = {(5, 0): (50,), (6, 0): (1, 2)}
         assert (now(device.ramp.read()), now(device.wide.read())) == (50, 0x10002)
         assert line.since() == [(9, 0x1005, 0, 0, 0, *zeros), (9, 0x1006, 0, 0, 0, *zeros)]
@@ -145,7 +35,7 @@ def check_parameters(package: Package) -> None:
 
 def check_by_number(package: Package) -> None:
     """Parameters by number, and words of process data by place."""
-    for device, line in _pairs(package):
+    for device, line in on_lines(package):
         now(device.write_at("parameter", 20, 1, 2))
         now(device.write_at("parameter", 21, 3, index=4))
         assert (now(device.read_at("parameter", 20)), now(device.read_at("parameter", 21, 4))) == ((1, 2), (3,))
@@ -172,7 +62,7 @@ def check_by_number(package: Package) -> None:
 
 def check_process_data(package: Package) -> None:
     """Words are sent until they are written anew; constant bits come with the first bit that is written."""
-    for device, line in _pairs(package):
+    for device, line in on_lines(package):
         assert now(device.state.read()) == 0x1111
         now(device.setpoint.write(0x4000))
         assert [telegram[5:] for telegram in line.since()] == [(0, 0, 0), (0, 0x4000, 0)]
@@ -206,7 +96,7 @@ def check_process_data(package: Package) -> None:
 
 def check_groups(package: Package) -> None:
     """Process data comes out of one telegram; what the link does not carry is left out of a group."""
-    for device, line in _pairs(package):
+    for device, line in on_lines(package):
         line.values = {(6, 0): (0, 9)}
         found = now(device.read_many("g"))
         assert found == {"ramp": 0, "wide": 9, "state": 0x1111, "actual": 0x22223333}
@@ -214,7 +104,7 @@ def check_groups(package: Package) -> None:
         assert (now(device.read_many(["ramp"])), len(line.since())) == ({"ramp": 0}, 1)
         assert (now(device.read_many(["setpoint"])), line.since()) == ({"setpoint": 0}, [])
     for (pkw, pzd), names in {(3, 3): "ramp state actual", (0, 2): "state", (4, 0): "ramp wide"}.items():
-        for device, line in _pairs(package, pkw, pzd):
+        for device, line in on_lines(package, pkw, pzd):
             line.values = {(6, 0): (0, 0)}
             line.most = pkw
             assert list(now(device.read_many("g"))) == [
@@ -224,7 +114,7 @@ def check_groups(package: Package) -> None:
 
 def check_repeats(package: Package) -> None:
     """A task that the device has not answered yet is sent again, but not for ever."""
-    for device, line in _pairs(package):
+    for device, line in on_lines(package):
         line.busy = 20
         assert (now(device.ramp.read()), len(line.since())) == (0, 21)
         line.busy = 21
@@ -246,7 +136,7 @@ def check_repeats(package: Package) -> None:
 
 def check_echoes(package: Package) -> None:
     """A change is confirmed with the value that the device has, or one that means the same."""
-    for device, line in _pairs(package):
+    for device, line in on_lines(package):
         line.turns = 2
         error = refusal(device.ramp.write, 4)
         assert (type(error), error.written, error.answered) == (package.runtime.EchoError, (4,), (6,))
@@ -265,7 +155,7 @@ def check_echoes(package: Package) -> None:
 
 def check_broadcasts(package: Package) -> None:
     """Process data for all units, which nobody answers."""
-    for device, line in _pairs(package):
+    for device, line in on_lines(package):
         line.fails = TimeoutError()
         now(device.broadcast((6, 0xFFFF, 0, 0), (0x0C00, 5, 0)))
         assert line.since() == [(32, 6, 0xFFFF, 0, 0, 0x0C00, 5, 0)]
@@ -289,7 +179,7 @@ def check_broadcasts(package: Package) -> None:
 def check_links(package: Package) -> None:
     """How the link may be set, also for variants, and which units there are."""
     uss, request = package.uss, package.runtime.RequestError
-    for kind in _made(package):
+    for kind in kinds_of(package):
         sizes = "the parameter part has one of (0, 3, 4, 127) words, not 5"
         refuses(request, sizes, kind, Line(), 9, uss.Link(5, 2))
         refuses(request, "the device takes 0..4 words of process data, not 5", kind, Line(), 9, uss.Link(4, 5))
@@ -308,7 +198,7 @@ def check_links(package: Package) -> None:
 
 def check_requests(package: Package) -> None:
     """What may not be asked, and what is wrong with an answer, each with the reason."""
-    uss, profile, link = package.uss, _profile(package), package.uss.Link(4, 0, True)
+    uss, profile, link = package.uss, profile_of(package), package.uss.Link(4, 0, True)
     reasons = {
         uss.Request(31, 1): "unit 31 is outside 0..30",
         uss.Request(9, 4): "the device has no task 4",
