@@ -158,4 +158,6 @@ def check_texts(package: Package) -> None:
     wrong = "A1 one: (1, 2, 3) V is not made of 3 digits out of 1 red, 3 blue"
     refuses(runtime.UnknownValueError, wrong, digits.encode, (1, 2, 3))
     narrow = _point(package, runtime.Digits(runtime.U8, Color, count=3))
+    edge = _point(package, runtime.Digits(runtime.U8, enum.IntEnum("Edge", {"TWO": 2, "FIVE": 5, "SIX": 6}), count=3))
+    assert (edge.encode((2, 5, 5)), refusal(edge.encode, (2, 5, 6)).status) == (255, "unknown_value")
     assert (narrow.encode((1, 1, 1)), refusal(narrow.encode, (3, 3, 3)).status) == (111, "unknown_value")
