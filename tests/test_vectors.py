@@ -65,7 +65,7 @@ def test_the_same_text_twice_and_no_vector_twice() -> None:
 
 def test_a_device_without_points_is_still_a_file() -> None:
     bus = replace(sample_bus(), framings=(), exceptions=())
-    device = replace(sample_device(()), bus=bus, frames=(), blocks={}, commands=())
+    device = replace(sample_device(()), bus=bus, frames=(), blocks={}, commands=(), variants={})
     assert vectors(device) == []
 
 

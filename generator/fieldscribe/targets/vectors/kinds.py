@@ -91,8 +91,13 @@ KINDS = _table(
         "write": _EXCHANGE,
         "store": _EXCHANGE,
         # what Python alone says of a point beside: C and Rust do so in comments, which no program can hold
-        "facts": "only:python group:word name:word symbol:text? default:real? changes:word? changes_with:names? "
-        "variant:text? write_space:word? write_addresses:ints?",
+        "facts": "only:python group:word name:word type:word symbol:text? default:real? changes:word? "
+        "changes_with:names? variant:text? only_for:names? write_space:word? write_addresses:ints?",
+        # what a point was called before
+        "alias": "only:python old:word new:word",
+        # the values of an axis of variants, and all that is documented only
+        "variant": "only:python axis:word choices:names",
+        "left_out": "only:python names:names",
         # where the words of points are that are documented only
         "documented": "name:word space:word address:int words:int index:int?",
         # the words that bring a group where each is asked for by itself: Rust reads the points themselves
