@@ -260,8 +260,7 @@ def _flags(subjects: Iterable[Subject]) -> Iterator[str]:
     for one in subjects:
         if one.form == "flags":
             for flag in one.point.flags:
-                how = ("on" if flag.active else "off") if flag.width == 1 else "bits"
-                calls = f"{how} {one.raw} {getter_name(flag.name)} with_{flag.name}"
+                calls = f"flag {one.raw} {getter_name(flag.name)} with_{flag.name}"
                 yield f"{rust_string(f'{one.point.item} {flag.name}')} {one.name} ({calls})"
 
 

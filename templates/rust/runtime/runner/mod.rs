@@ -3,6 +3,10 @@
 
 #![allow(dead_code, reason = "not every device has points of every kind")]
 
+#[macro_use]
+mod runtime;
+
+mod clients;
 pub mod frames;
 
 use std::cell::Cell;
@@ -13,7 +17,7 @@ use std::sync::Arc;
 use std::task::{Context, Poll, Wake, Waker};
 
 use fieldscribe_runtime::{
-    BitGroup, Code, Coded, CountReadable, CountWritable, Decoded, Documented, Encodable, Error,
+    BitGroup, Code, Coded, CountReadable, CountWritable, Decoded, Documented, Encodable, Error, Flags,
     Point, Raw, Readable, Reading, Text, Whole, Writable,
 };
 
@@ -116,23 +120,11 @@ macro_rules! table {
         let value = device::enums::$enum::from(raw);
         runner::name($vector, value.name(), $raw::from(value) == raw)
     }};
-    ($run:ident $word:ident (on $raw:ident $get:ident $set:ident) $vector:ident) => {{
+    ($run:ident $word:ident (flag $raw:ident $get:ident $set:ident) $vector:ident) => {{
         let word = device::flags::$word::from($vector.raw::<$raw>("raw"));
-        let same = word.$set(word.$get()) == word && word.$set(!word.$get()).$get() != word.$get();
-        let truth = $vector.raw::<u8>("truth") == u8::from(word.$get());
-        runner::flag($vector, u64::from(word.$get()), same && truth)
-    }};
-    ($run:ident $word:ident (off $raw:ident $get:ident $set:ident) $vector:ident) => {{
-        let word = device::flags::$word::from($vector.raw::<$raw>("raw"));
-        let same = word.$set(word.$get()) == word && word.$set(!word.$get()).$get() != word.$get();
-        let truth = $vector.raw::<u8>("truth") == u8::from(word.$get());
-        runner::flag($vector, u64::from(!word.$get()), same && truth)
-    }};
-    ($run:ident $word:ident (bits $raw:ident $get:ident $set:ident) $vector:ident) => {{
-        let word = device::flags::$word::from($vector.raw::<$raw>("raw"));
-        let other = !word.$get();
-        let same = word.$set(word.$get()) == word && word.$set(other).$set(word.$get()) == word;
-        runner::flag($vector, u64::from(word.$get()), same && word.$set(other) != word)
+        let set = [word.$get(), !word.$get()].map(|state| word.$set(state));
+        runner::same($raw::from(word), $vector.raw("raw"))
+            .and_then(|()| runner::flag($vector, word, u64::from(word.$get()), set))
     }};
 }
 
@@ -603,10 +595,27 @@ pub fn code(vector: &Vector, number: u64, name: Option<&str>) -> Outcome {
     same(vector.said("name").as_deref(), name)
 }
 
-/// A flag's number as it is in the word, and that setting it does what getting it says.
-pub fn flag(vector: &Vector, found: u64, same_word: bool) -> Outcome {
-    same(vector.raw::<u64>("number"), found)?;
-    same(true, same_word)
+/// A flag of a word: what it is called and which bits it has, what getting it says of this word, and what setting it to
+/// that and to the opposite makes of the word.
+pub fn flag<F>(vector: &Vector, word: F, found: u64, set: [F; 2]) -> Outcome
+where
+    F: Flags + Default + std::fmt::Debug,
+{
+    let name = vector.text("flag");
+    let flag = F::FLAGS.iter().find(|flag| flag.name() == name);
+    let flag = flag.ok_or_else(|| "it is not in the table".to_owned())?;
+    let number = vector.raw::<u64>("number");
+    let truth = vector.number("truth").map(|truth| u64::from(truth == 1));
+    same(truth.unwrap_or(number), found)?;
+    same(found, flag.number(word.bits()))?;
+    same(truth.is_some_and(|truth| truth != number), flag.is_active_low())?;
+    let mask = flag.mask();
+    same(number, (word.bits() & mask) >> mask.trailing_zeros())?;
+    same(set.map(F::bits), [word.bits(), word.bits() ^ mask])?;
+    let named = F::FLAGS.iter().fold(0, |named, flag| named | flag.mask());
+    let nothing = F::default().bits();
+    same((0, 0), (flag.number(nothing), nothing & !named))?;
+    same(true, format!("{word:?}").starts_with(&format!("{}(0x", F::NAME)))
 }
 
 /// The number that a name of a flag's numbers stands for.
@@ -888,7 +897,10 @@ pub fn main(default: &str, run: impl Fn(&str, &Vector) -> Option<Outcome>) -> Ex
             }
         }
     }
-    report(&kinds)
+    let result = report(&kinds);
+    runtime::check();
+    clients::check();
+    result
 }
 
 /// The fields of a line by their names; those that are left out are absent.
