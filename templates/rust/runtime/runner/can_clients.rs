@@ -108,7 +108,7 @@ static SILENT: Profile = Profile::new((1, 9), 29, None, writes(None));
 
 /// Two frames of three words.
 #[derive(Clone, Copy, Debug)]
-struct Measured;
+pub struct Measured;
 
 impl Telegram for Measured {
     const NAME: &'static str = "measured";
