@@ -63,6 +63,7 @@ def conformance_tables(scope: Scope, device: Device) -> tuple[Table, ...]:
         ("bits", "bits", tuple(_row(one, "alone") for one in scope.subjects if one.point.bits)),
         ("words", "words", tuple(_row(one, "alone") for one in scope.subjects if _has_words(one.point))),
         ("address", "address", tuple(_row(one, _references(one.point)) for one in scope.subjects)),
+        ("symbol", "symbol", tuple(_row(one, "alone") for one in scope.subjects if one.point.unit.symbol)),
         *_newer(scope, texts, digits),
         *_protocol(device),
     )

@@ -139,7 +139,7 @@ def _telegram(lines: Lines, device: Device, telegram: Telegram) -> None:
     message = next((one for one in device.messages if one.name == telegram.message), None)
     if message is None:
         return
-    unit = device.bus.units[1]
+    unit = device.bus.units[0]
     points = [one for one in device.points if one.telegram == telegram.name and one.generated and one.form != "text"]
     for point in points:
         _heard(lines, telegram, message, point, unit)

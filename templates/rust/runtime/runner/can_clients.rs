@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: 0BSD
 //! What clients, messages and receivers of CAN do for every device, also where no vector of this one shows it.
 
+#![allow(clippy::too_many_lines, reason = "a line for each case")]
+
 use std::collections::VecDeque;
 use std::error::Error as _;
 
@@ -55,25 +57,61 @@ const ASK: Message = Message::new(
     "ask",
     0x300,
     false,
-    [Role::Constant(0xFF), Role::Unit(0), Role::Address(8), Role::Address(0), NOTHING, NOTHING, NOTHING, SUM],
+    [
+        Role::Constant(0xFF),
+        Role::Unit(0),
+        Role::Address(8),
+        Role::Address(0),
+        NOTHING,
+        NOTHING,
+        NOTHING,
+        SUM,
+    ],
 );
 const ANSWER: Message = Message::new(
     "answer",
     0x310,
     true,
-    [Role::Constant(0xFF), Role::Unit(0), Role::Address(8), Role::Address(0), Role::Raw(8), Role::Raw(0), NOTHING, SUM],
+    [
+        Role::Constant(0xFF),
+        Role::Unit(0),
+        Role::Address(8),
+        Role::Address(0),
+        Role::Raw(8),
+        Role::Raw(0),
+        NOTHING,
+        SUM,
+    ],
 );
 const CHANGE: Message = Message::new(
     "change",
     0x300,
     false,
-    [Role::Constant(0xEE), Role::Unit(0), Role::Address(8), Role::Address(0), Role::Raw(8), Role::Raw(0), NOTHING, SUM],
+    [
+        Role::Constant(0xEE),
+        Role::Unit(0),
+        Role::Address(8),
+        Role::Address(0),
+        Role::Raw(8),
+        Role::Raw(0),
+        NOTHING,
+        SUM,
+    ],
 );
 const DONE: Message = Message::new(
     "done",
     0x310,
     true,
-    [Role::Constant(0xEE), Role::Unit(0), NOTHING, NOTHING, NOTHING, NOTHING, NOTHING, SUM],
+    [
+        Role::Constant(0xEE),
+        Role::Unit(0),
+        NOTHING,
+        NOTHING,
+        NOTHING,
+        NOTHING,
+        NOTHING,
+        SUM,
+    ],
 );
 const MEASURED: Message = Message::new(
     "measured",
@@ -95,16 +133,16 @@ const READ: Option<Dialogue> = Some(Dialogue {
     answer: Some(&ANSWER),
 });
 
-const fn writes(answer: Option<&'static Message>) -> Option<Dialogue> {
-    Some(Dialogue {
+const fn writes(answer: Option<&'static Message>) -> Dialogue {
+    Dialogue {
         request: &CHANGE,
         answer,
-    })
+    }
 }
 
-static PROFILE: Profile = Profile::new((1, 9), 11, READ, writes(Some(&ANSWER)));
-static BRIEF: Profile = Profile::new((1, 9), 29, None, writes(Some(&DONE)));
-static SILENT: Profile = Profile::new((1, 9), 29, None, writes(None));
+static PROFILE: Profile = Profile::new((1, 9), 11, READ, Some(writes(Some(&ANSWER))));
+static BRIEF: Profile = Profile::new((1, 9), 29, None, Some(writes(Some(&DONE))));
+static SILENT: Profile = Profile::new((1, 9), 29, None, Some(writes(None)));
 
 /// Two frames of three words.
 #[derive(Clone, Copy, Debug)]
@@ -112,7 +150,6 @@ pub struct Measured;
 
 impl Telegram for Measured {
     const NAME: &'static str = "measured";
-    const WORDS: u16 = 6;
     const MESSAGE: &'static Message = &MEASURED;
     const PROFILE: &'static Profile = &PROFILE;
     type Slots = [Slot; 2];
@@ -135,35 +172,91 @@ fn errors() {
     tells(
         BuildError::name,
         &[
-            (BuildError::BadUnit, "bad_unit", "the device has no such unit number"),
-            (BuildError::NoMessage, "no_message", "the device has no message for this"),
+            (
+                BuildError::BadUnit,
+                "bad_unit",
+                "the device has no such unit number",
+            ),
+            (
+                BuildError::NoMessage,
+                "no_message",
+                "the device has no message for this",
+            ),
         ],
     );
     tells(
         ParseError::name,
         &[
-            (ParseError::WrongId, "wrong_id", "the frame has another identifier"),
-            (ParseError::WrongLength, "wrong_length", "the frame has not eight bytes"),
-            (ParseError::WrongConstant, "wrong_constant", "a constant byte is another"),
-            (ParseError::WrongUnit, "wrong_unit", "the frame is of another unit"),
-            (ParseError::WrongCheck, "wrong_check", "the check byte is wrong"),
+            (
+                ParseError::WrongId,
+                "wrong_id",
+                "the frame has another identifier",
+            ),
+            (
+                ParseError::WrongLength,
+                "wrong_length",
+                "the frame has not eight bytes",
+            ),
+            (
+                ParseError::WrongConstant,
+                "wrong_constant",
+                "a constant byte is another",
+            ),
+            (
+                ParseError::WrongUnit,
+                "wrong_unit",
+                "the frame is of another unit",
+            ),
+            (
+                ParseError::WrongCheck,
+                "wrong_check",
+                "the check byte is wrong",
+            ),
         ],
     );
     tells(
         ReceiveError::name,
         &[
-            (ReceiveError::Missing, "missing", "the frame with the word never came"),
-            (ReceiveError::Torn, "torn", "the words may belong to different moments"),
-            (ReceiveError::Point(Error::Overflow), "overflow", "the result does not fit its type"),
+            (
+                ReceiveError::Missing,
+                "missing",
+                "the frame with the word never came",
+            ),
+            (
+                ReceiveError::Torn,
+                "torn",
+                "the words may belong to different moments",
+            ),
+            (
+                ReceiveError::Point(Error::Overflow),
+                "overflow",
+                "the result does not fit its type",
+            ),
         ],
     );
     let errors: [(ClientError<Lost>, &str, bool); 6] = [
-        (Error::Overflow.into(), "the result does not fit its type", true),
-        (BuildError::BadUnit.into(), "the device has no such unit number", true),
-        (ClientError::Telegram(ReceiveError::Missing), "the frame with the word never came", true),
+        (
+            Error::Overflow.into(),
+            "the result does not fit its type",
+            true,
+        ),
+        (
+            BuildError::BadUnit.into(),
+            "the device has no such unit number",
+            true,
+        ),
+        (
+            ClientError::Telegram(ReceiveError::Missing),
+            "the frame with the word never came",
+            true,
+        ),
         (ClientError::Transport(Lost), "nothing came", true),
         (ClientError::NoAnswer, "the device does not answer", false),
-        (ClientError::EchoMismatch(7), "the device answered 7 to a write", false),
+        (
+            ClientError::EchoMismatch(7),
+            "the device answered 7 to a write",
+            false,
+        ),
     ];
     for (error, shown, has_source) in errors {
         assert_eq!(error.to_string(), shown);
@@ -176,61 +269,125 @@ fn frames() {
     let short = Frame::new(0x310, &[1, 2]);
     assert_eq!((short.id(), short.bytes()), (0x310, &[1, 2][..]));
     assert_eq!(short, Frame::new(0x310, &[1, 2]));
-    assert_eq!(Frame::new(1, &[1, 2, 3, 4, 5, 6, 7, 8, 9]).bytes(), [1, 2, 3, 4, 5, 6, 7, 8]);
-    assert_eq!(format!("{short:?}"), "Frame { id: 784, length: 2, data: [1, 2, 0, 0, 0, 0, 0, 0] }");
-    assert_eq!((ANSWER.name(), ANSWER.id(5), ASK.id(5)), ("answer", 0x315, 0x300));
+    assert_eq!(
+        Frame::new(1, &[1, 2, 3, 4, 5, 6, 7, 8, 9]).bytes(),
+        [1, 2, 3, 4, 5, 6, 7, 8]
+    );
+    assert_eq!(
+        format!("{short:?}"),
+        "Frame { id: 784, length: 2, data: [1, 2, 0, 0, 0, 0, 0, 0] }"
+    );
+    assert_eq!(
+        (ANSWER.name(), ANSWER.id(5), ASK.id(5)),
+        ("answer", 0x315, 0x300)
+    );
     let build = |message: &Message, unit| message.build(&PROFILE, unit, 0xA1B2, 0xC3D4);
-    let built = build(&ANSWER, 5).expect("a frame");
-    assert_eq!(built, Frame::new(0x315, &[0xFF, 5, 0xA1, 0xB2, 0xC3, 0xD4, 0, 0xFE]));
-    assert_eq!(build(&ASK, 9), Ok(Frame::new(0x300, &[0xFF, 9, 0xA1, 0xB2, 0, 0, 0, 0xE5])));
+    let whole = build(&ANSWER, 5).expect("a frame");
+    assert_eq!(
+        whole,
+        Frame::new(0x315, &[0xFF, 5, 0xA1, 0xB2, 0xC3, 0xD4, 0, 0xFE])
+    );
+    assert_eq!(
+        build(&ASK, 9),
+        Ok(Frame::new(0x300, &[0xFF, 9, 0xA1, 0xB2, 0, 0, 0, 0xE5]))
+    );
     assert_eq!(build(&MEASURED, 1), Ok(Frame::new(0x401, &[0; 8])));
-    assert_eq!([0, 10].map(|unit| build(&ASK, unit)), [Err(BuildError::BadUnit); 2]);
-    assert_eq!([0, 1, 9, 10].map(|unit| PROFILE.has_unit(unit)), [false, true, true, false]);
-    assert_eq!((PROFILE.identifier_bits(), BRIEF.identifier_bits()), (11, 29));
+    assert_eq!(
+        [0, 10].map(|unit| build(&ASK, unit)),
+        [Err(BuildError::BadUnit); 2]
+    );
+    assert_eq!(
+        [0, 1, 9, 10].map(|unit| PROFILE.has_unit(unit)),
+        [false, true, true, false]
+    );
+    assert_eq!(
+        (PROFILE.identifier_bits(), BRIEF.identifier_bits()),
+        (11, 29)
+    );
     let (address, raw) = (0xA1B2, 0xC3D4);
-    assert_eq!(ANSWER.parse(5, &built), Ok(Content { address, raw }));
+    assert_eq!(ANSWER.parse(5, &whole), Ok(Content { address, raw }));
     let changed = |place: usize, byte| {
-        let mut bytes = built.bytes().to_vec();
+        let mut bytes = whole.bytes().to_vec();
         bytes[place] ^= byte;
         ANSWER.parse(5, &Frame::new(0x315, &bytes))
     };
-    assert_eq!((changed(0, 1), changed(6, 1)), (Err(ParseError::WrongConstant), Err(ParseError::WrongConstant)));
-    assert_eq!((changed(1, 1), changed(1, 0x80)), (Err(ParseError::WrongUnit), Err(ParseError::WrongUnit)));
-    assert_eq!((changed(2, 1), changed(7, 0x80)), (Err(ParseError::WrongCheck), Err(ParseError::WrongCheck)));
-    assert_eq!(ANSWER.parse(4, &built), Err(ParseError::WrongId));
-    for wrong in [&built.bytes()[..7], &[built.bytes(), &[0]].concat()] {
-        assert_eq!(ANSWER.parse(5, &Frame::new(0x315, wrong)), Err(ParseError::WrongLength));
+    assert_eq!(
+        (changed(0, 1), changed(6, 1)),
+        (
+            Err(ParseError::WrongConstant),
+            Err(ParseError::WrongConstant)
+        )
+    );
+    assert_eq!(
+        (changed(1, 1), changed(1, 0x80)),
+        (Err(ParseError::WrongUnit), Err(ParseError::WrongUnit))
+    );
+    assert_eq!(
+        (changed(2, 1), changed(7, 0x80)),
+        (Err(ParseError::WrongCheck), Err(ParseError::WrongCheck))
+    );
+    assert_eq!(ANSWER.parse(4, &whole), Err(ParseError::WrongId));
+    for wrong in [&whole.bytes()[..7], &[whole.bytes(), &[0]].concat()] {
+        assert_eq!(
+            ANSWER.parse(5, &Frame::new(0x315, wrong)),
+            Err(ParseError::WrongLength)
+        );
     }
 }
 
 /// A part of the telegram of unit 5.
 fn part(multiplexer: u8, words: [u16; 3]) -> Frame {
-    let [[a, b], [c, d], [e, f]] = words.map(u16::to_be_bytes);
-    Frame::new(0x405, &[multiplexer, b, a, c, d, e, f, 0])
+    let [first, second, third] = words.map(u16::to_be_bytes);
+    let first = [multiplexer, first[1], first[0]];
+    Frame::new(0x405, &[&first[..], &second, &third, &[0]].concat())
 }
 
 fn receivers() {
     let mut receiver = Receiver::<Measured>::new(5);
-    assert_eq!((receiver.taken(), receiver.word(0)), (0, Err(ReceiveError::Missing)));
+    assert_eq!(
+        (receiver.taken(), receiver.word(0)),
+        (0, Err(ReceiveError::Missing))
+    );
     assert_eq!(receiver.raw::<Speed>(), Err(ReceiveError::Missing));
     assert!(!receiver.came_since::<Speed>(0));
     assert!(!receiver.take(&part(2, [1, 2, 3])));
     assert!(!receiver.take(&Frame::new(0x404, part(0, [1, 2, 3]).bytes())));
     assert!(receiver.take(&part(0, [0x0102, 0x0304, 0x0506])));
     assert_eq!(receiver.taken(), 1);
-    assert_eq!([0, 1, 2].map(|one| receiver.word(one)), [Ok(0x0102), Ok(0x0304), Ok(0x0506)]);
-    assert_eq!([3, 6, 7].map(|one| receiver.word(one)), [Err(ReceiveError::Missing); 3]);
-    assert_eq!((receiver.raw::<Speed>(), receiver.value::<Speed>()), (Ok(0x0304), Ok(0x0304)));
-    assert_eq!((receiver.came_since::<Speed>(0), receiver.came_since::<Speed>(1)), (true, false));
+    assert_eq!(
+        [0, 1, 2].map(|one| receiver.word(one)),
+        [Ok(0x0102), Ok(0x0304), Ok(0x0506)]
+    );
+    assert_eq!(
+        [3, 6, 7].map(|one| receiver.word(one)),
+        [Err(ReceiveError::Missing); 3]
+    );
+    assert_eq!(
+        (receiver.raw::<Speed>(), receiver.value::<Speed>()),
+        (Ok(0x0304), Ok(0x0304))
+    );
+    assert_eq!(
+        (
+            receiver.came_since::<Speed>(0),
+            receiver.came_since::<Speed>(1)
+        ),
+        (true, false)
+    );
     assert!(!receiver.came_since::<Hours>(0));
     assert!(receiver.take(&part(1, [7, 8, 9])));
-    assert_eq!((receiver.taken(), receiver.came_since::<Hours>(0)), (2, true));
+    assert_eq!(
+        (receiver.taken(), receiver.came_since::<Hours>(0)),
+        (2, true)
+    );
     assert!(!receiver.came_since::<Hours>(1));
     assert_eq!(receiver.raw::<Whole3>(), Ok(0x0008_0007));
     assert_eq!(receiver.raw::<Date>(), Ok(0x0506_0007_0008_0009));
     assert!(receiver.take(&part(0, [0, 0xFFFF, 0])));
     let wrong = ReceiveError::Point(Error::OutOfRange);
-    assert_eq!((receiver.value::<Speed>(), receiver.value_with::<Speed>(())), (Err(wrong), Err(wrong)));
+    assert_eq!(
+        (receiver.value::<Speed>(), receiver.value_with::<Speed>(())),
+        (Err(wrong), Err(wrong))
+    );
     let mut nobody = Receiver::<Measured>::new(0);
     assert!(!nobody.take(&Frame::new(0x400, part(0, [1, 2, 3]).bytes())));
 }
@@ -248,7 +405,10 @@ fn torn_words() {
         (vec![high(1), high(1), low(7)], torn),
         (vec![high(1), low(7), high(1), low(8)], Ok(0x0001_0007)),
         (vec![high(1), low(7), high(1), low(8), low(9)], torn),
-        (vec![high(1), low(7), high(1), low(8), high(1)], Ok(0x0001_0008)),
+        (
+            vec![high(1), low(7), high(1), low(8), high(1)],
+            Ok(0x0001_0008),
+        ),
         (vec![low(6), high(1), high(1), low(8)], torn),
     ] {
         let mut receiver = Receiver::<Measured>::new(5);
@@ -344,7 +504,10 @@ macro_rules! conversations {
             let change = |address, raw| frame(&CHANGE, address, raw);
             let noise = part(0, [1, 2, 3]);
             let mut bus = Bus::new(&[
-                (asked(0x0102), vec![noise, answered(0x0103, 8), answered(0x0102, 7)]),
+                (
+                    asked(0x0102),
+                    vec![noise, answered(0x0103, 8), answered(0x0102, 7)],
+                ),
                 (asked(0x0102), vec![answered(0x0102, 0xFFFF)]),
                 (asked(0x0202), vec![answered(0x0202, 1)]),
                 (asked(0x0201), vec![answered(0x0201, 2)]),
@@ -363,15 +526,24 @@ macro_rules! conversations {
             let mut client = client.patient(3);
             assert_eq!($wait(client.read::<Word>()), Ok(7));
             let heard = &client.listener().0;
-            assert_eq!(*heard, [noise, answered(0x0102, 6), noise, answered(0x0103, 8)]);
+            assert_eq!(
+                *heard,
+                [noise, answered(0x0102, 6), noise, answered(0x0103, 8)]
+            );
             let wrong = ClientError::Point(Error::OutOfRange);
             assert_eq!($wait(client.read::<Word>()), Err(wrong));
             assert_eq!($wait(client.read_with::<Long>(())), Ok(0x0001_0002));
             assert_eq!($wait(client.write::<Word>(8)), Ok(()));
-            assert_eq!($wait(client.write::<Word>(9)), Err(ClientError::EchoMismatch(8)));
+            assert_eq!(
+                $wait(client.write::<Word>(9)),
+                Err(ClientError::EchoMismatch(8))
+            );
             assert_eq!($wait(client.write_with::<Long>(0x0003_0004, ())), Ok(()));
             assert_eq!($wait(client.update::<Group>(7)), Ok(()));
-            assert_eq!($wait(client.write_word(0x0030, 1)), Err(ClientError::Transport(Lost)));
+            assert_eq!(
+                $wait(client.write_word(0x0030, 1)),
+                Err(ClientError::Transport(Lost))
+            );
             assert_eq!($wait(client.write::<Word>(0xFFFF)), Err(wrong));
             assert_eq!($wait(client.update::<Group>(0xFFFF)), Err(wrong));
             client.transport().came.clear();
@@ -400,7 +572,10 @@ macro_rules! conversations {
         }
 
         fn $telegrams() {
-            let (low, high) = (|word| part(0, [0, word, word]), |word| part(1, [word, 0, 0]));
+            let (low, high) = (
+                |word| part(0, [0, word, word]),
+                |word| part(1, [word, 0, 0]),
+            );
             let bus = Bus::hears(&[
                 low(5),
                 high(1),
@@ -415,7 +590,9 @@ macro_rules! conversations {
                 high(2),
             ]);
             let receiver = Receiver::<Measured>::new(5);
-            let mut client = $client::new(bus, &PROFILE, 5).listening(receiver).patient(4);
+            let mut client = $client::new(bus, &PROFILE, 5)
+                .listening(receiver)
+                .patient(4);
             assert_eq!($wait(client.receive::<Speed>()), Ok(5));
             assert_eq!(client.listener().raw::<Speed>(), Ok(5));
             assert_eq!($wait(client.receive_with::<Speed>(())), Ok(7));
@@ -428,9 +605,14 @@ macro_rules! conversations {
             let client = $client::new(bus, &PROFILE, 5).listening((Log::default(), Log::default()));
             let mut client = client;
             assert_eq!($wait(client.listen()), Ok(()));
-            assert_eq!((&client.listener().0 .0, &client.listener().1 .0), (&vec![high(1)], &vec![high(1)]));
+            assert_eq!(
+                (&client.listener().0 .0, &client.listener().1 .0),
+                (&vec![high(1)], &vec![high(1)])
+            );
             let bus = Bus::hears(&[high(1), low(7), high(2)]);
-            let mut client = $client::new(bus, &PROFILE, 5).listening(receiver).patient(3);
+            let mut client = $client::new(bus, &PROFILE, 5)
+                .listening(receiver)
+                .patient(3);
             let torn = ClientError::Telegram(ReceiveError::Torn);
             assert_eq!($wait(client.receive::<Hours>()), Err(torn));
         }

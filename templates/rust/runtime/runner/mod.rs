@@ -17,8 +17,8 @@ use std::sync::Arc;
 use std::task::{Context, Poll, Wake, Waker};
 
 use fieldscribe_runtime::{
-    BitGroup, Code, Coded, CountReadable, CountWritable, Decoded, Documented, Encodable, Error, Flags,
-    Point, Raw, Readable, Reading, Text, Whole, Writable,
+    BitGroup, Code, Coded, CountReadable, CountWritable, Decoded, Documented, Encodable, Error,
+    Flags, Point, Raw, Readable, Reading, Text, Whole, Writable,
 };
 
 /// Nothing, or what differs.
@@ -608,14 +608,20 @@ where
     let truth = vector.number("truth").map(|truth| u64::from(truth == 1));
     same(truth.unwrap_or(number), found)?;
     same(found, flag.number(word.bits()))?;
-    same(truth.is_some_and(|truth| truth != number), flag.is_active_low())?;
+    same(
+        truth.is_some_and(|truth| truth != number),
+        flag.is_active_low(),
+    )?;
     let mask = flag.mask();
     same(number, (word.bits() & mask) >> mask.trailing_zeros())?;
     same(set.map(F::bits), [word.bits(), word.bits() ^ mask])?;
     let named = F::FLAGS.iter().fold(0, |named, flag| named | flag.mask());
     let nothing = F::default().bits();
     same((0, 0), (flag.number(nothing), nothing & !named))?;
-    same(true, format!("{word:?}").starts_with(&format!("{}(0x", F::NAME)))
+    same(
+        true,
+        format!("{word:?}").starts_with(&format!("{}(0x", F::NAME)),
+    )
 }
 
 /// The number that a name of a flag's numbers stands for.
@@ -644,6 +650,15 @@ where
     let raw: P::Raw = vector.raw("raw");
     let words: Vec<u16> = vector.numbers("words");
     same(words.as_slice(), P::to_words(raw).as_ref())?;
+    if P::ADDRESSES.len() > 1 {
+        let read = raw.into_words();
+        let mut parts: Vec<_> = P::ADDRESSES.iter().zip(read.as_ref()).collect();
+        parts.sort();
+        same(
+            words.clone(),
+            parts.into_iter().map(|(_, word)| *word).collect(),
+        )?;
+    }
     same(Ok(raw), P::from_received(words.iter().copied()))?;
     same(
         Err(Error::WrongLength),
@@ -663,6 +678,11 @@ where
     if vector.number("raw_min").is_some() {
         same(vector.raw("raw_min"), P::RAW_MIN)?;
         same(vector.raw("raw_max"), P::RAW_MAX)?;
+    }
+    if P::ADDRESSES.len() > 1 {
+        let mut addresses = P::ADDRESSES.to_vec();
+        addresses.sort_unstable();
+        same((P::ADDRESS..).take(P::WORDS.into()).collect(), addresses)?;
     }
     place_of::<P>(vector, references)
 }
@@ -688,6 +708,11 @@ pub fn place<P: Point>(vector: &Vector) -> Outcome {
     same(addresses.as_slice(), P::ADDRESSES)?;
     same(vector.number("index"), P::INDEX.map(i128::from))?;
     same(vector.said("telegram").as_deref(), P::TELEGRAM)
+}
+
+/// The symbol of a point's unit.
+pub fn symbol<P: Point>(vector: &Vector) -> Outcome {
+    same(vector.text("symbol").as_str(), P::UNIT)
 }
 
 /// The bits of a word that are always written as a constant.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: 0BSD
 //! What the runtime does for every device, also where no vector of this one shows it.
 
+#![allow(clippy::too_many_lines, reason = "a line for each case")]
+
 use std::collections::VecDeque;
 use std::fmt;
 
@@ -33,7 +35,8 @@ macro_rules! made_up {
             type Output<V> = Result<V, fieldscribe_runtime::Error>;
 
             fn decode_with(raw: $raw, (): ()) -> Result<$raw, fieldscribe_runtime::Error> {
-                fieldscribe_runtime::allowed(raw != <$raw as fieldscribe_runtime::Raw>::MAX).map(|()| raw)
+                fieldscribe_runtime::allowed(raw != <$raw as fieldscribe_runtime::Raw>::MAX)
+                    .map(|()| raw)
             }
         }
 
@@ -149,16 +152,48 @@ fn errors() {
     tells(
         Error::name,
         &[
-            (Error::OutOfRange, "out_of_range", "the raw number is outside what is allowed"),
-            (Error::NotANumber, "not_a_number", "the value is not a number"),
-            (Error::UnknownValue, "unknown_value", "the enum has no such number"),
+            (
+                Error::OutOfRange,
+                "out_of_range",
+                "the raw number is outside what is allowed",
+            ),
+            (
+                Error::NotANumber,
+                "not_a_number",
+                "the value is not a number",
+            ),
+            (
+                Error::UnknownValue,
+                "unknown_value",
+                "the enum has no such number",
+            ),
             (Error::ZeroFactor, "zero_factor", "a factor is zero"),
             (Error::NoCase, "no_case", "no case of the scale holds"),
-            (Error::Overflow, "overflow", "the result does not fit its type"),
-            (Error::Special, "special", "the raw number is a special code and no quantity"),
-            (Error::WrongLength, "wrong_length", "the point has another number of words"),
-            (Error::WrongSpace, "wrong_space", "the reply is of another space than the point's"),
-            (Error::NotHeard, "not_heard", "the last telegram was not answered"),
+            (
+                Error::Overflow,
+                "overflow",
+                "the result does not fit its type",
+            ),
+            (
+                Error::Special,
+                "special",
+                "the raw number is a special code and no quantity",
+            ),
+            (
+                Error::WrongLength,
+                "wrong_length",
+                "the point has another number of words",
+            ),
+            (
+                Error::WrongSpace,
+                "wrong_space",
+                "the reply is of another space than the point's",
+            ),
+            (
+                Error::NotHeard,
+                "not_heard",
+                "the last telegram was not answered",
+            ),
         ],
     );
     for (space, name) in [
@@ -200,15 +235,27 @@ fn rounding() {
     assert_eq!(arithmetic::round_i64(-power(63)), Some(i64::MIN));
     assert_eq!(arithmetic::round_i64(-power(63) - 2048.0), None);
     assert_eq!(arithmetic::round_i128(power(65)), None);
-    assert_eq!(arithmetic::round_i128(power(65) - 8192.0), Some((1 << 65) - 8192));
+    assert_eq!(
+        arithmetic::round_i128(power(65) - 8192.0),
+        Some((1 << 65) - 8192)
+    );
     assert_eq!(arithmetic::round_i128(-power(65)), Some(-(1 << 65)));
     assert_eq!(arithmetic::round_i128(-power(65) - 8192.0), None);
     assert_eq!(arithmetic::round_i32(f64::NAN), None);
     for dividend in -20_i8..20 {
         let away = |half: i8| dividend.signum() * ((dividend.abs() + half) / (2 * half));
-        assert_eq!(arithmetic::div_round_i32::<8>(dividend.into()), away(4).into());
-        assert_eq!(arithmetic::div_round_i64::<6>(dividend.into()), away(3).into());
-        assert_eq!(arithmetic::div_round_i128::<4>(dividend.into()), away(2).into());
+        assert_eq!(
+            arithmetic::div_round_i32::<8>(dividend.into()),
+            away(4).into()
+        );
+        assert_eq!(
+            arithmetic::div_round_i64::<6>(dividend.into()),
+            away(3).into()
+        );
+        assert_eq!(
+            arithmetic::div_round_i128::<4>(dividend.into()),
+            away(2).into()
+        );
     }
     assert_eq!(arithmetic::div_round_i32::<1>(i32::MIN), i32::MIN);
     assert_eq!(arithmetic::div_round_i64::<3>(8), 3);
@@ -225,15 +272,27 @@ fn rounding() {
         ((1 << 100) + 1, 1 << 47, power(53)),
         (((1 << 53) + 1) * 3 + 1, 3, power(53) + 2.0),
     ] {
-        assert_eq!(arithmetic::quotient(dividend, divisor).to_bits(), value.to_bits());
+        assert_eq!(
+            arithmetic::quotient(dividend, divisor).to_bits(),
+            value.to_bits()
+        );
     }
 }
 
 fn bits() {
-    assert_eq!([0, 1, 2, -1].map(arithmetic::bit).map(Result::ok), [Some(false), Some(true), None, None]);
-    assert_eq!([1, 2, 5, 6].map(|one| arithmetic::within(one, 2, 5).is_ok()), [false, true, true, false]);
+    assert_eq!(
+        [0, 1, 2, -1].map(arithmetic::bit).map(Result::ok),
+        [Some(false), Some(true), None, None]
+    );
+    assert_eq!(
+        [1, 2, 5, 6].map(|one| arithmetic::within(one, 2, 5).is_ok()),
+        [false, true, true, false]
+    );
     let exponents = [-3, -2, 4, 5].map(|raw| arithmetic::exponent(raw, -2, 4));
-    assert_eq!(exponents, [Err(Error::Overflow), Ok(-2), Ok(4), Err(Error::Overflow)]);
+    assert_eq!(
+        exponents,
+        [Err(Error::Overflow), Ok(-2), Ok(4), Err(Error::Overflow)]
+    );
     assert_eq!(arithmetic::line(5, -3, 7), Ok(-8));
     assert_eq!(arithmetic::line(i64::MAX, 2, 0), Err(Error::Overflow));
     assert_eq!(arithmetic::line(i64::MAX, 1, 1), Err(Error::Overflow));
@@ -260,7 +319,13 @@ fn bits() {
 }
 
 /// A type of raw numbers: its words, its ends, and what is rounded to it.
-fn number_of<R: Raw + PartialEq + fmt::Debug>(raw: R, wide: i64, words: &[u16], low: f64, high: f64) {
+fn number_of<R: Raw + PartialEq + fmt::Debug>(
+    raw: R,
+    wide: i64,
+    words: &[u16],
+    low: f64,
+    high: f64,
+) {
     assert_eq!(raw.to_i64(), wide);
     assert_eq!(raw.into_words().as_ref(), words);
     assert_eq!(R::from_words(raw.into_words()), raw);
@@ -275,23 +340,47 @@ fn numbers() {
     number_of(-3_i8, -3, &[0xFFFD], -128.0, 127.0);
     number_of(0xA5C3_u16, 0xA5C3, &[0xA5C3], 0.0, 65_535.0);
     number_of(-3_i16, -3, &[0xFFFD], -32_768.0, 32_767.0);
-    number_of(0xA5C3_1234_u32, 0xA5C3_1234, &[0xA5C3, 0x1234], 0.0, 4_294_967_295.0);
-    number_of(-3_i32, -3, &[0xFFFF, 0xFFFD], -2_147_483_648.0, 2_147_483_647.0);
+    number_of(
+        0xA5C3_1234_u32,
+        0xA5C3_1234,
+        &[0xA5C3, 0x1234],
+        0.0,
+        4_294_967_295.0,
+    );
+    number_of(
+        -3_i32,
+        -3,
+        &[0xFFFF, 0xFFFD],
+        -2_147_483_648.0,
+        2_147_483_647.0,
+    );
     number_of(true, 1, &[1], 0.0, 1.0);
-    assert_eq!(0x0123_4567_89AB_CDEF_i64.into_words(), [0x0123, 0x4567, 0x89AB, 0xCDEF]);
-    assert_eq!(u64::from_words([0x0123, 0x4567, 0x89AB, 0xCDEF]), 0x0123_4567_89AB_CDEF);
+    assert_eq!(
+        0x0123_4567_89AB_CDEF_i64.into_words(),
+        [0x0123, 0x4567, 0x89AB, 0xCDEF]
+    );
+    assert_eq!(
+        u64::from_words([0x0123, 0x4567, 0x89AB, 0xCDEF]),
+        0x0123_4567_89AB_CDEF
+    );
     assert_eq!(i64::from_words([0x8000, 0, 0, 1]).to_i64(), i64::MIN + 1);
     assert_eq!((<i64 as Raw>::MIN, <i64 as Raw>::MAX), (i64::MIN, i64::MAX));
     assert_eq!((<u64 as Raw>::MIN, <u64 as Raw>::MAX), (0, u64::MAX));
     assert_eq!([5, u64::MAX].map(Raw::to_i64), [5, i64::MAX]);
-    assert_eq!(<u64 as Raw>::round(18_446_744_073_709_549_568.0), Some(u64::MAX - 2047));
+    assert_eq!(
+        <u64 as Raw>::round(18_446_744_073_709_549_568.0),
+        Some(u64::MAX - 2047)
+    );
     assert_eq!(<u64 as Raw>::round(18_446_744_073_709_551_616.0), None);
     assert_eq!(<i64 as Raw>::round(-0.5), Some(-1));
-    assert_eq!(bool::from_words([0x0100]), true);
-    assert_eq!(bool::from_words([0]), false);
+    assert!(bool::from_words([0x0100]));
+    assert!(!bool::from_words([0]));
     assert_eq!(<[u16; 2] as Raw>::round(0.0), None);
     assert_eq!(Raw::to_i64([7_u16; 2]), 0);
-    assert_eq!((<[u16; 2] as Raw>::MIN, <[u16; 2] as Raw>::MAX), ([0; 2], [0xFFFF; 2]));
+    assert_eq!(
+        (<[u16; 2] as Raw>::MIN, <[u16; 2] as Raw>::MAX),
+        ([0; 2], [0xFFFF; 2])
+    );
 }
 
 /// A quotient rounded to nearest, halves away from zero.
@@ -315,7 +404,12 @@ fn rules() {
     }
 }
 
-fn rule_with(rule: Rule, [num, den, offset, over]: [i64; 4], (eighths, factor): (i64, f32), raw: i64) {
+fn rule_with(
+    rule: Rule,
+    [num, den, offset, over]: [i64; 4],
+    (eighths, factor): (i64, f32),
+    raw: i64,
+) {
     let (bits, real) = (factor.to_bits(), arithmetic::to_f64);
     let times = rule.times_f32(bits).expect("a factor");
     let divided = rule.over_f32(bits).expect("a divisor");
@@ -329,15 +423,26 @@ fn rule_with(rule: Rule, [num, den, offset, over]: [i64; 4], (eighths, factor): 
         (limited, [eighths, 8]),
     ] {
         let (above, below) = (num * up, den * down);
-        let sum = |count: i64, per: i64| (count * above * over + offset * below * per, below * per * over);
-        let (dividend, divisor) = sum(raw, 10);
-        assert_eq!(rule.encode_count::<10>(raw), Ok(nearest(dividend, divisor)));
-        let (dividend, divisor) = sum(1, 1);
-        assert_eq!(rule.limit(), Ok(nearest(dividend, divisor)));
+        let sum = |count: i64, per: i64| {
+            (
+                count * above * over + offset * below * per,
+                below * per * over,
+            )
+        };
+        let (total, by) = sum(raw, 10);
+        assert_eq!(rule.encode_count::<10>(raw), Ok(nearest(total, by)));
+        let (total, by) = sum(1, 1);
+        assert_eq!(rule.limit(), Ok(nearest(total, by)));
         let back = (raw * over - offset) * below;
-        assert_eq!(rule.decode_count::<10>(raw), Ok(nearest(back * 10, above * over)));
+        assert_eq!(
+            rule.decode_count::<10>(raw),
+            Ok(nearest(back * 10, above * over))
+        );
         let value = rule.decode(raw).expect("a value");
-        assert_eq!(value.abs().to_bits(), (real(back) / real(above * over)).abs().to_bits());
+        assert_eq!(
+            value.abs().to_bits(),
+            (real(back) / real(above * over)).abs().to_bits()
+        );
         assert_eq!(value < 0.0, back.signum() * above.signum() < 0);
         let found = rule.encode(real(raw) / 4.0);
         let exact = real(raw) / 4.0 * real(above) / real(below) + real(offset) / real(over);
@@ -364,53 +469,122 @@ fn rules_at_their_ends() {
     }
     let odd = 0x4B7F_FFFF;
     let twice = one.times_f32(odd).and_then(|rule| rule.times_f32(odd));
-    assert_eq!(twice.and_then(|rule| rule.times_f32(odd)), Err(Error::Overflow));
+    assert_eq!(
+        twice.and_then(|rule| rule.times_f32(odd)),
+        Err(Error::Overflow)
+    );
     for none in [0, 0x8000_0000, 0x7F80_0000, 0xFF80_0000, 0x7FC0_0000] {
         assert_eq!(one.times_f32(none), Err(Error::ZeroFactor));
         assert_eq!(one.over_f32(none), Err(Error::ZeroFactor));
-        assert_eq!(one.plus(5, 1).limited_by_f32(none).and_then(Rule::limit), Ok(5));
+        assert_eq!(
+            one.plus(5, 1).limited_by_f32(none).and_then(Rule::limit),
+            Ok(5)
+        );
     }
-    assert_eq!((one.times(0), one.over(0)), (Err(Error::ZeroFactor), Err(Error::ZeroFactor)));
+    assert_eq!(
+        (one.times(0), one.over(0)),
+        (Err(Error::ZeroFactor), Err(Error::ZeroFactor))
+    );
     let nothing = one.limited_by(0).expect("a limit");
-    assert_eq!((nothing.limit(), nothing.decode(1)), (Ok(0), Err(Error::ZeroFactor)));
+    assert_eq!(
+        (nothing.limit(), nothing.decode(1)),
+        (Ok(0), Err(Error::ZeroFactor))
+    );
     assert_eq!(nothing.decode_count::<1>(1), Err(Error::ZeroFactor));
     let nothing = nothing.times_f32(power(0)).expect("a limit");
-    assert_eq!((nothing.limit(), nothing.decode_count::<1>(1)), (Ok(0), Err(Error::ZeroFactor)));
+    assert_eq!(
+        (nothing.limit(), nothing.decode_count::<1>(1)),
+        (Ok(0), Err(Error::ZeroFactor))
+    );
     for end in [i64::MIN, -1, i64::MAX] {
-        assert_eq!((one.encode_count::<1>(end), one.decode_count::<1>(end)), (Ok(end), Ok(end)));
+        assert_eq!(
+            (one.encode_count::<1>(end), one.decode_count::<1>(end)),
+            (Ok(end), Ok(end))
+        );
         let same = one.times_f32(power(0)).expect("a factor");
-        assert_eq!((same.encode_count::<1>(end), same.decode_count::<1>(end)), (Ok(end), Ok(end)));
+        assert_eq!(
+            (same.encode_count::<1>(end), same.decode_count::<1>(end)),
+            (Ok(end), Ok(end))
+        );
     }
     assert_eq!(most.encode_count::<1>(2), Err(Error::OutOfRange));
     assert_eq!(most.plus(1, 1).encode_count::<1>(1), Err(Error::OutOfRange));
     assert_eq!(most.plus(1, 1).limit(), Err(Error::Overflow));
-    assert_eq!(Rule::new(1, 2).decode_count::<1>(i64::MAX), Err(Error::Overflow));
+    assert_eq!(
+        Rule::new(1, 2).decode_count::<1>(i64::MAX),
+        Err(Error::Overflow)
+    );
     assert_eq!(Rule::new(1, 2).decode(i64::MAX), Err(Error::Overflow));
     assert_eq!(one.plus(-1, 1).decode(i64::MAX), Err(Error::Overflow));
-    assert_eq!(Rule::new(-1, 1).decode_count::<1>(i64::MIN), Err(Error::Overflow));
+    assert_eq!(
+        Rule::new(-1, 1).decode_count::<1>(i64::MIN),
+        Err(Error::Overflow)
+    );
     let large = one.times_f32(power(63)).expect("a factor");
-    assert_eq!((large.encode_count::<1>(1), large.limit()), (Err(Error::OutOfRange), Err(Error::Overflow)));
-    assert_eq!((large.encode_count::<1>(-1), large.encode_count::<1>(0)), (Ok(i64::MIN), Ok(0)));
-    let largest = one.times_f32(power(127)).and_then(|rule| rule.times_f32(power(127))).expect("factors");
-    assert_eq!((largest.encode_count::<1>(0), largest.encode_count::<1>(1)), (Ok(0), Err(Error::OutOfRange)));
+    assert_eq!(
+        (large.encode_count::<1>(1), large.limit()),
+        (Err(Error::OutOfRange), Err(Error::Overflow))
+    );
+    assert_eq!(
+        (large.encode_count::<1>(-1), large.encode_count::<1>(0)),
+        (Ok(i64::MIN), Ok(0))
+    );
+    let largest = one
+        .times_f32(power(127))
+        .and_then(|rule| rule.times_f32(power(127)))
+        .expect("factors");
+    assert_eq!(
+        (largest.encode_count::<1>(0), largest.encode_count::<1>(1)),
+        (Ok(0), Err(Error::OutOfRange))
+    );
     assert_eq!(largest.decode_count::<1>(i64::MAX), Ok(0));
     let divided = one.over_f32(power(63)).expect("a divisor");
-    assert_eq!((divided.decode_count::<1>(-1), divided.decode_count::<1>(1)), (Ok(i64::MIN), Err(Error::Overflow)));
-    for (count, offset, found) in [(1, 0, 0), (1, 1, 1), (1, -1, 0), (-1, 1, 0), (-1, -1, -1), (0, 1, 1), (0, -1, -1)] {
-        let tiny = one.plus(offset, 2).times_f32(power(-149)).expect("a factor");
+    assert_eq!(
+        (divided.decode_count::<1>(-1), divided.decode_count::<1>(1)),
+        (Ok(i64::MIN), Err(Error::Overflow))
+    );
+    for (count, offset, found) in [
+        (1, 0, 0),
+        (1, 1, 1),
+        (1, -1, 0),
+        (-1, 1, 0),
+        (-1, -1, -1),
+        (0, 1, 1),
+        (0, -1, -1),
+    ] {
+        let tiny = one
+            .plus(offset, 2)
+            .times_f32(power(-149))
+            .expect("a factor");
         assert_eq!(tiny.encode_count::<1>(count), Ok(found));
-        let third = Rule::new(1, 3).plus(offset, 2).times_f32(power(-40)).expect("a factor");
+        let third = Rule::new(1, 3)
+            .plus(offset, 2)
+            .times_f32(power(-40))
+            .expect("a factor");
         assert_eq!(third.encode_count::<1>(count), Ok(found));
     }
     let third = Rule::new(1, 3).times_f32(power(62)).expect("a factor");
     assert_eq!(third.encode_count::<1>(1), Ok(1_537_228_672_809_129_301));
     assert_eq!(third.encode_count::<1>(-2), Ok(-3_074_457_345_618_258_603));
-    let repeated = |bits: u32| (0..9).try_fold(one, |rule, _| rule.times_f32(bits)).expect("factors");
+    let repeated = |bits: u32| {
+        (0..9)
+            .try_fold(one, |rule, _| rule.times_f32(bits))
+            .expect("factors")
+    };
     assert_eq!(repeated(power(127)).encode(1.0).to_bits(), 2046 << 52);
     assert_eq!(repeated(power(-149)).encode(1.0).to_bits(), 0);
-    assert_eq!(one.times_f32(1).map(|rule| rule.encode(1.0)), Ok(f64::from(f32::from_bits(1))));
-    assert_eq!(one.times_f32(0x7F_FFFF).map(|rule| rule.encode(1.0)), Ok(f64::from(f32::from_bits(0x7F_FFFF))));
-    assert_eq!(one.times_f32(0xFF7F_FFFF).map(|rule| rule.encode(1.0)), Ok(f64::from(f32::MIN)));
+    assert_eq!(
+        one.times_f32(1).map(|rule| rule.encode(1.0)),
+        Ok(f64::from(f32::from_bits(1)))
+    );
+    assert_eq!(
+        one.times_f32(0x7F_FFFF).map(|rule| rule.encode(1.0)),
+        Ok(f64::from(f32::from_bits(0x7F_FFFF)))
+    );
+    assert_eq!(
+        one.times_f32(0xFF7F_FFFF).map(|rule| rule.encode(1.0)),
+        Ok(f64::from(f32::MIN))
+    );
 }
 
 fn orders() {
@@ -432,15 +606,27 @@ fn words_of_digits() {
     assert_eq!(digits::split(40_567), [405, 6, 7]);
     assert_eq!(digits::split::<0>(40_567), []);
     assert_eq!(digits::join::<Number>(&[5_u16, 0, 6]), Ok(506));
-    assert_eq!(digits::join::<Number>(&[5_u16, 3]), Err(Error::UnknownValue));
+    assert_eq!(
+        digits::join::<Number>(&[5_u16, 3]),
+        Err(Error::UnknownValue)
+    );
     assert_eq!(digits::join::<Number>(&[6_u16, 5, 5, 1, 6]), Ok(65_516));
-    assert_eq!(digits::join::<Number>(&[7_u16, 0, 0, 0, 0]), Err(Error::UnknownValue));
-    assert_eq!(digits::join::<Number>(&[6_u16, 5, 5, 5, 0]), Err(Error::UnknownValue));
+    assert_eq!(
+        digits::join::<Number>(&[7_u16, 0, 0, 0, 0]),
+        Err(Error::UnknownValue)
+    );
+    assert_eq!(
+        digits::join::<Number>(&[6_u16, 5, 5, 5, 0]),
+        Err(Error::UnknownValue)
+    );
     assert_eq!(digits::join::<Number>(&[-1_i32]), Err(Error::UnknownValue));
     assert_eq!(digits::check::<Number, 2>(57), Ok(()));
     assert_eq!(digits::check::<Number, 2>(37), Err(Error::UnknownValue));
     assert_eq!(digits::check::<Number, 2>(53), Err(Error::UnknownValue));
-    assert_eq!((listed(true), listed(false)), (Ok(()), Err(Error::UnknownValue)));
+    assert_eq!(
+        (listed(true), listed(false)),
+        (Ok(()), Err(Error::UnknownValue))
+    );
 }
 
 /// A word with a bit of each kind.
@@ -468,13 +654,23 @@ impl fmt::Debug for Word {
 
 fn words_of_flags() {
     let shown = [0x0008, 0x2031, 0x0009].map(|bits| format!("{:?}", Word(bits)));
-    let expected = ["Word(0x0008: state=0)", "Word(0x2031: ready, fault, state=3)", "Word(0x0009: ready, state=0)"];
+    let expected = [
+        "Word(0x0008: state=0)",
+        "Word(0x2031: ready, fault, state=3)",
+        "Word(0x0009: ready, state=0)",
+    ];
     assert_eq!(shown, expected);
     let [ready, fault, state] = Word::FLAGS else {
         panic!("there are three flags");
     };
-    assert_eq!((ready.name(), ready.mask(), ready.is_active_low()), ("ready", 1, false));
-    assert_eq!((fault.name(), fault.mask(), fault.is_active_low()), ("fault", 8, true));
+    assert_eq!(
+        (ready.name(), ready.mask(), ready.is_active_low()),
+        ("ready", 1, false)
+    );
+    assert_eq!(
+        (fault.name(), fault.mask(), fault.is_active_low()),
+        ("fault", 8, true)
+    );
     assert_eq!((state.number(0xFFEF), Flag::new("", 0).number(7)), (2, 0));
 }
 
@@ -490,25 +686,53 @@ impl Coded for Number {
 fn codes() {
     let found = |raw| {
         let code = Number::special(raw)?;
-        Some((code.to_string(), code.raw(), code.is_no_value(), code.is_writable()))
+        Some((
+            code.to_string(),
+            code.raw(),
+            code.is_no_value(),
+            code.is_writable(),
+        ))
     };
-    let row = |name: &str, raw, no_value, writable| Some((name.to_owned(), raw, no_value, writable));
+    let row =
+        |name: &str, raw, no_value, writable| Some((name.to_owned(), raw, no_value, writable));
     assert_eq!(found(7), row("odd", 7, false, false));
-    assert_eq!([found(10), found(12)], [row("band", 10, false, true), row("band", 12, false, true)]);
+    assert_eq!(
+        [found(10), found(12)],
+        [row("band", 10, false, true), row("band", 12, false, true)]
+    );
     assert_eq!(found(20), row("gone", 20, true, false));
     assert_eq!(found(21), row("off", 21, true, true));
     assert_eq!([6, 8, 9, 13].map(found), [None, None, None, None]);
     assert_eq!(Number::CODES[1].name(), "band");
-    assert_eq!((Number::CODES[0].ends(), Number::CODES[1].ends()), ((7, 7), (10, 12)));
+    assert_eq!(
+        (Number::CODES[0].ends(), Number::CODES[1].ends()),
+        ((7, 7), (10, 12))
+    );
     let band = Special::writable("band", 11);
     assert_eq!((written::<Number>(band), band.checked()), (Ok(11), Ok(())));
     assert_eq!(Special::new("odd", 7).checked(), Err(Error::Special));
-    assert_eq!(written::<Number>(Special::new("odd", 7)), Err(Error::Special));
-    assert_eq!(written::<Number>(Special::writable("odd", 11)), Err(Error::UnknownValue));
-    assert_eq!(written::<Number>(Special::writable("band", 13)), Err(Error::UnknownValue));
-    assert_eq!((quantity::<Number>(7), quantity::<Number>(8)), (Err(Error::Special), Ok(8)));
-    assert_eq!((factor(true), factor(false)), (Ok(()), Err(Error::ZeroFactor)));
-    let (value, code): (Reading<u16, u16>, _) = (Reading::from(5), Reading::Special::<u16, u16>(band));
+    assert_eq!(
+        written::<Number>(Special::new("odd", 7)),
+        Err(Error::Special)
+    );
+    assert_eq!(
+        written::<Number>(Special::writable("odd", 11)),
+        Err(Error::UnknownValue)
+    );
+    assert_eq!(
+        written::<Number>(Special::writable("band", 13)),
+        Err(Error::UnknownValue)
+    );
+    assert_eq!(
+        (quantity::<Number>(7), quantity::<Number>(8)),
+        (Err(Error::Special), Ok(8))
+    );
+    assert_eq!(
+        (factor(true), factor(false)),
+        (Ok(()), Err(Error::ZeroFactor))
+    );
+    let (value, code): (Reading<u16, u16>, _) =
+        (Reading::from(5), Reading::Special::<u16, u16>(band));
     assert_eq!((value.value(), value.special()), (Some(5), None));
     assert_eq!((code.value(), code.special()), (None, Some(band)));
 }
@@ -516,18 +740,39 @@ fn codes() {
 fn texts() {
     let short = Text::<5>::new("aé ").expect("a text");
     assert_eq!((short.as_bytes(), short.as_str()), (&b"a\xE9"[..], None));
-    assert_eq!((short.to_string(), format!("{short:?}")), ("aé".to_owned(), "\"aé\"".to_owned()));
+    assert_eq!(
+        (short.to_string(), format!("{short:?}")),
+        ("aé".to_owned(), "\"aé\"".to_owned())
+    );
     assert_eq!(short.into_words::<3>(), [0x61E9, 0x2020, 0x2020]);
     assert_eq!(short.into_words::<4>(), [0x61E9, 0x2020, 0x2020, 0x2020]);
     assert_eq!(short.chars().collect::<Vec<_>>(), ['a', 'é']);
-    assert_eq!(Text::<5>::from_words(&[0x6162, 0x2063, 0x6465]), Text::from_bytes(b"ab cd").expect("a text"));
-    assert_eq!(Text::<2>::try_from("ab").expect("a text").as_str(), Some("ab"));
-    assert_eq!(Text::<2>::try_from(&b"a"[..]).expect("a text").as_ref(), b"a");
-    assert_eq!((Text::<2>::new("abc"), Text::<2>::new("€")), (Err(Error::OutOfRange), Err(Error::OutOfRange)));
+    assert_eq!(
+        Text::<5>::from_words(&[0x6162, 0x2063, 0x6465]),
+        Text::from_bytes(b"ab cd").expect("a text")
+    );
+    assert_eq!(
+        Text::<2>::try_from("ab").expect("a text").as_str(),
+        Some("ab")
+    );
+    assert_eq!(
+        Text::<2>::try_from(&b"a"[..]).expect("a text").as_ref(),
+        b"a"
+    );
+    assert_eq!(
+        (Text::<2>::new("abc"), Text::<2>::new("€")),
+        (Err(Error::OutOfRange), Err(Error::OutOfRange))
+    );
     assert_eq!(Text::<2>::from_bytes(b"abc"), Err(Error::OutOfRange));
-    assert_eq!((Text::<2>::default(), Text::<2>::EMPTY.as_bytes()), (Text::EMPTY, &b""[..]));
+    assert_eq!(
+        (Text::<2>::default(), Text::<2>::EMPTY.as_bytes()),
+        (Text::EMPTY, &b""[..])
+    );
     assert_eq!(Text::<2>::EMPTY.into_words::<1>(), [0x2020]);
-    assert_eq!(format!("{:?}", Text::<1>::new("\"").expect("a text")), "\"\\\"\"");
+    assert_eq!(
+        format!("{:?}", Text::<1>::new("\"").expect("a text")),
+        "\"\\\"\""
+    );
     for (word, ascii, latin) in [
         (0x2041, true, true),
         (0x7E41, true, true),
@@ -537,6 +782,9 @@ fn texts() {
         (0xA041, false, true),
         (0x41FF, false, true),
     ] {
-        assert_eq!((text::is_ascii(&[word]), text::is_latin_1(&[word])), (ascii, latin));
+        assert_eq!(
+            (text::is_ascii(&[word]), text::is_latin_1(&[word])),
+            (ascii, latin)
+        );
     }
 }

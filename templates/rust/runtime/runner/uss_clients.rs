@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: 0BSD
 //! What clients, requests and answers of USS do for every device, also where no vector of this one shows it.
 
+#![allow(clippy::too_many_lines, reason = "a line for each case")]
+
 use std::error::Error as _;
 
 use fieldscribe_runtime::uss::{
@@ -120,52 +122,116 @@ fn errors() {
     tells(
         BuildError::name,
         &[
-            (BuildError::BadLink, "bad_link", "the telegram does not fit the link"),
-            (BuildError::BadUnit, "bad_unit", "the device has no such unit number"),
+            (
+                BuildError::BadLink,
+                "bad_link",
+                "the telegram does not fit the link",
+            ),
+            (
+                BuildError::BadUnit,
+                "bad_unit",
+                "the device has no such unit number",
+            ),
             (
                 BuildError::BadTask,
                 "bad_task",
                 "the device does not know the task, or the link carries none",
             ),
-            (BuildError::BadParameter, "bad_parameter", "the parameter number is above 31999"),
+            (
+                BuildError::BadParameter,
+                "bad_parameter",
+                "the parameter number is above 31999",
+            ),
             (BuildError::BadIndex, "bad_index", "the index is above 255"),
-            (BuildError::BadValue, "bad_value", "the parameter part has no room for a double word"),
+            (
+                BuildError::BadValue,
+                "bad_value",
+                "the parameter part has no room for a double word",
+            ),
             (
                 BuildError::BadMask,
                 "bad_mask",
                 "the first word is meant without the bits that make it valid",
             ),
-            (BuildError::BufferTooSmall, "buffer_too_small", "the buffer is too small"),
+            (
+                BuildError::BufferTooSmall,
+                "buffer_too_small",
+                "the buffer is too small",
+            ),
         ],
     );
     tells(
         ParseError::name,
         &[
-            (ParseError::WrongStart, "wrong_start", "the telegram does not start as one"),
-            (ParseError::WrongLength, "wrong_length", "the telegram has another length"),
-            (ParseError::WrongCheck, "wrong_check", "the check byte is wrong"),
+            (
+                ParseError::WrongStart,
+                "wrong_start",
+                "the telegram does not start as one",
+            ),
+            (
+                ParseError::WrongLength,
+                "wrong_length",
+                "the telegram has another length",
+            ),
+            (
+                ParseError::WrongCheck,
+                "wrong_check",
+                "the check byte is wrong",
+            ),
             (ParseError::WrongUnit, "wrong_unit", "another unit answered"),
-            (ParseError::WrongParameter, "wrong_parameter", "the answer is about another parameter"),
-            (ParseError::NoAnswer, "no_answer", "the drive did not answer the task"),
-            (ParseError::Refused(17), "refused", "the drive refused with error 17"),
-            (ParseError::NoRights, "no_rights", "the drive gives no right to change parameters"),
-            (ParseError::WrongResponse, "wrong_response", "the response is not to the task"),
+            (
+                ParseError::WrongParameter,
+                "wrong_parameter",
+                "the answer is about another parameter",
+            ),
+            (
+                ParseError::NoAnswer,
+                "no_answer",
+                "the drive did not answer the task",
+            ),
+            (
+                ParseError::Refused(17),
+                "refused",
+                "the drive refused with error 17",
+            ),
+            (
+                ParseError::NoRights,
+                "no_rights",
+                "the drive gives no right to change parameters",
+            ),
+            (
+                ParseError::WrongResponse,
+                "wrong_response",
+                "the response is not to the task",
+            ),
         ],
     );
     let errors: [(ClientError<Lost>, &str); 4] = [
         (Error::Overflow.into(), "the result does not fit its type"),
-        (BuildError::BadUnit.into(), "the device has no such unit number"),
-        (ParseError::NoRights.into(), "the drive gives no right to change parameters"),
+        (
+            BuildError::BadUnit.into(),
+            "the device has no such unit number",
+        ),
+        (
+            ParseError::NoRights.into(),
+            "the drive gives no right to change parameters",
+        ),
         (ClientError::Transport(Lost), "nothing came"),
     ];
     for (error, shown) in errors {
         assert_eq!(error.to_string(), shown);
-        assert_eq!(error.source().map(ToString::to_string).as_deref(), Some(shown));
+        assert_eq!(
+            error.source().map(ToString::to_string).as_deref(),
+            Some(shown)
+        );
     }
     for (value, shown) in [
         (Value::Nothing, "the drive answered nothing to a write"),
         (Value::Word(7), "the drive answered 7 to a write"),
-        (Value::Double(0x10007), "the drive answered 65543 to a write"),
+        (
+            Value::Double(0x10007),
+            "the drive answered 65543 to a write",
+        ),
     ] {
         let error = ClientError::<Lost>::EchoMismatch(value);
         assert_eq!(error.to_string(), shown);
@@ -200,36 +266,97 @@ fn requests() {
         (Request::read::<Word>(3), Link::new(3, 0), "12bc 0000 0000"),
         (Request::read::<Long>(3), variable, "1001 8000 0000 0000"),
         (Request::write::<Word>(3, 7), four, "22bc 0000 0000 0007"),
-        (Request::write::<Word>(3, 7), four.single_first(), "22bc 0000 0007 0000"),
-        (Request::write::<Word>(3, 7), variable, "22bc 0000 0007 0000"),
-        (Request::store::<Word>(3, 7), variable, "e2bc 0000 0007 0000"),
-        (Request::write::<Long>(3, 0x0001_0203), four, "3001 8000 0001 0203"),
-        (Request::store::<Long>(3, 0x0001_0203), four, "d001 8000 0001 0203"),
-        (Request::write::<Ramp>(3, 0x0001_0203), four, "8460 0003 0001 0203"),
-        (Request::store::<Ramp>(3, 0x0001_0203), four, "b460 0003 0001 0203"),
-        (Request::update::<Group>(3, 0xABCD, 7), variable, "203c 0000 ab7d 0000"),
-        (Request::store_update::<Group>(3, 0xABCD, 7), variable, "e03c 0000 ab7d 0000"),
-        (Request::new(3, 12, 31_999, 255).with(Value::Word(7)), four, "c7cf f0ff 0000 0007"),
+        (
+            Request::write::<Word>(3, 7),
+            four.single_first(),
+            "22bc 0000 0007 0000",
+        ),
+        (
+            Request::write::<Word>(3, 7),
+            variable,
+            "22bc 0000 0007 0000",
+        ),
+        (
+            Request::store::<Word>(3, 7),
+            variable,
+            "e2bc 0000 0007 0000",
+        ),
+        (
+            Request::write::<Long>(3, 0x0001_0203),
+            four,
+            "3001 8000 0001 0203",
+        ),
+        (
+            Request::store::<Long>(3, 0x0001_0203),
+            four,
+            "d001 8000 0001 0203",
+        ),
+        (
+            Request::write::<Ramp>(3, 0x0001_0203),
+            four,
+            "8460 0003 0001 0203",
+        ),
+        (
+            Request::store::<Ramp>(3, 0x0001_0203),
+            four,
+            "b460 0003 0001 0203",
+        ),
+        (
+            Request::update::<Group>(3, 0xABCD, 7),
+            variable,
+            "203c 0000 ab7d 0000",
+        ),
+        (
+            Request::store_update::<Group>(3, 0xABCD, 7),
+            variable,
+            "e03c 0000 ab7d 0000",
+        ),
+        (
+            Request::new(3, 12, 31_999, 255).with(Value::Word(7)),
+            four,
+            "c7cf f0ff 0000 0007",
+        ),
     ] {
         assert_eq!(built(request, link, &[]), Ok(telegram(words)));
     }
-    assert_eq!(built(Request::cyclic(3), Link::new(0, 2), &[0xA1B2, 3]), Ok(telegram("a1b2 0003")));
+    assert_eq!(
+        built(Request::cyclic(3), Link::new(0, 2), &[0xA1B2, 3]),
+        Ok(telegram("a1b2 0003"))
+    );
     let double = Request::write::<Long>(3, 1);
     for (request, link, words, error) in [
         (Request::cyclic(3), Link::new(5, 0), 0, BuildError::BadLink),
-        (Request::cyclic(3), Link::new(4, 21), 21, BuildError::BadLink),
+        (
+            Request::cyclic(3),
+            Link::new(4, 21),
+            21,
+            BuildError::BadLink,
+        ),
         (Request::cyclic(3), Link::new(4, 2), 1, BuildError::BadLink),
         (Request::cyclic(0), four, 0, BuildError::BadUnit),
         (Request::cyclic(31), four, 0, BuildError::BadUnit),
         (Request::new(3, 6, 1, 0), four, 0, BuildError::BadTask),
-        (Request::new(3, 1, 1, 0), Link::new(0, 0), 0, BuildError::BadTask),
-        (Request::new(3, 1, 32_000, 0), four, 0, BuildError::BadParameter),
+        (
+            Request::new(3, 1, 1, 0),
+            Link::new(0, 0),
+            0,
+            BuildError::BadTask,
+        ),
+        (
+            Request::new(3, 1, 32_000, 0),
+            four,
+            0,
+            BuildError::BadParameter,
+        ),
         (Request::new(3, 1, 1, 256), four, 0, BuildError::BadIndex),
         (double, Link::new(3, 0), 0, BuildError::BadValue),
     ] {
         assert_eq!(built(request, link, &[0; 21][..words]), Err(error));
     }
-    assert_eq!([1, 30].map(|unit| built(Request::cyclic(unit), four, &[]).is_ok()), [true, true]);
+    assert_eq!(
+        [1, 30].map(|unit| built(Request::cyclic(unit), four, &[]).is_ok()),
+        [true, true]
+    );
     let few = |link, words: &[u16]| Request::cyclic(3).build(&FEW, link, words, &mut [0; 60]);
     assert_eq!(few(Link::new(4, 2), &[1, 2]), Ok(16));
     assert_eq!(few(Link::new(4, 1), &[1]), Err(BuildError::BadLink));
@@ -241,7 +368,10 @@ fn broadcasts() {
     let mut buffer = [0; 60];
     let link = Link::new(127, 2);
     let masks = [6, 0xFFFF, 1, 2];
-    assert_eq!(broadcast(&PROFILE, link, masks, &[5, 6], &mut buffer), Ok(16));
+    assert_eq!(
+        broadcast(&PROFILE, link, masks, &[5, 6], &mut buffer),
+        Ok(16)
+    );
     assert_eq!(buffer[..16], all("0006 ffff 0001 0002 0005 0006"));
     let few = broadcast(&FEW, link, masks, &[5, 6], &mut buffer);
     assert_eq!(few, Err(BuildError::BadLink));
@@ -258,36 +388,74 @@ fn confirmations() {
         let request = Request::write::<Ramp>(3, written.to_bits());
         let reply = request.parse(&PROFILE, Link::new(4, 0), &received);
         let reply = reply.expect("an answer");
-        (request.is_confirmed::<Ramp>(&reply), request.is_confirmed::<Long>(&reply))
+        (
+            request.is_confirmed::<Ramp>(&reply),
+            request.is_confirmed::<Long>(&reply),
+        )
     };
     assert_eq!(confirms(1024.0, 1024.0), (true, true));
-    assert_eq!([1025.0, 1023.0].map(|answered| confirms(1024.0, answered)), [(true, false); 2]);
-    assert_eq!([1025.5, 1022.5].map(|answered| confirms(1024.0, answered)), [(false, false); 2]);
-    assert_eq!([-1025.0, -1023.0].map(|answered| confirms(-1024.0, answered)), [(true, false); 2]);
-    assert_eq!([-1025.5, 1024.0].map(|answered| confirms(-1024.0, answered)), [(false, false); 2]);
+    assert_eq!(
+        [1025.0, 1023.0].map(|answered| confirms(1024.0, answered)),
+        [(true, false); 2]
+    );
+    assert_eq!(
+        [1025.5, 1022.5].map(|answered| confirms(1024.0, answered)),
+        [(false, false); 2]
+    );
+    assert_eq!(
+        [-1025.0, -1023.0].map(|answered| confirms(-1024.0, answered)),
+        [(true, false); 2]
+    );
+    assert_eq!(
+        [-1025.5, 1024.0].map(|answered| confirms(-1024.0, answered)),
+        [(false, false); 2]
+    );
     assert_eq!(confirms(0.0, f32::MIN_POSITIVE), (false, false));
-    assert_eq!(confirms(f32::NAN, f32::NAN).0, false);
+    assert!(!confirms(f32::NAN, f32::NAN).0);
 }
 
 fn answers() {
     let link = Link::new(4, 2);
     let request = Request::read::<Word>(3);
-    let parsed = |bytes: &[u8]| request.parse(&PROFILE, link, bytes).map(|reply| reply.value());
+    let parsed = |bytes: &[u8]| {
+        request
+            .parse(&PROFILE, link, bytes)
+            .map(|reply| reply.value())
+    };
     let received = telegram("12bc 0000 0000 0007 a1b2 0003");
     let reply = request.parse(&PROFILE, link, &received).expect("an answer");
-    assert_eq!((reply.response(), reply.value(), reply.word()), (1, Value::Word(7), Ok(7)));
+    assert_eq!(
+        (reply.response(), reply.value(), reply.word()),
+        (1, Value::Word(7), Ok(7))
+    );
     assert_eq!(reply.words().collect::<Vec<_>>(), [0xA1B2, 3]);
-    assert_eq!((reply.raw::<Word>(), reply.raw::<Long>()), (Ok(7), Err(Error::WrongLength)));
+    assert_eq!(
+        (reply.raw::<Word>(), reply.raw::<Long>()),
+        (Ok(7), Err(Error::WrongLength))
+    );
     let first = request.parse(&PROFILE, link.single_first(), &received);
     assert_eq!(first.map(|reply| reply.value()), Ok(Value::Word(0)));
     let double = telegram("22bc 0000 0001 0203 a1b2 0003");
     let reply = request.parse(&PROFILE, link, &double).expect("an answer");
-    assert_eq!((reply.value(), reply.word()), (Value::Double(0x0001_0203), Err(Error::WrongLength)));
-    assert_eq!((reply.raw::<Long>(), reply.raw::<Word>()), (Ok(0x0001_0203), Err(Error::WrongLength)));
-    let cyclic = Request::cyclic(3).parse(&PROFILE, link, &received).expect("an answer");
-    assert_eq!((cyclic.response(), cyclic.value(), cyclic.word()), (1, Value::Nothing, Err(Error::WrongLength)));
+    assert_eq!(
+        (reply.value(), reply.word()),
+        (Value::Double(0x0001_0203), Err(Error::WrongLength))
+    );
+    assert_eq!(
+        (reply.raw::<Long>(), reply.raw::<Word>()),
+        (Ok(0x0001_0203), Err(Error::WrongLength))
+    );
+    let cyclic = Request::cyclic(3)
+        .parse(&PROFILE, link, &received)
+        .expect("an answer");
+    assert_eq!(
+        (cyclic.response(), cyclic.value(), cyclic.word()),
+        (1, Value::Nothing, Err(Error::WrongLength))
+    );
     let none = telegram("a1b2 0003");
-    let reply = Request::cyclic(3).parse(&PROFILE, Link::new(0, 2), &none).expect("an answer");
+    let reply = Request::cyclic(3)
+        .parse(&PROFILE, Link::new(0, 2), &none)
+        .expect("an answer");
     assert_eq!((reply.response(), reply.words().count()), (0, 2));
     for (words, error) in [
         ("02bc 0000 0000 0007 a1b2 0003", ParseError::NoAnswer),
@@ -297,7 +465,10 @@ fn answers() {
         ("12bd 0000 0000 0007 a1b2 0003", ParseError::WrongParameter),
         ("12bc 0001 0000 0007 a1b2 0003", ParseError::WrongParameter),
         ("12bc 0000 0000 0007 a1b2", ParseError::WrongLength),
-        ("12bc 0000 0000 0007 a1b2 0003 0000", ParseError::WrongLength),
+        (
+            "12bc 0000 0000 0007 a1b2 0003 0000",
+            ParseError::WrongLength,
+        ),
         ("12bc 0000 0000 0007 a1b2 00", ParseError::WrongLength),
         ("a1b2", ParseError::WrongLength),
     ] {
@@ -309,17 +480,41 @@ fn answers() {
         parsed(&bytes)
     };
     assert_eq!(changed(0, 1), Err(ParseError::WrongStart));
-    assert_eq!([1, 3].map(|byte| changed(1, byte)), [Err(ParseError::WrongLength); 2]);
-    assert_eq!((changed(2, 1), changed(15, 1)), (Err(ParseError::WrongCheck), Err(ParseError::WrongCheck)));
-    assert_eq!((parsed(&[]), parsed(&[2, 0, 3])), (Err(ParseError::WrongStart), Err(ParseError::WrongLength)));
+    assert_eq!(
+        [1, 3].map(|byte| changed(1, byte)),
+        [Err(ParseError::WrongLength); 2]
+    );
+    assert_eq!(
+        (changed(2, 1), changed(15, 1)),
+        (Err(ParseError::WrongCheck), Err(ParseError::WrongCheck))
+    );
+    assert_eq!(
+        (parsed(&[]), parsed(&[2, 0, 3])),
+        (Err(ParseError::WrongStart), Err(ParseError::WrongLength))
+    );
     let other = Request::read::<Word>(4).parse(&PROFILE, link, &received);
     assert_eq!(other.map(|_| ()), Err(ParseError::WrongUnit));
-    for (pkw, sizes) in [(3, [false, true, false, false]), (127, [false, true, true, true]), (4, [false, false, true, false])] {
-        let parts = ["12bc 0000", "12bc 0000 0007", "12bc 0000 0007 0000", "12bc 0000 0007 0000 0000"];
-        let fits = parts.map(|part| request.parse(&PROFILE, Link::new(pkw, 0), &telegram(part)).is_ok());
+    for (pkw, sizes) in [
+        (3, [false, true, false, false]),
+        (127, [false, true, true, true]),
+        (4, [false, false, true, false]),
+    ] {
+        let parts = [
+            "12bc 0000",
+            "12bc 0000 0007",
+            "12bc 0000 0007 0000",
+            "12bc 0000 0007 0000 0000",
+        ];
+        let fits = parts.map(|part| {
+            request
+                .parse(&PROFILE, Link::new(pkw, 0), &telegram(part))
+                .is_ok()
+        });
         assert_eq!(fits, sizes);
     }
-    let words = request.process_words(link, &telegram("72bc 0000 0011 0007 a1b2 0003")).map(Iterator::collect);
+    let words = request
+        .process_words(link, &telegram("72bc 0000 0011 0007 a1b2 0003"))
+        .map(Iterator::collect);
     assert_eq!(words, Ok(vec![0xA1B2, 3]));
 }
 
@@ -356,7 +551,10 @@ macro_rules! conversations {
             let mismatch = ClientError::EchoMismatch(Value::Word(8));
             assert_eq!($wait(client.store::<Word>(9)), Err(mismatch));
             let refused = ClientError::Reply(ParseError::Refused(17));
-            assert_eq!($wait(client.write_with::<Long>(0x0001_0203, ())), Err(refused));
+            assert_eq!(
+                $wait(client.write_with::<Long>(0x0001_0203, ())),
+                Err(refused)
+            );
             let lost = ClientError::Transport(Lost);
             assert_eq!($wait(client.store_with::<Long>(0x0001_0203, ())), Err(lost));
             for found in [
@@ -399,8 +597,14 @@ macro_rules! conversations {
             assert_eq!(client.heard_word(0), Err(Error::NotHeard));
             assert_eq!(client.heard::<Speed>(), Err(Error::NotHeard));
             assert_eq!($wait(client.cycle()), Ok(()));
-            assert_eq!([0, 2, 3].map(|one| client.heard_word(one)), [Ok(0xA1), Ok(0xC3), Err(Error::WrongLength)]);
-            assert_eq!((client.heard::<Speed>(), client.heard_with::<Position>(())), (Ok(0xB2), Ok(0x00C3_00B2)));
+            assert_eq!(
+                [0, 2, 3].map(|one| client.heard_word(one)),
+                [Ok(0xA1), Ok(0xC3), Err(Error::WrongLength)]
+            );
+            assert_eq!(
+                (client.heard::<Speed>(), client.heard_with::<Position>(())),
+                (Ok(0xB2), Ok(0x00C3_00B2))
+            );
             assert_eq!(client.heard::<Far>(), Err(Error::WrongLength));
             assert_eq!(client.set::<Speed>(0xFFFF), Err(Error::OutOfRange));
             assert_eq!(client.set_bits::<Jog>(0xFFFF), Err(Error::OutOfRange));
@@ -411,7 +615,10 @@ macro_rules! conversations {
             assert_eq!(client.words(), [0, 5, 0]);
             let lost = ClientError::Transport(Lost);
             assert_eq!($wait(client.send_bits::<Jog>(3)), Err(lost));
-            assert_eq!((client.words(), client.heard_word(0)), (&[0; 3][..], Err(Error::NotHeard)));
+            assert_eq!(
+                (client.words(), client.heard_word(0)),
+                (&[0; 3][..], Err(Error::NotHeard))
+            );
             assert_eq!($wait(client.receive::<Speed>()), Ok(0xB2));
             assert_eq!($wait(client.send_with::<Position>(0x0008_0009, ())), Ok(()));
             // Words that the drive has already stay when an answer is lost.
@@ -439,15 +646,28 @@ macro_rules! conversations {
             ]);
             let mut client = $client::new(line, &PROFILE, Link::new(127, 2), 3);
             assert_eq!(client.set_bits::<Jog>(2), Ok(()));
-            for (speed, error) in [(7, ParseError::Refused(17)), (6, ParseError::NoRights), (5, ParseError::NoAnswer)] {
+            for (speed, error) in [
+                (7, ParseError::Refused(17)),
+                (6, ParseError::NoRights),
+                (5, ParseError::NoAnswer),
+            ] {
                 assert_eq!(client.set_with::<Speed>(speed, ()), Ok(()));
-                assert_eq!($wait(client.write::<Word>(8)), Err(ClientError::Reply(error)));
-                assert_eq!((client.words(), client.heard_word(1)), (&[0x200, speed][..], Ok(2)));
+                assert_eq!(
+                    $wait(client.write::<Word>(8)),
+                    Err(ClientError::Reply(error))
+                );
+                assert_eq!(
+                    (client.words(), client.heard_word(1)),
+                    (&[0x200, speed][..], Ok(2))
+                );
             }
             assert_eq!(client.set::<Speed>(4), Ok(()));
             let other = ClientError::Reply(ParseError::WrongParameter);
             assert_eq!($wait(client.write::<Word>(8)), Err(other));
-            assert_eq!((client.words(), client.heard_word(1)), (&[0, 0][..], Err(Error::NotHeard)));
+            assert_eq!(
+                (client.words(), client.heard_word(1)),
+                (&[0, 0][..], Err(Error::NotHeard))
+            );
             let bad = Err(ClientError::Build(BuildError::BadMask));
             assert_eq!($wait(client.broadcast([2, 0xFFFF, 0, 0])), bad);
             assert_eq!(client.set_word(0, 0x8000), Ok(()));
@@ -464,12 +684,21 @@ macro_rules! conversations {
             let words = "0000".repeat(16);
             let line = Line::new(&[step(&words, &words)]);
             let mut client = $client::new(line, &PROFILE, Link::new(0, 16), 3);
-            assert_eq!(($wait(client.cycle()), client.heard_word(15)), (Ok(()), Ok(0)));
+            assert_eq!(
+                ($wait(client.cycle()), client.heard_word(15)),
+                (Ok(()), Ok(0))
+            );
             client.into_transport().done();
             let mut client = $client::new(Line::new(&[]), &PROFILE, Link::new(0, 17), 3);
             let bad = Err(ClientError::Build(BuildError::BadLink));
-            assert_eq!(($wait(client.cycle()), $wait(client.broadcast([2, 0, 0, 0]))), (bad, bad));
-            assert_eq!((client.set_word(0, 1), client.words().len()), (Err(Error::WrongLength), 16));
+            assert_eq!(
+                ($wait(client.cycle()), $wait(client.broadcast([2, 0, 0, 0]))),
+                (bad, bad)
+            );
+            assert_eq!(
+                (client.set_word(0, 1), client.words().len()),
+                (Err(Error::WrongLength), 16)
+            );
         }
     };
 }
