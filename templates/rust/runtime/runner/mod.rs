@@ -896,7 +896,11 @@ pub fn exchanged<T, E>(
 }
 
 /// Runs all vectors of the file and reports one line per kind.
-pub fn main(default: &str, run: impl Fn(&str, &Vector) -> Option<Outcome>) -> ExitCode {
+pub fn main(
+    default: &str,
+    device: [&str; 3],
+    run: impl Fn(&str, &Vector) -> Option<Outcome>,
+) -> ExitCode {
     let path = std::env::var("FIELDSCRIBE_VECTORS").unwrap_or_else(|_| default.to_owned());
     let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"));
     let (mut kinds, mut sets): (Vec<Shape>, Vec<Shape>) = (Vec::new(), Vec::new());
@@ -904,7 +908,10 @@ pub fn main(default: &str, run: impl Fn(&str, &Vector) -> Option<Outcome>) -> Ex
     for line in text.lines() {
         let parts: Vec<&str> = line.split('\t').collect();
         match parts[0] {
-            "vectors" => assert_eq!(parts[1], "2", "{path} is of another format"),
+            "vectors" => {
+                assert_eq!(parts[1], "2", "{path} is of another format");
+                assert_eq!(parts[2..], device, "{path} is of another description");
+            }
             "set" => sets.push(Shape::new(&parts[1..], false)),
             "kind" => kinds.push(Shape::new(&parts[1..], true)),
             name => {
