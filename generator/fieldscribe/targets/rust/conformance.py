@@ -84,6 +84,7 @@ def _protocol(device: Device) -> Iterator[Table]:
     if heard:
         names = [f"{rust_string(one.name)} telegrams (telegram {type_name(one.name)})" for one in heard]
         yield "can_taken", "can_taken", tuple(names)
+        yield "can_carrier", "can_carrier", tuple(names)
     places = [one for one in device.points if one.raw_only and one.address is not None]
     if places:
         names = [f"{rust_string(one.item)} points (documented {one.item.upper()})" for one in places]

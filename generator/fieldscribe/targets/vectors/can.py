@@ -163,6 +163,7 @@ def _misheard(lines: Lines, telegram: Telegram, message: Message, unit: int) -> 
             frames.append(CanFrame(good.id, bytes((*data[:place], data[place] ^ 0x80, *data[place + 1 :]))))
     receiver = Receiver(telegram, message, unit)
     lines.set("telegram", telegram.name, unit)
+    lines.add("can_carrier", message.name)
     lines.add("can_taken", [(one.id, one.data) for one in frames], [int(receiver.take(one)) for one in frames])
 
 

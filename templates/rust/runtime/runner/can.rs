@@ -217,6 +217,12 @@ pub fn can_taken<T: Telegram>(vector: &Vector) -> Outcome {
     same(vector.numbers("taken"), taken)
 }
 
+/// The name of the message whose frames carry a telegram.
+pub fn can_carrier<T: Telegram>(vector: &Vector) -> Outcome {
+    same(vector.text("telegram").as_str(), T::NAME)?;
+    same(vector.text("carrier").as_str(), T::MESSAGE.name())
+}
+
 /// Frames of a telegram, and a point of it.
 pub fn can_telegram<P>(vector: &Vector) -> Outcome
 where

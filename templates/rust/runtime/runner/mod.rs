@@ -247,7 +247,7 @@ impl<'a> Vector<'a> {
             "flag_name" => [self.text("flag"), self.text("name")].join(" "),
             "code" | "constant" => return [self.text("what"), self.text("name")].join(" "),
             "command" => return self.text("command"),
-            "can_taken" => return self.text("telegram"),
+            "can_taken" | "can_carrier" => return self.text("telegram"),
             "documented" => return self.text("name"),
             _ => return self.text("point"),
         };
