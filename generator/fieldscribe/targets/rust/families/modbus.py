@@ -38,6 +38,7 @@ def modbus_context(device: Device) -> dict[str, object]:
         "profile": tuple(binding(0, "pub static PROFILE: Profile", _profile(bus))),
         "exceptions": tuple((sentence(one.name), one.name.upper(), f"0x{one.number:02X}") for one in bus.exceptions),
         "blocks": tuple(_blocks(device)),
+        "block_needs": "{Block, Space}" if any(device.blocks.values()) else "Block",
         "groups": array([f"({rust_string(group)}, blocks::{group.upper()})" for group in device.blocks]),
         "commands": tuple(_commands(device)),
     }
