@@ -113,6 +113,7 @@ KINDS = _table(
         "can_build": "unit:int address:int raw:int status:word id:int? bytes:bytes?",
         "can_parse": "unit:int id:int bytes:bytes? status:word address:int? raw:int?",
         "can_taken": "frames:frames taken:ints",
+        "can_bus": "only:rust identifier_bits:int bitrate:int?",
         "can_carrier": "only:rust carrier:word",
         "can_telegram": "frames:frames? taken:ints? status:word raw:int?",
         # telegrams of USS
