@@ -57,6 +57,13 @@ def test_one_vector_per_line_with_counts_before() -> None:
     assert {kind: lines[kind] for kind in kinds} == kinds
 
 
+def test_units_of_points_are_vectors() -> None:
+    symbols = {vector["point"]: vector["symbol"] for vector in VECTORS if vector["kind"] == "symbol"}
+    assert symbols == {
+        point.item: point.unit.symbol for point in SAMPLE.points if point.generated and point.unit.symbol
+    }
+
+
 def test_the_same_text_twice_and_no_vector_twice() -> None:
     text = text_of(SAMPLE)
     assert text == text_of(sample_device())
