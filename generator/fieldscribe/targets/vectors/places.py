@@ -33,6 +33,8 @@ def address(lines: Lines, point: Point) -> None:
     )
     if point.index is not None or point.telegram is not None or point.text is not None:
         lines.add("place", point.addresses, point.index, point.telegram)
+    if point.unit.symbol:
+        lines.add("symbol", point.unit.symbol)
 
 
 def facts(lines: Lines, point: Point, variants: Mapping[str, tuple[str, ...]]) -> None:
