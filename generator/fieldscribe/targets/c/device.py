@@ -51,7 +51,7 @@ def device_view(device: Device) -> tuple[DeviceView, Scope]:
         version=device.version,
         digest=device.digest[:16],
         telegrams=tuple(
-            TelegramView(name, number, f"{name}_WORDS", one.words)
+            TelegramView(one.name, name, number, f"{name}_WORDS", one.words)
             for number, one in enumerate(device.telegrams)
             for name in (f"{scope.upper}_TELEGRAM_{upper(one.name)}",)
         ),
@@ -131,6 +131,9 @@ def _needs(scope: Scope) -> Needs:
         f32_order="f32_order" in used,
         f64_order="f64_order" in used,
         rules=rules,
+        tens="times_ten_to" in used,
+        f32_encodes="bits_of_f32" in used,
+        f64_encodes="bits_of_f64" in used,
         shifts=rules and scope.shifts,
         lifts=rules and scope.lifts,
         floats=bool(used & _FLOATS),

@@ -74,6 +74,7 @@ def _rule(rule: Linear, scope: Scope, test: str = "", *, of_limit: bool = False)
             continue
         if factor.ten_to:
             exponent = f"-{number}" if factor.power < 0 else number
+            scope.used.add("times_ten_to")
             tens.append(Step("ten", "rule", exponent, False, _beyond(factor, scope)))
             continue
         ends[factor.power] *= _reach_of(factor, scope)

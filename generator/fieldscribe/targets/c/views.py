@@ -276,10 +276,13 @@ class Needs:
     round_wide: bool
     f32: bool
     f64: bool
+    f32_encodes: bool
+    f64_encodes: bool
     quotient: bool
     f32_order: bool
     f64_order: bool
     rules: bool
+    tens: bool
     shifts: bool
     lifts: bool
     floats: bool
@@ -291,6 +294,7 @@ class Needs:
 class TelegramView:
     """A telegram: the enumerator that names it, its number, and the macro that says how many words it has."""
 
+    title: str
     name: str
     number: int
     words_name: str

@@ -11,6 +11,7 @@ from fieldscribe.targets.vectors.can import CanWire, can
 from fieldscribe.targets.vectors.characters import digits, text
 from fieldscribe.targets.vectors.exchanges import Exchanges
 from fieldscribe.targets.vectors.floats import floats
+from fieldscribe.targets.vectors.limits import limits
 from fieldscribe.targets.vectors.lines import Lines
 from fieldscribe.targets.vectors.modbus import ModbusWire, modbus
 from fieldscribe.targets.vectors.oracle import Oracle
@@ -61,6 +62,7 @@ def collect(device: Device) -> Lines:
     for point in device.points:
         if point.raw_only and point.address is not None:
             lines.add("documented", point.item, point.places[0].space, point.address, point.words, point.index)
+    limits(lines, device)
     frames(lines, device)
     return lines
 

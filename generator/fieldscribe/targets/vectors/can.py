@@ -144,7 +144,9 @@ def _telegram(lines: Lines, device: Device, telegram: Telegram) -> None:
     for point in points:
         _heard(lines, telegram, message, point, unit)
     if message.words:
-        _misheard(lines, telegram, message, unit)
+        lines.add("size", "frames", telegram.name, -(-telegram.words // message.words))
+        for one in dict.fromkeys(device.bus.units):
+            _misheard(lines, telegram, message, one)
 
 
 def _misheard(lines: Lines, telegram: Telegram, message: Message, unit: int) -> None:

@@ -97,6 +97,10 @@ KINDS = _table(
         "documented": "name:word space:word address:int words:int index:int?",
         # the words that bring a group where each is asked for by itself: Rust reads the points themselves
         "group": "only:c.python group:word addresses:ints",
+        # what tables of constants hold: the functions or tasks in their order, limits, and how long a table is
+        "function": "only:c index:int number:int most:int? broadcast:int? answers:int?",
+        "limit": "only:c what:word number:int",
+        "size": "only:c what:word of:text? number:int",
         # numbers of the protocol with names, and named writes
         "code": "what:word number:int name:text",
         "constant": "only:c.rust what:word number:int name:text",
