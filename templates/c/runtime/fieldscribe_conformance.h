@@ -744,6 +744,36 @@ static inline bool fieldscribe_is_part(fieldscribe_vector *v, const char *part)
         fieldscribe_is_number(v, "number", (uint64_t)(constant));                                \
     }
 
+/* What a point was called before: each old name stands for the same as the new one. */
+typedef void (*fieldscribe_function)(void);
+
+static inline bool fieldscribe_same_function(fieldscribe_function one, fieldscribe_function other)
+{
+    return one == other;
+}
+
+static inline bool fieldscribe_same_number(uint64_t one, uint64_t other)
+{
+    return one == other;
+}
+
+#define FIELDSCRIBE_ALIAS(point, same)                                                           \
+    if (fieldscribe_asks_of(v, "alias", "old", point)) {                                         \
+        (void)fieldscribe_field(v, "new");                                                       \
+        fieldscribe_agree(v, same);                                                              \
+    }
+#define FIELDSCRIBE_ALIAS_OF_NUMBER(point, old_name, new_name)                                   \
+    FIELDSCRIBE_ALIAS(point, fieldscribe_same_number((uint64_t)(old_name), (uint64_t)(new_name)))
+#define FIELDSCRIBE_ALIAS_OF_TEXT(point, old_name, new_name)                                     \
+    FIELDSCRIBE_ALIAS(point, strcmp(old_name, new_name) == 0)
+#define FIELDSCRIBE_ALIAS_OF_FUNCTION(point, old_name, new_name)                                 \
+    FIELDSCRIBE_ALIAS(point, fieldscribe_same_function((fieldscribe_function)(old_name), (fieldscribe_function)(new_name)))
+#if defined(FIELDSCRIBE_NO_FLOAT)
+#define FIELDSCRIBE_ALIAS_OF_FLOATING_FUNCTION(point, old_name, new_name)
+#else
+#define FIELDSCRIBE_ALIAS_OF_FLOATING_FUNCTION FIELDSCRIBE_ALIAS_OF_FUNCTION
+#endif
+
 #define FIELDSCRIBE_GROUP(group, array, size)                                                    \
     if (fieldscribe_asks_of(v, "group", "group", group)) {                                       \
         fieldscribe_agree(v, sizeof array / sizeof array[0] == size);                            \
@@ -1885,7 +1915,7 @@ static void fieldscribe_run_vector(fieldscribe_file *file, const char *text)
     v->differs = false;
     v->matched = 0U;
     if (fieldscribe_asks(v, "code") || fieldscribe_asks(v, "constant") || fieldscribe_asks(v, "command") ||
-        fieldscribe_asks(v, "group") || fieldscribe_asks(v, "documented") || fieldscribe_asks(v, "size")) {
+        fieldscribe_asks(v, "group") || fieldscribe_asks(v, "documented") || fieldscribe_asks(v, "size") || fieldscribe_asks(v, "alias")) {
         v->suite->run_code(v);
     } else if (!fieldscribe_run_frame(v)) {
         fieldscribe_run_point(v);

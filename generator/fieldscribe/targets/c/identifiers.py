@@ -86,7 +86,7 @@ def identifiers(device: Device) -> Iterator[Identifier]:
     for one in view.telegrams:
         yield from (Identifier("C", name, OWN) for name in (one.name, one.words_name))
     yield from (Identifier("C", name, owner) for name, owner in _of_points(view))
-    yield from (Identifier("C", alias, Owner("point", name, "old name")) for alias, name in view.aliases)
+    yield from (Identifier("C", one.old, Owner("point", one.new, "old name")) for one in view.aliases)
     family = FAMILIES[device.family]
     yield from (
         Identifier("C", name, owner) for name, owner in family.identifiers(family.view(device, view, scope), view)

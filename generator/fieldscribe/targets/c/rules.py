@@ -98,7 +98,8 @@ def _codes(rule: Linear, scope: Scope) -> str:
     """Whether what is no quantity stands for a factor."""
     names = dict.fromkeys(factor.point for factor in rule.factors)
     codes = [(name, one) for name in names for one in scope.points[name].specials]
-    return " || ".join(f"({_is_code(f'{name}_raw', one.low, one.high)})" for name, one in codes)
+    tests = [_is_code(f"{name}_raw", one.low, one.high) for name, one in codes]
+    return tests[0] if len(tests) == 1 else " || ".join(f"({test})" for test in tests)
 
 
 def _is_code(raw: str, low: int, high: int) -> str:

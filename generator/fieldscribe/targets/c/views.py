@@ -302,6 +302,16 @@ class TelegramView:
 
 
 @dataclass(frozen=True, slots=True)
+class AliasView:
+    """An old name of something that belongs to a renamed point; `sort` tells numbers, texts and functions apart."""
+
+    item: str
+    old: str
+    new: str
+    sort: str
+
+
+@dataclass(frozen=True, slots=True)
 class DeviceView:
     """The header of a device."""
 
@@ -316,5 +326,5 @@ class DeviceView:
     spaces: tuple[tuple[str, int], ...]
     telegrams: tuple[TelegramView, ...]
     groups: tuple[GroupView, ...]
-    aliases: tuple[tuple[str, str], ...]
+    aliases: tuple[AliasView, ...]
     needs: Needs

@@ -15,7 +15,7 @@ from fieldscribe.targets.vectors.limits import limits
 from fieldscribe.targets.vectors.lines import Lines
 from fieldscribe.targets.vectors.modbus import ModbusWire, modbus
 from fieldscribe.targets.vectors.oracle import Oracle
-from fieldscribe.targets.vectors.places import address, facts, words
+from fieldscribe.targets.vectors.places import address, aliases, facts, words
 from fieldscribe.targets.vectors.scaled import scaled
 from fieldscribe.targets.vectors.uss import UssWire, uss
 from fieldscribe.targets.vectors.whole import bits, fixed, flags, names, specials, whole
@@ -71,6 +71,7 @@ def _point(lines: Lines, oracle: Oracle, point: Point) -> None:
     lines.set("point", point.item)
     address(lines, point)
     facts(lines, point)
+    aliases(lines, point)
     if point.form == "scaled":
         scaled(lines, oracle, point)
     elif point.form == "float":

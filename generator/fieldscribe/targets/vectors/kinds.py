@@ -93,6 +93,8 @@ KINDS = _table(
         # what Python alone says of a point beside: C and Rust do so in comments, which no program can hold
         "facts": "only:python group:word name:word symbol:text? default:real? changes:word? changes_with:names? "
         "variant:text? write_space:word? write_addresses:ints?",
+        # what a point was called before
+        "alias": "only:c old:word new:word",
         # where the words of points are that are documented only
         "documented": "name:word space:word address:int words:int index:int?",
         # the words that bring a group where each is asked for by itself: Rust reads the points themselves

@@ -51,6 +51,12 @@ def facts(lines: Lines, point: Point) -> None:
     )
 
 
+def aliases(lines: Lines, point: Point) -> None:
+    """What the point was called before; a variant keeps its suffix."""
+    for old in point.was:
+        lines.add("alias", old + point.item.removeprefix(point.name), point.item)
+
+
 def words(lines: Lines, point: Point) -> None:
     """Patterns of a point of several words, or of a signed word, in ascending order of the addresses."""
     if (
