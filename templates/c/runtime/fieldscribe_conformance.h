@@ -693,6 +693,18 @@ static inline bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
         }                                                                                        \
     }
 
+/* A text of a telegram: its words in reading order. */
+#define FIELDSCRIBE_RECEIVED_TEXT(function, macro)                                               \
+    if (fieldscribe_asks(v, "can_text")) {                                                       \
+        uint16_t words[macro##_WORDS + 1U];                                                      \
+        fieldscribe_can_status status;                                                           \
+        fieldscribe_fill(words, sizeof words);                                                   \
+        status = function##_received((const fieldscribe_can_receiver *)v->receiver, words);      \
+        fieldscribe_is_text(v, "status", fieldscribe_can_status_text(status));                   \
+        fieldscribe_is_words(v, "words", words, status == FIELDSCRIBE_CAN_OK ? macro##_WORDS : 0U); \
+        fieldscribe_untouched(v, words + macro##_WORDS, sizeof words[0]);                        \
+    }
+
 /* ---- What the protocol names ---- */
 
 #define FIELDSCRIBE_CODE_NUMBER(kind, code, constant)                                            \
@@ -757,19 +769,20 @@ static inline bool fieldscribe_same_number(uint64_t one, uint64_t other)
     return one == other;
 }
 
-#define FIELDSCRIBE_ALIAS(point, same)                                                           \
-    if (fieldscribe_asks_of(v, "alias", "old", point)) {                                         \
-        (void)fieldscribe_field(v, "new");                                                       \
+#define FIELDSCRIBE_ALIAS(was, point, same)                                                      \
+    if (fieldscribe_asks_of(v, "alias", "old", was)) {                                           \
+        fieldscribe_is_text(v, "new", point);                                                    \
         fieldscribe_agree(v, same);                                                              \
     }
-#define FIELDSCRIBE_ALIAS_OF_NUMBER(point, old_name, new_name)                                   \
-    FIELDSCRIBE_ALIAS(point, fieldscribe_same_number((uint64_t)(old_name), (uint64_t)(new_name)))
-#define FIELDSCRIBE_ALIAS_OF_TEXT(point, old_name, new_name)                                     \
-    FIELDSCRIBE_ALIAS(point, strcmp(old_name, new_name) == 0)
-#define FIELDSCRIBE_ALIAS_OF_FUNCTION(point, old_name, new_name)                                 \
-    FIELDSCRIBE_ALIAS(point, fieldscribe_same_function((fieldscribe_function)(old_name), (fieldscribe_function)(new_name)))
+#define FIELDSCRIBE_ALIAS_OF_NUMBER(was, point, old_name, new_name)                              \
+    FIELDSCRIBE_ALIAS(was, point, fieldscribe_same_number((uint64_t)(old_name), (uint64_t)(new_name)))
+#define FIELDSCRIBE_ALIAS_OF_TEXT(was, point, old_name, new_name)                                \
+    FIELDSCRIBE_ALIAS(was, point, strcmp(old_name, new_name) == 0)
+#define FIELDSCRIBE_ALIAS_OF_FUNCTION(was, point, old_name, new_name)                            \
+    FIELDSCRIBE_ALIAS(                                                                           \
+        was, point, fieldscribe_same_function((fieldscribe_function)(old_name), (fieldscribe_function)(new_name)))
 #if defined(FIELDSCRIBE_NO_FLOAT)
-#define FIELDSCRIBE_ALIAS_OF_FLOATING_FUNCTION(point, old_name, new_name)
+#define FIELDSCRIBE_ALIAS_OF_FLOATING_FUNCTION(was, point, old_name, new_name)
 #else
 #define FIELDSCRIBE_ALIAS_OF_FLOATING_FUNCTION FIELDSCRIBE_ALIAS_OF_FUNCTION
 #endif
@@ -1568,7 +1581,7 @@ static bool fieldscribe_run_frame(fieldscribe_vector *v)
         fieldscribe_run_can_build(v);
     } else if (fieldscribe_asks(v, "can_parse")) {
         fieldscribe_run_can_parse(v);
-    } else if (fieldscribe_asks(v, "can_telegram")) {
+    } else if (fieldscribe_asks(v, "can_telegram") || fieldscribe_asks(v, "can_text")) {
         fieldscribe_run_can_telegram(v);
     } else {
         return false;

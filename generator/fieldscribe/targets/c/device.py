@@ -39,7 +39,7 @@ def device_view(device: Device) -> tuple[DeviceView, Scope]:
         for old in point.was:
             item = old + point.item[len(point.name) :]  # a variant keeps its suffix
             of_item = _aliases(one, f"{scope.prefix}_{item}", f"{scope.upper}_{upper(item)}")
-            aliases += [AliasView(item, *alias) for alias in of_item]
+            aliases += [AliasView(item, one.item, *alias) for alias in of_item]
     titles = {group.name: group.title["en"] for group in device.groups}
     groups = tuple(
         GroupView(c_comment(titles.get(name, name)), tuple(entries)) for name, entries in by_group.items() if entries

@@ -305,6 +305,7 @@ class TelegramView:
 class AliasView:
     """An old name of something that belongs to a renamed point; `sort` tells numbers, texts and functions apart."""
 
+    old_item: str
     item: str
     old: str
     new: str

@@ -118,6 +118,7 @@ KINDS = _table(
         "can_parse": "unit:int id:int bytes:bytes? status:word address:int? raw:int?",
         "can_taken": "frames:frames taken:ints",
         "can_telegram": "frames:frames? taken:ints? status:word raw:int?",
+        "can_text": "only:c frames:frames? taken:ints? status:word words:ints?",
         # telegrams of USS
         "uss_build": "status:word bytes:bytes?",
         "uss_broadcast": "mask:ints words:ints? status:word bytes:bytes?",
