@@ -76,7 +76,7 @@ def test_devices_conform_on_32_bits(device: str, flags: tuple[str, ...], folder:
     gcc_for_32_bits()
     words = ("-m32", "-std=gnu99", "-O1", *WARNINGS, *flags)
     program = compiled("gcc", words, conformance_source(folder, device), tmp_path / "conformance")
-    succeed([program, folder / "vectors" / f"{device}.json"])
+    succeed([program, folder / "vectors" / f"{device}.txt"])
 
 
 def test_doubles_of_32_bits_are_refused(folder: Path, narrow: Path) -> None:

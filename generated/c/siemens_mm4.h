@@ -98,20 +98,6 @@ static inline bool siemens_mm4_multiply(int64_t a, int64_t b, int64_t *product)
     return true;
 }
 
-/* Multiplies a rule by ten to the power of `exponent`; false when that does not fit. */
-static inline bool siemens_mm4_times_ten_to(int64_t exponent, siemens_mm4_rule *rule)
-{
-    int64_t *const grows = exponent < 0 ? &rule->den : &rule->num;
-    uint64_t left = siemens_mm4_magnitude(exponent);
-    while (left > 0U) {
-        if (!siemens_mm4_multiply(*grows, 10, grows)) {
-            return false;
-        }
-        --left;
-    }
-    return true;
-}
-
 /* The mantissa and the exponent of a binary32 number; false when it is zero, infinite or not a number. */
 static inline bool siemens_mm4_split_f32(uint32_t bits, int64_t *mantissa, int32_t *exponent)
 {

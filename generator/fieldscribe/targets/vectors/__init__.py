@@ -54,6 +54,7 @@ def collect(device: Device) -> Lines:
     frames, wire = _FAMILIES[device.family]
     exchanges = Exchanges(lines, oracle, device, wire(device))
     exchanges.open()
+    limits(lines, device)
     for point in device.points:
         if point.generated:
             _point(lines, oracle, point)
@@ -62,7 +63,6 @@ def collect(device: Device) -> Lines:
     for point in device.points:
         if point.raw_only and point.address is not None:
             lines.add("documented", point.item, point.places[0].space, point.address, point.words, point.index)
-    limits(lines, device)
     frames(lines, device)
     return lines
 
