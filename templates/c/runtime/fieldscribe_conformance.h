@@ -396,6 +396,12 @@ static inline void fieldscribe_stored(fieldscribe_vector *v, int status, const c
     }
 }
 
+/* What stands in a number before it is read: another one than is expected, and 1 where none is. */
+static inline uint64_t fieldscribe_other(fieldscribe_vector *v)
+{
+    return fieldscribe_bits(v, "raw") ^ 1U;
+}
+
 /* ---- What points answer ---- */
 
 /* The raw numbers of other points, as further arguments of a call; or none. */
@@ -682,7 +688,7 @@ static inline bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
 /* A point of a telegram, out of what was received. */
 #define FIELDSCRIBE_RECEIVED(function, raw_type)                                                 \
     if (fieldscribe_asks(v, "can_telegram")) {                                                   \
-        raw_type raw = (raw_type)1;                                                              \
+        raw_type raw = (raw_type)fieldscribe_other(v);                                           \
         const fieldscribe_can_status status =                                                    \
             function##_received((const fieldscribe_can_receiver *)v->receiver, &raw);            \
         fieldscribe_is_text(v, "status", fieldscribe_can_status_text(status));                   \
@@ -975,7 +981,7 @@ static inline void fieldscribe_is_answer(fieldscribe_vector *v, fieldscribe_can_
         const uint8_t unit = (uint8_t)fieldscribe_bits(v, "unit");                               \
         const char *sent = NULL;                                                                 \
         const char *received = NULL;                                                             \
-        raw_type raw = (raw_type)1;                                                              \
+        raw_type raw = (raw_type)fieldscribe_other(v);                                           \
         if (fieldscribe_step(v, 0U, &sent, &received)) {                                         \
             fieldscribe_can_frame frame = fieldscribe_frame_of(received);                        \
             const fieldscribe_can_status status = function##_read_answer(unit, &frame, &raw);    \
@@ -1127,7 +1133,7 @@ static inline bool fieldscribe_exchange(fieldscribe_vector *v, size_t place, con
     if (fieldscribe_asks(v, "read")) {                                                           \
         uint16_t words[256] = {0U};                                                              \
         fieldscribe_uss_reply reply;                                                             \
-        raw_type raw = (raw_type)1;                                                              \
+        raw_type raw = (raw_type)fieldscribe_other(v);                                           \
         const fieldscribe_uss_request request = function##_read_request((uint8_t)fieldscribe_bits(v, "unit")); \
         if (fieldscribe_exchange(v, 0U, &request, words, &reply)) {                              \
             fieldscribe_agree(v, function##_from_reply(&reply, &raw));                           \
