@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 GENERATED = Path(__file__).resolve().parents[1] / "generated"
 SHIPPED = sorted(path.stem for path in (GENERATED / "vectors").glob("*.txt"))
 FLOATS: dict[str, tuple[str, ...]] = {"float": (), "no_float": ("-DFIELDSCRIBE_NO_FLOAT",)}
-MADE = ("sample_drive", "rare", "kitchen_sink", "kitchen_can", "kitchen_uss")
+MADE = ("sample_drive", "rare", "kitchen_sink", "kitchen_codes", "kitchen_can", "kitchen_uss")
 CORE = ("c99", "c++17")
 COMPILERS = ("gcc", "clang")
 
@@ -88,9 +88,15 @@ def uss(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="session")
-def folders(sample: Path, rare: Path, sink: Path, can: Path, uss: Path) -> dict[str, Path]:
+def codes(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return write_c(kitchen("kitchen_codes"), tmp_path_factory.mktemp("codes"))
+
+
+@pytest.fixture(scope="session")
+def folders(request: pytest.FixtureRequest) -> dict[str, Path]:
     """Where the generated files of a device are: the committed ones, or those of this run."""
-    made = {"sample_drive": sample, "rare": rare, "kitchen_sink": sink, "kitchen_can": can, "kitchen_uss": uss}
+    fixtures = ("sample", "rare", "sink", "codes", "can", "uss")
+    made = {device: request.getfixturevalue(one) for device, one in zip(MADE, fixtures, strict=True)}
     return {**dict.fromkeys(SHIPPED, GENERATED), **made}
 
 

@@ -168,28 +168,6 @@ def test_what_is_made_no_more_but_was_edited_stays_and_is_named(tmp_path: Path) 
     assert "docs/drive.csv" in written(tmp_path)
 
 
-def test_a_tree_of_format_1_is_taken_over(tmp_path: Path) -> None:
-    before = {
-        "c": {"c/drive.h": HEAD + b"old\n", "c/fieldscribe_x.h": b"/* SPDX-License-Identifier: 0BSD */ old\n"},
-        "docs": {"docs/drive.csv": b"old,table\n"},
-        "vectors": {"vectors/drive.json": b"{}\n"},
-    }
-    for files in before.values():
-        for path, data in files.items():
-            (tmp_path / path).parent.mkdir(exist_ok=True)
-            (tmp_path / path).write_bytes(data)
-    manifest(tmp_path, "drive", {target: list(files) for target, files in before.items()}, 1)
-    after = {
-        "c": {"c/drive.h": HEAD, "c/fieldscribe_x.h": b"new\n"},
-        "docs": {"docs/drive.csv": b"new,table\n"},
-        "vectors": {"vectors/drive.tsv": b"\n"},
-    }
-    generate(tmp_path, "drive", after)
-    assert {path: data for path, data in written(tmp_path).items() if not path.startswith("manifest")} == {
-        path: data for files in after.values() for path, data in files.items()
-    }
-
-
 def test_a_killed_run_leaves_nothing_that_the_next_one_takes_for_foreign(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -212,21 +190,6 @@ def test_a_killed_run_leaves_nothing_that_the_next_one_takes_for_foreign(
     generate(tmp_path, "drive", {"docs": {"docs/a.csv": b"a3\n", "docs/b.csv": b"b3\n"}})
     assert sorted(written(tmp_path)) == ["docs/a.csv", "docs/b.csv", "manifest/drive.json"]
     assert "pending" not in json.loads((tmp_path / "manifest/drive.json").read_text())
-
-
-def test_a_run_of_one_target_on_format_1_keeps_the_others_ours(tmp_path: Path) -> None:
-    for path, data in (("docs/drive.csv", b"old\n"), ("c/drive.h", HEAD)):
-        (tmp_path / path).parent.mkdir()
-        (tmp_path / path).write_bytes(data)
-    manifest(tmp_path, "drive", {"c": ["c/drive.h"], "docs": ["docs/drive.csv"]}, 1)
-    generate(tmp_path, "drive", {"c": {"c/drive.h": HEAD + b"new\n"}})
-    assert json.loads((tmp_path / "manifest/drive.json").read_text())["targets"]["docs"] == {"docs/drive.csv": None}
-    assert list(generate(tmp_path, "drive", FILES).write) == [
-        "c/drive.h",
-        "c/runtime.h",
-        "docs/drive.csv",
-        "manifest/drive.json",
-    ]
 
 
 def test_what_changes_while_it_is_compared_is_not_called_current(tmp_path: Path) -> None:

@@ -84,7 +84,7 @@ def every_vector_passes(device: Device, folder: Path) -> None:
     ]
 
 
-@pytest.mark.parametrize("name", ["kitchen_can", "kitchen_uss"])
+@pytest.mark.parametrize("name", ["kitchen_codes", "kitchen_can", "kitchen_uss"])
 def test_kitchens_pass(name: str, tmp_path: Path) -> None:
     device = load_device(Path(__file__).parent / "devices" / name / "device.yaml", Report())
     assert device is not None

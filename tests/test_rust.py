@@ -49,6 +49,7 @@ MODELS: dict[str, Callable[[], Device]] = {
     "odd": odd_device,
     "trips": trip_device,
     "kitchen_sink": kitchen_sink,
+    "kitchen_codes": partial(kitchen, "kitchen_codes"),
     "kitchen_can": partial(kitchen, "kitchen_can"),
     "kitchen_uss": partial(kitchen, "kitchen_uss"),
     "result": partial(kitchen, "odd_names"),
@@ -215,7 +216,7 @@ def test_all_crates_name_the_compiler_that_they_need() -> None:
     assert max(versions) <= 85
 
 
-@pytest.mark.parametrize("device", [*MODELS, *SHIPPED])
+@pytest.mark.parametrize("device", [*MODELS, *(pytest.param(device, marks=pytest.mark.full) for device in SHIPPED)])
 def test_conforms(workspace: Path, device: str) -> None:
     done = cargo(workspace, "test", "--quiet", "--package", device, "--test", "conformance")
     assert done.returncode == 0, done.stdout + done.stderr

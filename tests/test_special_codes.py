@@ -11,10 +11,12 @@ from typing import TYPE_CHECKING, Any
 import pytest
 from c_device import KITCHENS, WARNINGS, kitchen, write_headers
 from fieldscribe.cli import main
+from fieldscribe.diagnostics import Report
 from fieldscribe.dialogue.meanings import meaning_of
 from fieldscribe.export import export_model
 from fieldscribe.export.dbc import export_dbc
 from fieldscribe.model import Special
+from fieldscribe.pipeline import load_device
 from fieldscribe.render import render
 from fieldscribe.targets import c, docs, python, rust
 from models import kitchen_sink, named
@@ -171,6 +173,8 @@ def test_explain_and_decode_name_codes(capsys: Any) -> None:
         ("mode unknown", 1, "only read"),
         ("outputs not_set", 0, "raw 65535 = FFFFh"),
         ("input_delays not_set", 1, "only read"),
+        ("control released", 0, "raw 0 = 0000h"),
+        ("control start", 0, "raw 1025 = 0401h"),
         ("setpoint released", 0, "raw 2143289344 = 7FC00000h"),
         ("amplified 5 --with gain=10", 0, "amplified = 5"),
         ("amplified 5 --with gain=out_of_order", 1, "gain is zero or no quantity"),
@@ -315,15 +319,47 @@ def test_nothing_is_computed_with_a_code_of_another_point(points: Any) -> None:
     assert points.amplified.decode(50, {"gain": 0x7FFD}) != 0
 
 
+@pytest.mark.parametrize(
+    ("item", "raw"),
+    [
+        ("temperature", 0x8000),
+        ("voltage", -12),
+        ("voltage", 0x1FFF4),
+        ("gear", 0x2F),
+        ("ratio", -1),
+        ("alarms", 0x1FFFF),
+    ],
+)
+def test_what_the_point_cannot_hold_is_no_quantity(points: Any, item: str, raw: int) -> None:
+    """8000h of an s16 is -32768: taken for 32768 it would pass by the code `not_available` as 3276.8 degrees."""
+    refused = error(getattr(points, item).decode, raw)
+    assert (refused.status, "no raw number" in str(refused)) == ("out_of_range", True)
+    if item not in {"ratio", "alarms"}:
+        assert error(getattr(points, item).decode_count, raw).status == "out_of_range"
+
+
+def test_refusals_say_how_a_code_is_written(points: Any) -> None:
+    assert "write special.inactive" in str(error(points.upper_limit.encode, 0))
+    assert "write special(4101)" in str(error(points.lower_limit.encode, 410.1, {"upper_limit": 0}))
+    assert "as in special.name, not 'inactive'" in str(error(points.upper_limit.encode, "inactive"))
+
+
 MISUSE = """
 from typing import assert_type
 from fieldscribe_runtime import Special
+from kitchen_codes import KitchenCodes
 from kitchen_codes.points import Points
 from kitchen_sink.points import Points as Others
 
 assert_type(Points.voltage.decode(1), float | Special)
 assert_type(Others.third.decode(1), float)
 wrong: float = Points.voltage.decode(1)  # E: assignment
+
+
+def read(device: KitchenCodes) -> None:
+    many: float = device.read_many("measured")["voltage"]  # E: assignment
+
+
 Points.upper_limit.encode(Points.upper_limit.special.inactive)
 Points.level.encode(Points.upper_limit.special.inactive)  # E: arg-type
 """
@@ -348,3 +384,34 @@ def test_a_point_without_codes_has_nothing_of_them() -> None:
     assert "Codes" not in third[: third.index("    )")]
     header = dict(c.outputs(kitchen_sink(), render))["c/kitchen_sink.h"]
     assert "kitchen_sink_third_is_special" not in header
+
+
+def test_what_stands_above_a_point_names_its_codes_and_which_may_be_written() -> None:
+    for target, file, mark in (
+        (c, "c/kitchen_codes.h", ""),
+        (python, "python/kitchen_codes/points.py", ""),
+        (rust, "rust/kitchen_codes/src/points.rs", "`"),
+    ):
+        said = " ".join(dict(target.outputs(device(), render))[file].replace(" * ", "").split())
+        for sentence in (
+            f"Special codes: {mark}0{mark} {mark}inactive{mark} (may be written), {mark}7FFEh{mark} {mark}out_",
+            f"Special codes: {mark}Fh{mark} {mark}unknown{mark}, {mark}Eh{mark} {mark}none{mark}.",
+            f"Special code: {mark}7FF8000000000000h{mark} {mark}not_available{mark}.",
+        ):
+            assert sentence in said, (file, sentence)
+
+
+def test_a_code_within_an_inherited_band_takes_the_band_away_and_names_the_rest(tmp_path: Path) -> None:
+    """All patterns of NaN are one code of the type, and one of them means something else at one point."""
+    text = (KITCHENS / "kitchen_codes" / "device.yaml").read_text(encoding="utf-8")
+    mended = text.replace(
+        "special: {7FC00000h: {name: released, writable: yes}}",
+        "special: {7FC00000h: released, 7FC00001h..7FC000FFh: ~, 7FC00080h: other, 7FC00081h..7FC000FFh: fault}",
+    )
+    assert mended != text
+    (tmp_path / "device.yaml").write_text(mended, encoding="utf-8")
+    found = load_device(tmp_path / "device.yaml", Report())
+    assert found is not None
+    codes = {one.name: (one.low, one.high) for one in named(found, "setpoint").specials}
+    assert codes["other"] == (0x7FC00080, 0x7FC00080)
+    assert codes["fault"] == (0x7FC00081, 0x7FC000FF)

@@ -75,6 +75,11 @@ class Codes:
     def __len__(self) -> int:
         return len(self._spans)
 
+    def said(self, code: Special) -> str:
+        """How a program names a code: `special.inactive`, or `special(4101)` for one of a band."""
+        low, high = self._spans[code.name]
+        return f"special.{code.name}" if low == high else f"special({code.raw})"
+
     def _made(self, name: str, raw: int) -> Special:
         return Special(name, raw, name in self._no_value, name in self._writable)
 

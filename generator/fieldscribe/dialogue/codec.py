@@ -92,6 +92,8 @@ def decode(point: Point, raw: int, settings: Settings) -> Fraction:
             raise CodecError("not_a_number")
         return Fraction(number)
     ratio, offset = rule_in_force(point, settings)
+    if point.most_raw is not None and abs(raw) > point.most_raw:
+        raise CodecError("overflow")
     return (raw - offset) / ratio
 
 

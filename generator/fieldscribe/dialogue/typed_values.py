@@ -64,7 +64,8 @@ def encode_typed(device: Device, point: Point, typed: Typed, settings: Settings)
     """The raw number to write. Raises RefusedError, which says why not in words."""
     if point.text is not None:
         return typed.raw
-    raw = codec.with_fixed(point, typed.raw)
+    coded = typed.value is None and point.special(typed.raw) is not None
+    raw = typed.raw if coded else codec.with_fixed(point, typed.raw)
     try:
         if typed.value is not None:
             return codec.encode_checked(point, typed.value, settings)

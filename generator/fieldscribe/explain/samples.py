@@ -27,7 +27,7 @@ def sample_raw(point: Point) -> int | None:
         raw = (point.default * rule[2] - rule[1]) / rule[0]
         special = point.special(int(raw))
         if raw.denominator == 1 and (special is None or special.writable):
-            return _with_fixed(point, int(raw))
+            return _with_fixed(point, int(raw)) if special is None else int(raw)
     ends = [end for one in point.allowed.intervals for end in (one.low, one.high) if isinstance(end, int)]
     return _with_fixed(point, min(ends, key=abs)) if ends else None
 

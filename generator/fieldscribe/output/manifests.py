@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 from fieldscribe.reading import read_regular
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterator, Mapping
     from pathlib import Path
 
 FOLDER = "manifest"
@@ -29,7 +29,7 @@ _HEADS = (
 _PLAIN_PATH = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_.-]*(?:/[A-Za-z0-9_][A-Za-z0-9_.-]*)+")
 
 Digests = tuple[str, ...]
-"""The checksums that a file may have and be ours; an empty one where format 1 named it without."""
+"""The checksums that a file may have and be ours: what it has, and what a run is about to give it."""
 
 Targets = dict[str, dict[str, Digests]]
 """Paths of each target, relative to the output folder."""
@@ -68,8 +68,7 @@ class Manifests:
             return True
         known = self._users.get(path, {}).values()
         same = {sha256(data).hexdigest(), sha256(data.replace(b"\r\n", b"\n")).hexdigest()}  # git for Windows
-        unknown = any("" in digests for digests in known) and _looks_ours(path, device, data)
-        return unknown or any(not same.isdisjoint(digests) for digests in known)
+        return any(not same.isdisjoint(digests) for digests in known)
 
 
 def carries_head(device: str, data: bytes) -> bool:
@@ -86,8 +85,7 @@ def manifest_path(device: str) -> str:
 def manifest_text(device: str, targets: Targets) -> str:
     """The manifest. Of several checksums of a file the first is what it has, the last what it is about to have."""
     named = {
-        name: {path: digests[0] or None for path, digests in sorted(files.items())}
-        for name, files in sorted(targets.items())
+        name: {path: digests[0] for path, digests in sorted(files.items())} for name, files in sorted(targets.items())
     }
     pending = {
         path: digests[-1] for files in targets.values() for path, digests in files.items() if len(set(digests)) > 1
@@ -113,24 +111,12 @@ def read_manifest(place: Path) -> Targets:
         return {}
 
 
-def _files(files: Any, pending: Any) -> list[tuple[str, Digests]]:
-    """Paths with checksums; format 1 has a list of paths alone."""
-    if isinstance(files, list):
-        return [(str(path), ("",)) for path in files]
-    return [
-        (path, (str(digest or ""), str(pending[path])) if path in pending else (str(digest or ""),))
-        for path, digest in files.items()
-    ]
+def _files(files: Mapping[str, Any], pending: Mapping[str, Any]) -> Iterator[tuple[str, Digests]]:
+    """Paths with the checksums that are recorded for them."""
+    for path, digest in files.items():
+        yield path, (str(digest), str(pending[path])) if path in pending else (str(digest),)
 
 
 def _is_below(path: str, target: str) -> bool:
     """A target's files are below its folder, whatever a manifest says."""
     return path.startswith(f"{target}/") and _PLAIN_PATH.fullmatch(path) is not None
-
-
-def _looks_ours(path: str, device: str, data: bytes) -> bool:
-    """What format 1 named without a checksum is ours by the device's name, or by the licence line of a runtime."""
-    if path in (f"docs/{device}.csv", f"vectors/{device}.json") or not data.strip():
-        return True
-    ours = "/fieldscribe_" in path or f"/{device}/" in path
-    return ours and b"SPDX-License-Identifier: 0BSD" in data[:_HEAD_BYTES]

@@ -20,19 +20,27 @@ _MANTISSA = 24
 
 
 class Paths(NamedTuple):
-    """The k of the point's counts (None where no 64-bit integer holds them), and whether values can be encoded."""
+    """The k of the point's counts (None where no 64-bit integer holds them), and whether values can be encoded.
+
+    `most_raw` is the largest size of a raw number for which a scale with factors is exact, where the type goes beyond.
+    """
 
     decimals: int | None
     encodes_values: bool = True
+    most_raw: int | None = None
 
 
 class _Needs(NamedTuple):
-    """The largest integers that a rule meets: with its offset, in the numerator of a value, and among its constants."""
+    """The largest integers that a rule meets: with its offset, in the numerator of a value, and among its constants.
+
+    `down` is what raw numbers are multiplied by on the way to the numerator.
+    """
 
     raw: int
     numerator: int
     constant: int
     fixed: bool
+    down: int
 
     @property
     def encodes(self) -> bool:
@@ -56,18 +64,34 @@ def paths_of(draft: Draft, cases: tuple[ScaleCase, ...] | None, bounds: Bounds) 
         message = "nothing says how fine the counts are: a floating-point factor has no finest step"
         report.error("integer-path", message, span, "add `decimals: …`, the decimals that the device resolves")
         return Paths(0)
-    needs = [_needs(case.rule, _largest(draft, bounds), bounds) for case in cases]
+    chosen = _is_chosen(cases)
+    needs = [_needs(case.rule, _largest(draft, bounds), bounds, chosen=chosen) for case in cases]
     encodes = all(one.encodes for one in needs)
     if any(one.constant >= _WORD or not (one.fixed or one.encodes) for one in needs):
         message = "some values of this point cannot be exact in a double"
         report.error("float-path", message, draft.span("scale"), _way_out(cases, bounds))
-    return Paths(_decimals(draft, cases, bounds, needs), encodes)
+    return Paths(_decimals(draft, cases, bounds, needs), encodes, _most_raw(draft, cases, bounds))
+
+
+def _is_chosen(cases: tuple[ScaleCase, ...]) -> bool:
+    """Whether other points decide at run time what the rule is: integers of 64 bits then compute all that follows."""
+    return any(case.point is not None or case.rule.factors for case in cases)
 
 
 def _largest(draft: Draft, bounds: Bounds) -> int:
     """The largest raw number that has to survive: any, or where the type is too wide for that, any in range."""
     raw = max(map(abs, bounds.holds[draft]))
     return raw if raw < 1 << 33 else max(map(abs, bounds.own_hull(draft)))
+
+
+def _most_raw(draft: Draft, cases: tuple[ScaleCase, ...], bounds: Bounds) -> int | None:
+    """How large raw numbers may be, whatever the factors are; None if that is as large as the type allows."""
+    if not _is_chosen(cases):
+        return None
+    least = _largest(draft, bounds)
+    parts = [(case.rule.offset, _needs(case.rule, 0, bounds, chosen=True).down) for case in cases]
+    most = min((_EXACT // down - abs(offset.numerator)) // offset.denominator for offset, down in parts)
+    return None if most >= max(map(abs, bounds.holds[draft])) else max(least, most)
 
 
 def _decimals(draft: Draft, cases: tuple[ScaleCase, ...], bounds: Bounds, needs: list[_Needs]) -> int | None:
@@ -118,7 +142,7 @@ def _needed(rule: Linear, bounds: Bounds) -> int:
     return needed
 
 
-def _needs(rule: Linear, raw: int, bounds: Bounds) -> _Needs:
+def _needs(rule: Linear, raw: int, bounds: Bounds, *, chosen: bool) -> _Needs:
     """What both paths of a rule meet, whatever the points in it hold."""
     up, down = abs(rule.ratio.numerator), rule.ratio.denominator
     floats = bounds.scales.floats(rule)
@@ -136,4 +160,4 @@ def _needs(rule: Linear, raw: int, bounds: Bounds) -> _Needs:
     part, lift = rule.offset.denominator, abs(rule.offset.numerator)
     numerator = (raw * part + lift) * down
     constant = max(up * part, down * part, lift * down)
-    return _Needs(raw + lift // part, max(numerator, up * part), constant, not rule.factors)
+    return _Needs(raw + lift // part, max(numerator, up * part), constant, not chosen, down)

@@ -122,6 +122,7 @@ def _point(scope: Scope, draft: Draft, shape: Shape, places: Places, ranges: Ran
         scale=cases,
         decimals=paths.decimals,
         encodes_values=paths.encodes_values,
+        most_raw=paths.most_raw,
         allowed=allowed,
         default=None if draft.text else _default(scope, draft, enum, shape, cases),
         steps=_steps(scope, draft),

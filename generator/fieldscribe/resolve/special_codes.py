@@ -152,28 +152,46 @@ class SpecialCodes:
 
     def _beats(self, nearer: _Code, code: _Code) -> bool:
         """Whether a nearer code of that name or of just these numbers wins; sharing some of them is a finding."""
-        return nearer.name == code.name or nearer[:2] == code[:2] or self._clash(code, nearer)
+        if nearer.name == code.name or nearer[:2] == code[:2]:
+            return True
+        if not _meet(code, nearer):
+            return False
+        message = f"the special code {nearer.key}, `{nearer.name}`, shares numbers with the inherited {code.key}, "
+        hint = f"take that away (`{code.key}: ~`) and name what is left of it"
+        related = code.span, "inherited from here"
+        self._report("special-twice", f"{message}`{code.name}`", nearer.span, hint, related)
+        return True
 
     def _clash(self, code: _Code, other: _Code) -> bool:
-        """Whether two codes of one point share a number or a name; a finding with both places."""
-        if code.low <= other.high and other.low <= code.high:
-            differ = None not in (code.name, other.name) and code.name != other.name
+        """Whether two codes of one place share a number or a name; a finding with both places.
+
+        What is taken away may be named anew, whole or in parts.
+        """
+        if (code.name is None) != (other.name is None):
+            return False
+        first = other.span, "first given here"
+        if _meet(code, other):
+            differ = code.name != other.name
             message = f"the special code {code.key} is given twice"
             message += f", as `{other.name}` and as `{code.name}`" if differ else ""
-            self._report("special-twice", message, code.span, "remove one of them", other.span)
+            self._report("special-twice", message, code.span, "remove one of them", first)
             return True
         if code.name is not None and code.name == other.name:
             message = f"two special codes have the name `{code.name}`"
-            place = code.holder.span(code.key), "names are unique in a point", other.holder.span(other.key)
-            self._report("special-twice", message, *place)
+            place = code.holder.span(code.key), "names are unique in a point"
+            self._report("special-twice", message, *place, (other.holder.span(other.key), first[1]))
             return True
         return False
 
-    def _report(self, rule: str, message: str, span: Span, hint: str, first: Span | None = None) -> None:
+    def _report(self, rule: str, message: str, span: Span, hint: str, related: tuple[Span, str] | None = None) -> None:
         if (span, message) not in self._told:
             self._told.add((span, message))
-            related = [(first, "first given here")] if first is not None else []
-            self.scope.report.error(rule, message, span, hint, related)
+            self.scope.report.error(rule, message, span, hint, [] if related is None else [related])
+
+
+def _meet(code: _Code, other: _Code) -> bool:
+    """Whether two codes share a number."""
+    return code.low <= other.high and other.low <= code.high
 
 
 def _levels(scope: Scope, draft: Draft, kind: str, bits: tuple[int, int] | None) -> Iterator[_Level]:

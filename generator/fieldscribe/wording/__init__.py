@@ -190,6 +190,15 @@ def special_text(special: Special, width: int) -> str:
     return f"{numbers} = {special.name} ({title_text(special.title)})" + (f", {remarks}" if remarks else "")
 
 
+def codes_text(point: Point, mark: str = "") -> str:
+    """The codes of a point: `Special codes: 0 inactive (may be written), FFFCh fault`; `mark` quotes both."""
+    named = []
+    for one in point.specials:
+        written = " (may be written)" if one.writable and point.writable else ""
+        named.append(f"{mark}{special_numbers(one, point.width)}{mark} {mark}{one.name}{mark}{written}")
+    return f"Special code{'s' if len(named) > 1 else ''}: {', '.join(named)}" if named else ""
+
+
 def special_remarks(special: Special) -> str:
     """What else a special code says: `no value, may be written`; may be empty."""
     remarks = (("no value", special.no_value), ("may be written", special.writable))

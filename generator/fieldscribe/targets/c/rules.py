@@ -25,13 +25,21 @@ def ruled_view(point: Point, scope: Scope) -> RuledView:
         total=any(not case.test for case in cases),
         tens=signed(10 ** (point.decimals or 0)),
         pass_scale=scope.place(point.scale_arguments),
+        beyond=_too_large(point),
     )
+
+
+def _too_large(point: Point) -> str:
+    if point.most_raw is None:
+        return ""
+    above = f"raw > {bare(point.most_raw)}"
+    return f"raw < {bare(-point.most_raw)} || {above}" if point.least < 0 else above
 
 
 def limit_view(limit: Limit, name: str, is_low: bool, scope: Scope) -> LimitView:
     """The statements' parts that compute one limit into the variable `name`."""
     start = limit.least if is_low else limit.greatest
-    tests = [_is_no_code(f"{point}_raw", *band) for point, codes in limit.unless for band in codes]
+    tests = [_is_no_code(point, *band, scope) for point, codes in limit.unless for band in codes]
     applies, clamp = " && ".join(tests), f"{name} {'<' if is_low else '>'} {bare(start)}"
     simple = _simple(limit.rule, scope)
     if simple is None:
@@ -56,8 +64,13 @@ def _stays_inside(limit: Limit, scope: Scope, *, is_low: bool) -> bool:
     return 2 * most < 2 * limit.greatest + 1
 
 
-def _is_no_code(raw: str, low: int, high: int) -> str:
-    return f"{raw} != {bare(low)}" if low == high else f"({raw} < {bare(low)} || {raw} > {bare(high)})"
+def _is_no_code(point: str, low: int, high: int, scope: Scope) -> str:
+    least, greatest = raw_bounds(scope.points[point])
+    if low == high:
+        return f"{point}_raw != {bare(low)}"
+    tests = [f"{point}_raw < {bare(low)}"] if low > least else []
+    tests += [f"{point}_raw > {bare(high)}"] if high < greatest else []
+    return f"({' || '.join(tests)})" if len(tests) > 1 else tests[0]
 
 
 def limit_is_wide(limit: Limit, scope: Scope) -> bool:
@@ -112,12 +125,16 @@ def _codes(rule: Linear, scope: Scope) -> str:
     """Whether what is no quantity stands for a factor."""
     names = dict.fromkeys(factor.point for factor in rule.factors)
     codes = [(name, one) for name in names for one in scope.points[name].specials]
-    tests = [_is_code(f"{name}_raw", one.low, one.high) for name, one in codes]
-    return tests[0] if len(tests) == 1 else " || ".join(f"({test})" for test in tests)
+    tests = [_is_code(name, one.low, one.high, scope) for name, one in codes]
+    return " || ".join(f"({test})" if " && " in test and len(tests) > 1 else test for test in tests)
 
 
-def _is_code(raw: str, low: int, high: int) -> str:
-    return f"{raw} == {bare(low)}" if low == high else f"{raw} >= {bare(low)} && {raw} <= {bare(high)}"
+def _is_code(point: str, low: int, high: int, scope: Scope) -> str:
+    least, greatest = raw_bounds(scope.points[point])
+    if low == high:
+        return f"{point}_raw == {bare(low)}"
+    tests = [f"{point}_raw >= {bare(low)}"] if low > least else []
+    return " && ".join(tests + ([f"{point}_raw <= {bare(high)}"] if high < greatest else []))
 
 
 def _floats(factor: Factor, scope: Scope) -> bool:

@@ -91,7 +91,8 @@ def _plan(rule: Linear, decimals: int, raws: tuple[int, int], low: int, high: in
     count_wide = not (INT32[0] <= min(ends) and max(ends) <= INT32[1])
     limits = INT64 if count_wide else INT32
     first, last = _counts(p, q, r, low, high)
-    counts = max(first, limits[0]), min(last, limits[1])
+    most = (INT64[1] - abs(q)) // abs(p)  # beyond that are special codes alone
+    counts = max(first, limits[0], -most), min(last, limits[1], most)
     encoded = [abs(value) for count in counts for value in (count, count * p, count * p + q)]
     decoded = [abs(value) for raw in raws for value in (raw, raw * r, raw * r - q)]
     numerators = [abs(value) for raw in raws for value in (raw, raw * a, raw * a - b)]

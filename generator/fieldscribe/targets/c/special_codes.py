@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.names import upper
 from fieldscribe.targets.c.limits import any_of, interval_test
-from fieldscribe.targets.c.literals import bare, hexadecimal, raw_bounds, raw_type, signed, unsigned
+from fieldscribe.targets.c.literals import INT64, bare, hexadecimal, raw_bounds, raw_type, signed, unsigned
 from fieldscribe.targets.c.views import CodesView, SpecialView
 from fieldscribe.text import c_comment, c_string
 
@@ -55,9 +55,13 @@ def special_defines(special: Special, macro: str, point: Point) -> tuple[Define,
 
 
 def encoded_limits(point: Point) -> tuple[int, int]:
-    """Between which raw numbers values are looked at: what may be written, and the codes, which values never are."""
+    """Between which raw numbers values are looked at: what may be written, and the codes, which values never are.
+
+    No value becomes a code beyond 64 bits with a sign, in which they are computed.
+    """
     low, high = point.outer
-    return min(low, *(one.low for one in point.specials)), max(high, *(one.high for one in point.specials))
+    high = max(high, *(one.high for one in point.specials))
+    return min(low, *(one.low for one in point.specials)), high if point.scale is None else min(high, INT64[1])
 
 
 def _codes(point: Point, name: str, scope: Scope) -> CodesView | None:

@@ -107,12 +107,13 @@ class ScaledView:
 
 @dataclass(frozen=True, slots=True)
 class RuledView:
-    """A scale that other points decide at run time."""
+    """A scale that other points decide at run time; `beyond` tests for raw numbers too large for it, or is empty."""
 
     cases: tuple[RuleCase, ...]
     total: bool
     tens: str
     pass_scale: str
+    beyond: str
 
 
 @dataclass(frozen=True, slots=True)

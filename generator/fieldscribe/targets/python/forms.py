@@ -81,8 +81,12 @@ def _floating(point: Point, wire: str, scope: Scope) -> Node:
 
 def _scaled(point: Point, wire: str, scope: Scope) -> Node:
     scope.used.update(("Rule", "Scaled"))
-    only_decodes = () if point.encodes_values else ("encodes=False",)
-    return call("Scaled", (wire, _scale(point.scale or (), scope), f"decimals={point.decimals}", *only_decodes))
+    arguments = [wire, _scale(point.scale or (), scope), f"decimals={point.decimals}"]
+    if not point.encodes_values:
+        arguments.append("encodes=False")
+    if point.most_raw is not None:
+        arguments.append(f"most={point.most_raw}")
+    return call("Scaled", tuple(arguments))
 
 
 def _flags(point: Point, wire: str, scope: Scope) -> Node:

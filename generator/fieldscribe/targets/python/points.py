@@ -15,7 +15,7 @@ from fieldscribe.targets.python.identifiers import Identifiers, attribute, sorte
 from fieldscribe.targets.python.layout import WIDTH, Group, Node, assigned, call, comment, laid_out
 from fieldscribe.targets.python.scope import Scope
 from fieldscribe.text import python_doc, python_string
-from fieldscribe.wording import range_text
+from fieldscribe.wording import codes_text, range_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -192,6 +192,8 @@ def _doc(point: Point, errata: Mapping[str, Erratum], by_name: Mapping[str, Poin
     first = first if first.endswith(".") else f"{first}."
     if point.conditions and point.writable:
         first += f" To write it takes: {', '.join(one.replace('_', ' ') for one in point.conditions)}."
+    if point.specials:
+        first += f" {codes_text(point)}."
     lines = _wrapped(python_doc(first))
     for one in point.errata:
         erratum = errata[one]

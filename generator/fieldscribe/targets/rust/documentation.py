@@ -11,6 +11,7 @@ from fieldscribe.text import rust_code
 from fieldscribe.wording import (
     access_text,
     address_text,
+    codes_text,
     condition_text,
     raw_range_text,
     resolution_text,
@@ -32,6 +33,8 @@ def sentence(name: str) -> str:
 def point_doc(point: Point) -> tuple[str, ...]:
     """The lines of a point's doc comment behind `///`; an empty line parts paragraphs."""
     lines = [f" {sentence(point.item)}", "", f" {', '.join(_facts(point))}."]
+    if point.specials:
+        lines += ["", f" {codes_text(point, '`')}."]
     if point.errata:
         lines += ["", f" Errata: {', '.join(f'`{name}`' for name in point.errata)}."]
     return tuple(lines)

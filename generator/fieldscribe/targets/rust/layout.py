@@ -71,8 +71,8 @@ def calls(indent: int, left: str, items: list[tuple[str, Lines]]) -> Lines:
     """`left = &[name(arguments), ...];`: one line, else a line per call, else a line per argument."""
     flat = [f"{name}({', '.join(arguments)})" for name, arguments in items]
     joined = ", ".join(flat)
-    if len(joined) <= _ARRAY_WIDTH and indent + len(left) + len(joined) + 7 <= _WIDTH:
-        return (f"{left} = &[{joined}];",)
+    if len(joined) <= _ARRAY_WIDTH:
+        return binding(indent, left, f"&[{joined}]")
     lines = [f"{left} = &["]
     for line, (name, arguments) in zip(flat, items, strict=True):
         if indent + 4 + len(line) + 1 <= _WIDTH:

@@ -59,7 +59,17 @@ def read_view(subject: Subject, low: int, high: int) -> ReadView:
         scaled=scaled,
         count=count,
         function="" if function in (None, _FUNCTIONS.get(point.places[0].space)) else str(function),
+        beyond=_beyond(subject),
     )
+
+
+def _beyond(subject: Subject) -> str:
+    most = subject.point.most_raw
+    if most is None:
+        return ""
+    if subject.raw.startswith("u"):
+        return f"raw > {integer(most)}"
+    return f"!({integer(-most)}..={integer(most)}).contains(&raw)"
 
 
 def _digits(subject: Subject) -> str:

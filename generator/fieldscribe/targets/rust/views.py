@@ -63,7 +63,10 @@ class CheckView:
 
 @dataclass(frozen=True, slots=True)
 class ReadView:
-    """Decoding: types and expressions; `failing` if it can fail, `narrows` if a count has to become an `i64`."""
+    """Decoding: types and expressions; `failing` if it can fail, `narrows` if a count has to become an `i64`.
+
+    `beyond` tests for raw numbers that are too large for a scale with factors, or is empty.
+    """
 
     factors: str
     parameter: str
@@ -74,6 +77,7 @@ class ReadView:
     scaled: str
     count: str
     function: str
+    beyond: str
 
 
 @dataclass(frozen=True, slots=True)

@@ -62,6 +62,11 @@ def _no_limits(lines: Lines, point: Point, ratio: Ratio, status: str) -> None:
         lines.add("check", raw, status)
 
 
+def _beyond(point: Point, raw: int) -> bool:
+    """Whether a raw number is too large for a scale with factors."""
+    return point.most_raw is not None and abs(raw) > point.most_raw
+
+
 @dataclass(frozen=True, slots=True)
 class _Sheet:
     """One point with one setting under which it can be computed; `full` for the first setting, others get less."""
@@ -94,6 +99,8 @@ class _Sheet:
         for raw in dict.fromkeys((*raws, telling) if held and telling is not None else raws):
             if (code := code_of(self.point, raw)) is not None:
                 add("decode", raw, "special", None, code.name)
+            elif _beyond(self.point, raw):
+                add("decode", raw, "overflow")
             elif ratio.divides_exactly(raw) or not self.point.scale_arguments:
                 add("decode", raw, "ok", ratio.numerator(raw) / under)
 
@@ -104,7 +111,8 @@ class _Sheet:
                 add("decode_count", raw, "special", None, code.name)
                 continue
             count = ratio.count_of_raw(raw, decimals)
-            add("decode_count", raw, *(("ok", count) if -INT64 <= count < INT64 else ("overflow",)))
+            fits = -INT64 <= count < INT64 and not _beyond(self.point, raw)
+            add("decode_count", raw, *(("ok", count) if fits else ("overflow",)))
 
     def _encoded(self, raw: int | None) -> tuple[object, ...]:
         status = "out_of_range" if raw is None else admit(self.point, raw, self.limits, by_value=True)

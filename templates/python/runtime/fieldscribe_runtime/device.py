@@ -9,7 +9,7 @@ from abc import abstractmethod
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from .commands import AsyncCommandHandle, Command, CommandHandle
-from .session import Session, Steps
+from .session import Session, Steps, Value
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -59,7 +59,7 @@ class AnyDevice(Session):
             finally:
                 steps.close()
 
-    def read_many(self, what: str | Iterable[str | Point]) -> dict[str, Any]:
+    def read_many(self, what: str | Iterable[str | Point]) -> dict[str, Value]:
         """Read a group by its name, or several points, with few requests; values by point name."""
         return self._run(self._read_many_steps(what))
 
@@ -102,6 +102,6 @@ class AnyAsyncDevice(Session):
             finally:
                 steps.close()
 
-    async def read_many(self, what: str | Iterable[str | Point]) -> dict[str, Any]:
+    async def read_many(self, what: str | Iterable[str | Point]) -> dict[str, Value]:
         """Read a group by its name, or several points, with few requests; values by point name."""
         return await self._run(self._read_many_steps(what))

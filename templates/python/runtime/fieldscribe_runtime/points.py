@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from .errors import CodecError, RangeError, WrongLengthError
@@ -183,10 +184,11 @@ class Decoding(Point, Generic[R_co]):
     def decode(self, raw: int, raws: Raws = NO_RAWS) -> R_co:
         """The value (or special code) of a raw number; `raws` holds the raw numbers that the scale needs of others.
 
-        Raises ZeroFactorError, NoCaseError, ResultOverflowError and MissingRawError, none of them without such points.
+        Raises ZeroFactorError, NoCaseError, ResultOverflowError and MissingRawError, none of them without such points,
+        and RangeError for what is no raw number of the point.
         """
         try:
-            value: R_co = self._form.decode(raw, raws)
+            value: R_co = self._form.decode(self._possible(raw), raws)
         except CodecError as error:
             raise self._named(error) from None
         return value
@@ -194,9 +196,21 @@ class Decoding(Point, Generic[R_co]):
     def decode_count(self, raw: int, raws: Raws = NO_RAWS) -> int:
         """The value as an integer count of 10^-decimals units; raises SpecialCodeError for a special code."""
         try:
-            return self._form.decode_count(raw, raws)
+            return self._form.decode_count(self._possible(raw), raws)
         except CodecError as error:
             raise self._named(error) from None
+
+    def _possible(self, raw: int) -> int:
+        """The same number; raises RangeError for what the point cannot hold, as 8000h of an s16 without its sign."""
+        low, high = self._ends
+        if low <= raw <= high:
+            return raw
+        hint = ", with its sign: from_words gives it" if self.wire.signed else ""
+        raise RangeError(f"{_shown(raw)} is no raw number, which is {low}..{high}{hint}")
+
+    @cached_property
+    def _ends(self) -> tuple[int, int]:
+        return self.wire.limits(self.width)
 
 
 class Encoding(Point, Generic[W_contra]):

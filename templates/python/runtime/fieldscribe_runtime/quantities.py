@@ -5,15 +5,18 @@ from __future__ import annotations
 
 import math
 import struct
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
-from .errors import NotANumberError, WrongTypeError
+from .errors import NotANumberError, ResultOverflowError, WrongTypeError
 from .forms import Form, whole
 from .rules import NO_RAWS, Case, Rule, chosen
 
 if TYPE_CHECKING:
     from .forms import Allowed, Type
     from .rules import Raws
+
+
+N = TypeVar("N", int, float)
 
 
 def _is_nan(value: float) -> bool:
@@ -32,16 +35,23 @@ class Scaled(Form[float, float]):
     """A quantity: raw = value by a rule, or by the first of several cases that fits.
 
     With `decimals` None no 64-bit integer holds its counts, and there are none. Unless it `encodes`, its raw numbers
-    have more bits than a float, and values are only decoded.
+    have more bits than a float, and values are only decoded. Raw numbers beyond `most` in size overflow.
     """
 
     def __init__(
-        self, wire: Type, rule: Rule | tuple[Case, ...], *, decimals: int | None, encodes: bool = True
+        self,
+        wire: Type,
+        rule: Rule | tuple[Case, ...],
+        *,
+        decimals: int | None,
+        encodes: bool = True,
+        most: int | None = None,
     ) -> None:
         self.wire = wire
         self.rule = rule
         self.decimals = decimals
         self.encodes = encodes
+        self.most = most
         cases = (Case(None, None, rule),) if isinstance(rule, Rule) else rule
         names = [name for case in cases for name in (case.point, *(factor.point for factor in case.rule.factors))]
         self.needs = tuple(dict.fromkeys(name for name in names if name is not None))
@@ -57,7 +67,7 @@ class Scaled(Form[float, float]):
 
     def decode(self, raw: int, raws: Raws) -> float:
         """The binary64 nearest to the exact value."""
-        return self._rule(raws).decode(raw, raws)
+        return self._bounded(raw, self._rule(raws).decode(raw, raws))
 
     def converted(self, value: float, raws: Raws) -> int | None:
         """Rounded to nearest, halves away from zero."""
@@ -72,7 +82,13 @@ class Scaled(Form[float, float]):
 
     def decode_count(self, raw: int, raws: Raws) -> int:
         """The count nearest to the exact value, by integers alone."""
-        return self._rule(raws).decode_count(raw, self._counted(), raws)
+        return self._bounded(raw, self._rule(raws).decode_count(raw, self._counted(), raws))
+
+    def _bounded(self, raw: int, found: N) -> N:
+        """What was found; raises ResultOverflowError where the other languages cannot compute it exactly."""
+        if self.most is not None and abs(raw) > self.most:
+            raise ResultOverflowError(f"raw {raw} is beyond {self.most}, up to which the scale is exact")
+        return found
 
     def converted_count(self, count: int, raws: Raws) -> int:
         """As `converted`, by integers alone."""

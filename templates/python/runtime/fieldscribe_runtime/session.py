@@ -32,8 +32,8 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 Steps = Generator[Any, Any, T]
 """What goes in and out between the steps is the family's own."""
-Value = float | Special
-"""What reading numbers can give (also bool, IntEnum and IntFlag)."""
+Value = float | str | tuple[int, ...] | Special
+"""What reading a point can give (also bool, IntEnum and IntFlag)."""
 
 _NEVER = "never"
 _KEPT = frozenset({_NEVER, "rarely"})
@@ -246,7 +246,7 @@ class Session(PointTable, ABC):
                 del self._kept[item]
         yield from self._store_steps(place, values)
 
-    def _read_many_steps(self, what: str | Iterable[str | Point]) -> Steps[dict[str, Any]]:
+    def _read_many_steps(self, what: str | Iterable[str | Point]) -> Steps[dict[str, Value]]:
         """Read a group, or any points, with as few requests as the device allows.
 
         Of a group those points are left out that do not travel the way the link is set.
@@ -257,7 +257,7 @@ class Session(PointTable, ABC):
         wanted: dict[str, Point] = {point.facts.item: point for point in points}
         wanted.update({point.facts.item: point for point in needed if point.facts.item not in self._kept})
         raws = yield from self._gather_steps(list(wanted.values()), group)
-        values: dict[str, Any] = {}
+        values: dict[str, Value] = {}
         for point in points:
             known = yield from self._raws_steps(point, point.scale_needs, raws)
             values[point.facts.name] = point.decode(raws[point.facts.item], known)

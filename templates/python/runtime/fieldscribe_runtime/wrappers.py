@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from .errors import RangeError, SpecialCodeError, UnknownValueError
+from .errors import RangeError, SpecialCodeError, UnknownValueError, WrongTypeError
 from .forms import Form
 from .special import Special
 
@@ -109,7 +109,7 @@ class _Coded(_Around[R | Special, W]):
         code = self.codes(raw)
         if code is None:
             return raw
-        hint = "write that" if code.writable else "it is only read"
+        hint = f"to write that, write {self.codes.said(code)}" if code.writable else "it is only read"
         raise SpecialCodeError(code.name, f"raw {raw} {how} the special code {code}: {hint}")
 
 
@@ -128,6 +128,8 @@ class WithWritableCodes(_Coded[R, W | Special]):
 
     def converted(self, value: W | Special, raws: Raws) -> int | None:
         """As in the form, or the raw number of a special code; raises UnknownValueError for one of another point."""
+        if isinstance(value, str):
+            raise WrongTypeError(f"takes a number or a special code, as in special.name, not {value!r}")
         if not isinstance(value, Special):
             return super().converted(value, raws)
         if self.codes(value.raw) != value:
