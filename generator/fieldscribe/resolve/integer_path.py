@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
+from fieldscribe.resolve.bounds import MOST_EXPONENT
+
 if TYPE_CHECKING:
     from fieldscribe.model import Linear, ScaleCase
     from fieldscribe.resolve.bounds import Bounds
@@ -67,9 +69,8 @@ def paths_of(draft: Draft, cases: tuple[ScaleCase, ...] | None, bounds: Bounds) 
     chosen = _is_chosen(cases)
     needs = [_needs(case.rule, _largest(draft, bounds), bounds, chosen=chosen) for case in cases]
     encodes = all(one.encodes for one in needs)
-    if any(one.constant >= _WORD or not (one.fixed or one.encodes) for one in needs):
-        message = "some values of this point cannot be exact in a double"
-        report.error("float-path", message, draft.span("scale"), _way_out(cases, bounds))
+    if not _sound(needs):
+        report.error("float-path", _too_wide(needs), draft.span("scale"), _way_out(draft, cases, bounds))
     return Paths(_decimals(draft, cases, bounds, needs), encodes, _most_raw(draft, cases, bounds))
 
 
@@ -114,12 +115,46 @@ def _decimals(draft: Draft, cases: tuple[ScaleCase, ...], bounds: Bounds, needs:
     return said if fits else None
 
 
-def _way_out(cases: tuple[ScaleCase, ...], bounds: Bounds) -> str:
+def _sound(needs: list[_Needs]) -> bool:
+    """Whether there is a way to compute: constants in 63 bits, and what points hold at run time in 53."""
+    return all(one.constant < _WORD and (one.fixed or one.encodes) for one in needs)
+
+
+def _too_wide(needs: list[_Needs]) -> str:
+    """What does not fit, and into what."""
+    widest = max(one.constant for one in needs).bit_length()
+    if all(one.fixed for one in needs):
+        return f"the constants of this scale have {widest} bits, and code computes with 63"
+    widest = max(widest, max(one.numerator for one in needs).bit_length())
+    return f"with what its points may hold this scale needs {widest} bits, and floating point is exact up to 53"
+
+
+def _way_out(draft: Draft, cases: tuple[ScaleCase, ...], bounds: Bounds) -> str:
     """What to do where the steps of a scale do not fit: something that leads into no other fault."""
-    used = {bounds.scales.index.by_item(factor.point).name for case in cases for factor in case.rule.factors}
-    if used:
-        return f"give {' and '.join(f'`{name}`' for name in sorted(used))} a narrower `range`"
-    return "write a scale of fewer digits, or `scale: ~`: the point is then documented only"
+    factors = [factor for case in cases for factor in case.rule.factors]
+    used = {bounds.scales.index.by_item(factor.point).name for factor in factors}
+    chosen = _is_chosen(cases)
+
+    def fits(most: int, raw: int) -> bool:
+        return _sound([_needs(case.rule, raw, bounds, chosen=chosen, limit=most) for case in cases])
+
+    if not used:
+        other = "take the unit with another prefix (kW, mm), which brings the factor nearer to 1; or leave `scale` out"
+        return f"give `{draft.name}` a narrower `range`" if chosen and fits(0, 1) else other
+
+    names = " and ".join(f"`{name}`" for name in sorted(used))
+    tens = [factor.ten_to for factor in factors]
+    tries = range(MOST_EXPONENT, 0, -1) if all(tens) else [(1 << bits) - 1 for bits in range(63, 0, -1)]
+    room = (
+        None if any(tens) and not all(tens) else next((one for one in tries if fits(one, _largest(draft, bounds))), 0)
+    )
+    if room is None or room > 1:
+        within = "" if room is None else f" within -{room}..{room}" if all(tens) else f" that ends at {room} at most"
+        return f"give {names} a narrower `range`{within}"
+    if fits(1, 1):
+        held = "what they hold at most, multiplied, has to stay below 2^53"
+        return f"give `{draft.name}` and {names} narrower ranges: {held}"
+    return "take the unit with another prefix (kW, mm), which brings the factor nearer to 1; or leave `scale` out"
 
 
 def _fit(needs: list[_Needs], decimals: int) -> bool:
@@ -142,8 +177,8 @@ def _needed(rule: Linear, bounds: Bounds) -> int:
     return needed
 
 
-def _needs(rule: Linear, raw: int, bounds: Bounds, *, chosen: bool) -> _Needs:
-    """What both paths of a rule meet, whatever the points in it hold."""
+def _needs(rule: Linear, raw: int, bounds: Bounds, *, chosen: bool, limit: int | None = None) -> _Needs:
+    """What both paths of a rule meet, whatever the points in it hold; or if none of them held more than `limit`."""
     up, down = abs(rule.ratio.numerator), rule.ratio.denominator
     floats = bounds.scales.floats(rule)
     for factor in rule.factors:
@@ -151,6 +186,7 @@ def _needs(rule: Linear, raw: int, bounds: Bounds, *, chosen: bool) -> _Needs:
             up, down = (up << _MANTISSA, down) if factor.power == 1 else (up, down << _MANTISSA)
             continue
         most = max(map(abs, bounds.ends_of(factor)))
+        most = most if limit is None else min(most, limit)
         if factor.ten_to:
             up, down = up * 10**most, down * 10**most
         elif factor.power == 1:

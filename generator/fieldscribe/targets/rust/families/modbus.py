@@ -37,6 +37,7 @@ def modbus_context(device: Device) -> dict[str, object]:
         "pad": "true" if bus.pad_coil_bytes == "even" else "false",
         "exceptions": tuple((sentence(one.name), one.name.upper(), f"0x{one.number:02X}") for one in bus.exceptions),
         "blocks": tuple(_blocks(device)),
+        "block_needs": "{Block, Space}" if any(device.blocks.values()) else "Block",
         "groups": array([f"({rust_string(group)}, blocks::{group.upper()})" for group in device.blocks]),
         "commands": tuple(_commands(device)),
     }
