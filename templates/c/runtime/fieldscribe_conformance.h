@@ -737,6 +737,10 @@ static inline bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
         (void)fieldscribe_exchange(v, 0U, &request, words);                                      \
     }
 
+#define FIELDSCRIBE_DOCUMENTED_CODE(point, macro)                                                \
+    if (fieldscribe_asks_of(v, "documented_code", "name", point)) {                              \
+        fieldscribe_is_text(v, "code", macro##_CODE);                                            \
+    }
 #define FIELDSCRIBE_DOCUMENTED(point, macro, index)                                              \
     if (fieldscribe_asks_of(v, "documented", "name", point)) {                                   \
         fieldscribe_is_text(v, "space", v->suite->spaces[macro##_SPACE]);                        \
@@ -1934,7 +1938,8 @@ static void fieldscribe_run_vector(fieldscribe_file *file, const char *text)
     v->differs = false;
     v->matched = 0U;
     if (fieldscribe_asks(v, "code") || fieldscribe_asks(v, "constant") || fieldscribe_asks(v, "command") ||
-        fieldscribe_asks(v, "group") || fieldscribe_asks(v, "documented") || fieldscribe_asks(v, "size") || fieldscribe_asks(v, "alias")) {
+        fieldscribe_asks(v, "group") || fieldscribe_asks(v, "documented") || fieldscribe_asks(v, "size") || fieldscribe_asks(v, "alias") ||
+        fieldscribe_asks(v, "documented_code")) {
         v->suite->run_code(v);
     } else if (!fieldscribe_run_frame(v)) {
         fieldscribe_run_point(v);

@@ -39,8 +39,8 @@ class SuiteView:
     names: tuple[str, ...]
     """The kinds of codes that a function names."""
     commands: tuple[tuple[str, str, str], ...]
-    documented: tuple[tuple[str, str, bool], ...]
-    """Points whose words alone are known, what their macros begin with, and whether they have an index."""
+    documented: tuple[tuple[str, str, bool, bool], ...]
+    """Points whose words alone are known, what their macros begin with, and whether they have an index and a code."""
     telegrams: tuple[str, ...]
 
 
@@ -67,7 +67,7 @@ def conformance_view(device: Device, view: DeviceView, scope: Scope, more: Itera
         groups=tuple(groups),
         codes=tuple(_codes(device, scope)),
         documented=tuple(
-            (one.item, f"{scope.upper}_{upper(one.item)}", one.index is not None)
+            (one.item, f"{scope.upper}_{upper(one.item)}", one.index is not None, one.code is not None)
             for one in device.points
             if one.raw_only and one.address is not None
         ),
