@@ -36,8 +36,10 @@ def text_of(device: Device) -> str:
 
 
 def vectors(device: Device) -> list[Vector]:
-    """The vectors of a device, without what is absent."""
-    return [plain(vector) for vector in vectors_of(text_of(device))]
+    """The vectors of a device that are not for other languages alone, without what is absent."""
+    text = text_of(device)
+    kinds = counts_of(text)
+    return [plain(vector) for vector in vectors_of(text) if vector["kind"] in kinds]
 
 
 SAMPLE = sample_device()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import prod
 from typing import TYPE_CHECKING
 
 from fieldscribe.targets.c.literals import INT32, INT64, bare, raw_bounds, signed
@@ -45,9 +46,22 @@ def limit_view(limit: Limit, name: str, is_low: bool, scope: Scope) -> LimitView
         scope.used.add("rules")
         rule = _rule(limit.rule, scope, of_limit=True)
         return LimitView(name, signed(start), applies, (), "number_of_rule", clamp, rule)
-    if is_low and start <= 0 and _never_negative(limit.rule, scope):
+    if _stays_inside(limit, scope, is_low=is_low):
         clamp = ""
     return LimitView(name, signed(start), applies, simple[1], simple[0], clamp, None)
+
+
+def _stays_inside(limit: Limit, scope: Scope, *, is_low: bool) -> bool:
+    """Whether a computed limit is never beyond the outer one, whatever the arguments hold."""
+    rule = limit.rule
+    if not _never_negative(rule, scope):
+        return False
+    if is_low:
+        return limit.least <= 0
+    if any(factor.power < 0 for factor in rule.factors):
+        return False
+    most = rule.ratio * prod(_bounds(factor, scope)[1] for factor in rule.factors) + rule.offset
+    return 2 * most < 2 * limit.greatest + 1
 
 
 def _is_no_code(point: str, low: int, high: int, scope: Scope) -> str:
@@ -87,6 +101,7 @@ def _rule(rule: Linear, scope: Scope, test: str = "", *, of_limit: bool = False)
             continue
         if factor.ten_to:
             exponent = f"-{number}" if factor.power < 0 else number
+            scope.used.add("times_ten_to")
             tens.append(Step("ten", "rule", exponent, False, _beyond(factor, scope)))
             continue
         ends[factor.power] *= _reach_of(factor, scope)

@@ -277,10 +277,13 @@ class Needs:
     round_wide: bool
     f32: bool
     f64: bool
+    f32_encodes: bool
+    f64_encodes: bool
     quotient: bool
     f32_order: bool
     f64_order: bool
     rules: bool
+    tens: bool
     shifts: bool
     lifts: bool
     floats: bool
@@ -292,10 +295,22 @@ class Needs:
 class TelegramView:
     """A telegram: the enumerator that names it, its number, and the macro that says how many words it has."""
 
+    title: str
     name: str
     number: int
     words_name: str
     words: int
+
+
+@dataclass(frozen=True, slots=True)
+class AliasView:
+    """An old name of something that belongs to a renamed point; `sort` tells numbers, texts and functions apart."""
+
+    old_item: str
+    item: str
+    old: str
+    new: str
+    sort: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -313,5 +328,5 @@ class DeviceView:
     spaces: tuple[tuple[str, int], ...]
     telegrams: tuple[TelegramView, ...]
     groups: tuple[GroupView, ...]
-    aliases: tuple[tuple[str, str], ...]
+    aliases: tuple[AliasView, ...]
     needs: Needs

@@ -141,11 +141,13 @@ def _telegram(lines: Lines, device: Device, telegram: Telegram) -> None:
     if message is None:
         return
     unit = device.bus.units[0]
-    points = [one for one in device.points if one.telegram == telegram.name and one.generated and one.form != "text"]
-    for point in points:
-        _heard(lines, telegram, message, point, unit)
+    for point in device.points:
+        if point.telegram == telegram.name and point.generated:
+            (_heard if point.form != "text" else _heard_text)(lines, telegram, message, point, unit)
     if message.words:
-        _misheard(lines, telegram, message, unit)
+        lines.add("size", "frames", telegram.name, -(-telegram.words // message.words))
+        for one in dict.fromkeys(device.bus.units):
+            _misheard(lines, telegram, message, one)
 
 
 def _misheard(lines: Lines, telegram: Telegram, message: Message, unit: int) -> None:
@@ -189,6 +191,22 @@ def _heard(lines: Lines, telegram: Telegram, message: Message, point: Point, uni
         (l1, h1, l2, h1, l1), (h1, l1, h1, h1),
     ):  # fmt: skip
         ask.answer([ask.frame(*one) for one in order])
+
+
+def _heard_text(lines: Lines, telegram: Telegram, message: Message, point: Point, unit: int) -> None:
+    """A text of a telegram: none of it there, all but the last frame, all of it."""
+    ask = _Asking(lines, telegram, message, point, unit)
+    slots = dict.fromkeys(position // message.words for position in point.addresses)
+    frames = [ask.frame(slot, 0x2143 + slot) for slot in slots]
+    for count in dict.fromkeys((0, len(frames) - 1, len(frames))):
+        receiver = Receiver(telegram, message, unit)
+        taken = [int(receiver.take(frame)) for frame in frames[:count]]
+        found = [receiver.words((position,)) for position in point.addresses]
+        status = next((status for status, _ in found if status != "ok"), "ok")
+        words = [word for _, words in found for word in words] if status == "ok" else None
+        lines.set("point", point.item)
+        lines.set("telegram", telegram.name, unit)
+        lines.add("can_text", [(one.id, one.data) for one in frames[:count]], taken, status, words)
 
 
 class _Asking:
