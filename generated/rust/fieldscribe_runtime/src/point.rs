@@ -291,7 +291,7 @@ pub trait CountWritable: Writable {
     /// The raw number of a count: nearest, halves away from zero, then checked.
     ///
     /// # Errors
-    /// As [`Writable::encode_with`].
+    /// As [`Encodable::encode_with`].
     fn encode_count_with(count: Self::Count, with: Self::With) -> Result<Self::Raw, Error>;
 
     /// As [`CountWritable::encode_count_with`], for a point that needs no other.
