@@ -56,9 +56,11 @@ def collect(device: Device) -> Lines:
     exchanges = Exchanges(lines, oracle, device, wire(device))
     exchanges.open()
     limits(lines, device)
+    for axis, choices in device.variants.items():
+        lines.add("variant", axis, choices)
     for point in device.points:
         if point.generated:
-            _point(lines, oracle, point)
+            _point(lines, oracle, point, device.variants)
             exchanges.of(point)
             lines.gather()
     for point in device.points:
@@ -66,14 +68,16 @@ def collect(device: Device) -> Lines:
             lines.add("documented", point.item, point.places[0].space, point.address, point.words, point.index)
             if point.code is not None:
                 lines.add("documented_code", point.item, line(point.code))
+    if left_out := tuple(point.item for point in device.points if not point.generated):
+        lines.add("left_out", left_out)
     frames(lines, device)
     return lines
 
 
-def _point(lines: Lines, oracle: Oracle, point: Point) -> None:
+def _point(lines: Lines, oracle: Oracle, point: Point, variants: Mapping[str, tuple[str, ...]]) -> None:
     lines.set("point", point.item)
     address(lines, point)
-    facts(lines, point)
+    facts(lines, point, variants)
     aliases(lines, point)
     if point.form == "scaled":
         scaled(lines, oracle, point)
