@@ -55,9 +55,9 @@ def collect(device: Device) -> Lines:
     frames, wire = _FAMILIES[device.family]
     exchanges = Exchanges(lines, oracle, device, wire(device))
     exchanges.open()
-    limits(lines, device)
     for axis, choices in device.variants.items():
         lines.add("variant", axis, choices)
+    limits(lines, device)
     for point in device.points:
         if point.generated:
             _point(lines, oracle, point, device.variants)
