@@ -60,7 +60,9 @@ def test_one_vector_per_line_with_counts_before() -> None:
 
 
 def test_units_of_points_are_vectors() -> None:
-    symbols = {vector["point"]: vector["symbol"] for vector in VECTORS if vector["kind"] == "symbol"}
+    symbols = {
+        vector["point"]: vector["symbol"] for vector in vectors_of(text_of(SAMPLE)) if vector["kind"] == "symbol"
+    }
     assert symbols == {
         point.item: point.unit.symbol for point in SAMPLE.points if point.generated and point.unit.symbol
     }
