@@ -23,11 +23,13 @@ class Paths(NamedTuple):
     """The k of the point's counts (None where no 64-bit integer holds them), and whether values can be encoded.
 
     `most_raw` is the largest size of a raw number for which a scale with factors is exact, where the type goes beyond.
+    `raw_alone` says that the scale itself needs more than 64 bits: nothing is computed.
     """
 
     decimals: int | None
     encodes_values: bool = True
     most_raw: int | None = None
+    raw_alone: bool = False
 
 
 class _Needs(NamedTuple):
@@ -66,11 +68,13 @@ def paths_of(draft: Draft, cases: tuple[ScaleCase, ...] | None, bounds: Bounds) 
         return Paths(0)
     chosen = _is_chosen(cases)
     needs = [_needs(case.rule, _largest(draft, bounds), bounds, chosen=chosen) for case in cases]
+    if any(one.constant >= _WORD for one in needs):
+        message = "this scale needs integers of more than 64 bits: the point has raw numbers alone"
+        report.warning("wide-scale", message, draft.span("scale"), _way_out(cases, bounds))
+        return Paths(None, encodes_values=False, raw_alone=True)
     encodes = all(one.encodes for one in needs)
-    if any(one.constant >= _WORD or not (one.fixed or one.encodes) for one in needs):
-        message = "some values of this point cannot be exact in a double"
-        report.error("float-path", message, draft.span("scale"), _way_out(cases, bounds))
-    return Paths(_decimals(draft, cases, bounds, needs), encodes, _most_raw(draft, cases, bounds))
+    decimals = _decimals(draft, cases, bounds, needs)
+    return Paths(decimals, encodes, _most_raw(draft, cases, bounds, _largest_numerator(decimals, encodes=encodes)))
 
 
 def _is_chosen(cases: tuple[ScaleCase, ...]) -> bool:
@@ -84,13 +88,20 @@ def _largest(draft: Draft, bounds: Bounds) -> int:
     return raw if raw < 1 << 33 else max(map(abs, bounds.own_hull(draft)))
 
 
-def _most_raw(draft: Draft, cases: tuple[ScaleCase, ...], bounds: Bounds) -> int | None:
+def _largest_numerator(decimals: int | None, *, encodes: bool) -> int | None:
+    """The largest numerator that all ways to compute a point take; None where a division of 128 bits takes any."""
+    counts = None if decimals is None else _INT64 // (2 * 10**decimals)
+    limits = [limit for limit in (_EXACT if encodes else None, counts) if limit is not None]
+    return min(limits, default=None)
+
+
+def _most_raw(draft: Draft, cases: tuple[ScaleCase, ...], bounds: Bounds, numerator: int | None) -> int | None:
     """How large raw numbers may be, whatever the factors are; None if that is as large as the type allows."""
-    if not _is_chosen(cases):
+    if not _is_chosen(cases) or numerator is None:
         return None
     least = _largest(draft, bounds)
     parts = [(case.rule.offset, _needs(case.rule, 0, bounds, chosen=True).down) for case in cases]
-    most = min((_EXACT // down - abs(offset.numerator)) // offset.denominator for offset, down in parts)
+    most = min((numerator // down - abs(offset.numerator)) // offset.denominator for offset, down in parts)
     return None if most >= max(map(abs, bounds.holds[draft])) else max(least, most)
 
 
@@ -115,11 +126,11 @@ def _decimals(draft: Draft, cases: tuple[ScaleCase, ...], bounds: Bounds, needs:
 
 
 def _way_out(cases: tuple[ScaleCase, ...], bounds: Bounds) -> str:
-    """What to do where the steps of a scale do not fit: something that leads into no other fault."""
+    """What to do where the integers of a scale do not fit: something that leads into no other fault."""
     used = {bounds.scales.index.by_item(factor.point).name for case in cases for factor in case.rule.factors}
     if used:
-        return f"give {' and '.join(f'`{name}`' for name in sorted(used))} a narrower `range`"
-    return "write a scale of fewer digits, or `scale: ~`: the point is then documented only"
+        return f"for values give {' and '.join(f'`{name}`' for name in sorted(used))} a narrower `range`"
+    return "for values write a scale of fewer digits"
 
 
 def _fit(needs: list[_Needs], decimals: int) -> bool:

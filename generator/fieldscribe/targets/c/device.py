@@ -131,6 +131,7 @@ def _needs(scope: Scope) -> Needs:
         f32_order="f32_order" in used,
         f64_order="f64_order" in used,
         rules=rules,
+        rules_wide="rules_wide" in used,
         shifts=rules and scope.shifts,
         lifts=rules and scope.lifts,
         floats=bool(used & _FLOATS),

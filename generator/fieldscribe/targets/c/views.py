@@ -107,13 +107,17 @@ class ScaledView:
 
 @dataclass(frozen=True, slots=True)
 class RuledView:
-    """A scale that other points decide at run time; `beyond` tests for raw numbers too large for it, or is empty."""
+    """A scale that other points decide at run time; `beyond` tests for raw numbers too large for it, or is empty.
+
+    `parts` are the sign and the size of a raw number that only a division of 128 bits decodes.
+    """
 
     cases: tuple[RuleCase, ...]
     total: bool
     tens: str
     pass_scale: str
     beyond: str
+    parts: tuple[str, str] | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -278,6 +282,7 @@ class Needs:
     f32: bool
     f64: bool
     quotient: bool
+    rules_wide: bool
     f32_order: bool
     f64_order: bool
     rules: bool
