@@ -78,6 +78,10 @@ groups:
   - {name: first, at: 1, type: u32}
   - {name: second, at: 3, type: u32}
   - {name: b, at: 5, type: u64, scale: value = raw * first * second}
+  - {name: exponent, at: 9, type: s16, range: -9..9}
+  - {name: c, at: 10, type: u64, access: r, scale: value = raw * first * 10 ** exponent}
+  - {name: d, at: 14, type: s64, scale: value = raw / first}
+  - {name: e, at: 18, type: u64, access: w, scale: value = raw * 10 ** exponent}
 """
 
 
@@ -95,6 +99,14 @@ def test_a_scale_beyond_every_integer_leaves_raw_numbers(tmp_path: Path) -> None
     text = (write_headers(device, tmp_path) / "c" / "meter.h").read_text("utf-8")
     assert "Not generated (a): its scale needs integers of more than 64 bits." in text
     assert "#define METER_A_ADDRESS" in text
+    program = tmp_path / "program.c"
+    program.write_text(
+        '#include "meter.h"\nint main(void) { double value; return (int)meter_c_decode(1, 1, 0, &value); }\n'
+    )
+    for switch in ("-O2", "-DFIELDSCRIBE_FLOAT32"):
+        succeed(
+            [compiled("gcc", ("-std=c99", switch, *WARNINGS, "-I", str(tmp_path / "c")), program, tmp_path / "run")]
+        )
 
 
 @pytest.fixture(scope="module")

@@ -78,6 +78,7 @@ class CheckView:
     number_type: str
     test: str
     refused: str
+    number: str = "raw"
 
 
 @dataclass(frozen=True, slots=True)
