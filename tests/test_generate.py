@@ -12,6 +12,8 @@ from typing import Any
 
 import pytest
 from fieldscribe.cli import main
+from fieldscribe.diagnostics import Report
+from fieldscribe.pipeline import find_devices
 from strange_files import KINDS, put
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -217,6 +219,22 @@ def test_a_folder_of_links_into_one_place_is_fine(project: Path, tmp_path: Path)
     for path in (project / "descriptions/hitachi_l200").iterdir():
         (farm / path.name).symlink_to(path)
     assert main(["check", str(farm.parent)]) == 0
+
+
+def test_a_device_whose_folder_may_not_be_looked_into_is_not_left_out(
+    project: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    lstat = os.lstat
+
+    def denied(path: Any, *arguments: Any, **named: Any) -> os.stat_result:
+        if "secret" in str(path) and str(path).endswith("device.yaml"):
+            raise PermissionError(13, "Permission denied", str(path))
+        return lstat(path, *arguments, **named)
+
+    (project / "descriptions/secret").mkdir()
+    monkeypatch.setattr(os, "lstat", denied)
+    found = find_devices([project / "descriptions"], Report())
+    assert project / "descriptions/secret/device.yaml" in found
 
 
 def test_a_circle_of_links_is_a_finding(project: Path) -> None:

@@ -58,6 +58,11 @@ WRITTEN = [
     ("range: {min: 0, max: 100}", "range: 0..100"),
     ("range_in_units: 0.0-50.0", "range_in_units: 0.0..50.0"),
     ("access: ro", "access: r"),
+    ("type: u32_abcd", "type: u32"),
+    ("special: [FFFFh]", "special: {FFFFh: name_of_it}"),
+    ("special: FFFFh", "special: {FFFFh: name_of_it}"),
+    ("special: [8000h, 7FFFh]", "special: {8000h: name_of_it, 7FFFh: name_of_it_2}"),
+    ("unit: 0.1 Hz", "unit: Hz"),
     ("access: R/W", "access: rw"),
     ("access: read-only", "access: r"),
     ("type: int16", "type: s16"),
@@ -174,7 +179,7 @@ def test_a_cut_decimal_is_a_warning_that_can_be_followed(tmp_path: Path, facts: 
         ("range: [0, 100]", "two-meanings", "`0..100` for all between them, `0 | 100` for these two alone"),
         ("enum: {off: 0, on: 1}", "unknown-key", "the number stands first: `0: off`"),
         ("flags: {ready: 0}", "unknown-key", "the number stands first: `0: ready`"),
-        ("type: int48", "wrong-choice", "`type: ~` documents the point"),
+        ("type: int48", "wrong-choice", "leave `type` out and say it in words"),
         ("unit: mw", "unknown-unit", "`mW` (milliwatt) or `MW` (megawatt)"),
         ("unit: furlong", "unknown-unit", "`fieldscribe units` lists what is known"),
         ("scale: [{when: mode == 0, rule: 0.1}]", "wrong-type", "`rule: value = raw * 0.1`"),
@@ -321,3 +326,31 @@ def test_numbers_as_keys_are_taken_as_manuals_write_them(tmp_path: Path, facts: 
 def test_the_two_notations_of_a_key_are_one_number(tmp_path: Path) -> None:
     (only,) = findings(tmp_path, "flags: {10: ten, 0Ah: also_ten}")
     assert "bit 10 is taken twice" in only.message
+
+
+WIDE = [
+    ("range: 0..4294967295", "scale: raw = value / k / k", "`k` a narrower `range` that ends at 2147483647 at most"),
+    ("range: -20..20, type: s16", "scale: value = raw * 10 ** k", "`k` a narrower `range` within -18..18"),
+    ("range: 0..5", "scale: value = raw * 9223372036854775808", "take the unit with another prefix"),
+]
+
+
+@pytest.mark.parametrize(("factor", "scale", "way_out"), WIDE)
+def test_a_scale_that_is_too_wide_names_a_way_that_works(factor: str, scale: str, way_out: str, tmp_path: Path) -> None:
+    kind = "" if "type" in factor else ", type: u32"
+    said = f"  - {{name: k, at: 10, {factor}{kind}}}\n  - {{name: a, at: 0, type: u32, {scale}}}\n"
+    (one,) = found_in(said, tmp_path)
+    assert "bits" in one.message
+    assert one.hint is not None
+    assert way_out in one.hint
+    room = re.search(r"ends at (\d+)|within (\S+)", one.hint)
+    if room is not None:
+        narrow = f"range: {room[2] or f'0..{room[1]}'}"
+        assert not found_in(re.sub(r"range: [-.\d]+", narrow, said, count=1), tmp_path)
+
+
+def found_in(points: str, folder: Path) -> list[Diagnostic]:
+    report = Report()
+    (folder / "device.yaml").write_text(HEAD + points, "utf-8")
+    load_device(folder / "device.yaml", report)
+    return list(report.findings)

@@ -129,6 +129,15 @@ def test_without_a_private_cache_everything_works(place: Path, kind: str) -> Non
     assert main([*COMMAND, "--check"]) == 0
 
 
+def test_a_relative_place_of_caches_is_none(place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As the XDG specification asks: what is remembered does not lie about in the folders where the command runs."""
+    monkeypatch.setenv("XDG_CACHE_HOME", "relative/place")
+    monkeypatch.setenv("HOME", str(place / "home"))
+    assert main(COMMAND) == 0
+    assert not (place / "relative").exists()
+    assert (place / "home/.cache/fieldscribe").exists()
+
+
 def test_a_full_disk_of_the_cache_is_ignored(place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     from fieldscribe.output import memory as room
 

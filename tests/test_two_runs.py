@@ -107,6 +107,17 @@ def test_the_lock_of_another_user_that_was_killed_can_be_taken(tmp_path: Path, m
     assert list(tmp_path.iterdir()) == []
 
 
+def test_a_folder_that_takes_no_files_is_no_other_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As below /proc: the folder is there, and what is created in it is not found."""
+
+    def lost(path: str, *_: object) -> int:
+        raise FileNotFoundError(2, "No such file or directory", str(path))
+
+    monkeypatch.setattr(os, "open", lost)
+    with pytest.raises(FileNotFoundError), only_run(tmp_path, pytest.fail, 30.0):
+        raise AssertionError("locked")
+
+
 @pytest.mark.parametrize(
     "put",
     [

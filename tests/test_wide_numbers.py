@@ -92,12 +92,12 @@ def test_a_scale_beyond_every_integer_leaves_raw_numbers(tmp_path: Path) -> None
     device = load_device(tmp_path / "device.yaml", report)
     assert device is not None
     assert [(one.rule, one.hint) for one in report.findings if one.rule == "wide-scale"] == [
-        ("wide-scale", "for values write a scale of fewer digits"),
-        ("wide-scale", "for values give `first` and `second` a narrower `range`"),
+        ("wide-scale", "for values take the unit with another prefix (kW, mm), which brings the factor nearer to 1"),
+        ("wide-scale", "for values give `first` and `second` a narrower `range` that ends at 2147483647 at most"),
     ]
     assert all(named(device, item).raw_only for item in ("a", "b"))
     text = (write_headers(device, tmp_path) / "c" / "meter.h").read_text("utf-8")
-    assert "Not generated (a): its scale needs integers of more than 64 bits." in text
+    assert "Not generated (a): its scale needs integers of more than 63 bits." in text
     assert "#define METER_A_ADDRESS" in text
     program = tmp_path / "program.c"
     program.write_text(

@@ -30,7 +30,7 @@ def find_devices(paths: Iterable[Path], report: Report) -> list[Path]:
     for path in paths:
         if path.is_file():
             candidates = [path]
-        elif os.path.lexists(path / DEVICE_FILE):
+        elif _may_be(path / DEVICE_FILE):
             candidates = [path / DEVICE_FILE]
         else:
             candidates = device_files_below(path)
@@ -52,7 +52,18 @@ def device_files_below(folder: Path) -> list[Path]:
         names = sorted(os.listdir(folder))
     except OSError:
         return []
-    return [folder / name / DEVICE_FILE for name in names if os.path.lexists(folder / name / DEVICE_FILE)]
+    return [folder / name / DEVICE_FILE for name in names if _may_be(folder / name / DEVICE_FILE)]
+
+
+def _may_be(path: Path) -> bool:
+    """Whether something is there, or in a folder that does not let us look: that gets its finding when it is read."""
+    try:
+        os.lstat(path)
+    except (FileNotFoundError, NotADirectoryError, ValueError):
+        return False
+    except OSError:
+        return True
+    return True
 
 
 def load_device(device_file: Path, report: Report, inputs: Inputs | None = None) -> Device | None:

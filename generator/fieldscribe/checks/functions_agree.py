@@ -1,4 +1,4 @@
-"""The printed amount of data of a function is that of its largest count: 16 bits a register, 8 coils a byte."""
+"""Functions carry what is asked of them: the printed amount of data, the points of each space, all words of a point."""
 
 from __future__ import annotations
 
@@ -10,6 +10,8 @@ from fieldscribe.families import modbus
 if TYPE_CHECKING:
     from fieldscribe.checks.subject import Subject
     from fieldscribe.language.nodes import Map
+    from fieldscribe.model import Point
+    from fieldscribe.resolve.points import Resolved
 
 _COILS = frozenset({0x01, 0x02, 0x05, 0x0F})
 
@@ -21,6 +23,7 @@ def check(subject: Subject) -> None:
         return
     if subject.bus_is_whole:
         _reached(subject, bus)
+        _at_once(subject)
     by_name = {code.name: code for code in subject.bus.functions}
     for key, raw in bus.get("functions", {}).items():
         printed = raw.get("printed", {}).get("bytes") if not isinstance(raw, str) else None
@@ -49,3 +52,43 @@ def _reached(subject: Subject, bus: Map) -> None:
                 message = f"no function {verb} `{space}`, where {count} point{'s' * (count > 1)} would need it"
                 hint = "list the function under `functions`, or correct `access` or `space`"
                 subject.report.error("no-function", message, bus.key_span("functions"), hint)
+
+
+def _at_once(subject: Subject) -> None:
+    """One finding for each function whose requests are shorter than points that only it reads or writes."""
+    most = modbus.profile_of(subject.bus).most
+    too_long: dict[tuple[str, int], list[Resolved]] = {}
+    for one in subject.resolved:
+        point = one.point
+        if not point.generated or "type" in one.draft.failed or point.space not in modbus.SPACES:
+            continue
+        functions = modbus.SPACES[point.space]
+        if point.readable and functions.read in most and _span(point) > most[functions.read]:
+            too_long.setdefault(("read", functions.read), []).append(one)
+        many = functions.write_many
+        if point.writable and many is not None and point.words > 1 and point.words > most.get(many, 1):
+            too_long.setdefault(("write", many), []).append(one)
+    for (verb, function), points in too_long.items():
+        _report_too_long(subject, verb, function, points, most.get(function))
+
+
+def _span(point: Point) -> int:
+    return max(point.addresses) - min(point.addresses) + 1
+
+
+def _report_too_long(subject: Subject, verb: str, function: int, points: list[Resolved], most: int | None) -> None:
+    first, others = points[0].point, len(points) - 1
+    also = f" (and so do {others} more points)" if others > 1 else " (and so does one more point)" if others else ""
+    if most is None:
+        message = f"no function {verb}s several words at once, and `{first.name}` has {first.words}{also}"
+        hint = f"list {function:02X}h under `functions`, or correct the type or `access`"
+    else:
+        message = f"`{first.name}` has {first.words} words, and {function:02X}h {verb}s {most} at once{also}"
+        hint = (
+            f"correct `max` of {function:02X}h or the type; what the device {verb}s in parts has a point for each part"
+        )
+        if most == modbus.PROTOCOL_MOST[function]:
+            hint = "no request of Modbus is longer: give each part a point of its own, or correct `access`"
+    draft = points[0].draft
+    key = "characters" if first.text is not None else "type"
+    subject.report.error("too-long", message, draft.span(key if draft.layer(key) is not None else None), hint)

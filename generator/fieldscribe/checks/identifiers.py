@@ -88,6 +88,9 @@ def _point(subject: Subject, resolved: Resolved) -> Iterator[Claim]:
     if point.variant is not None:
         yield Claim("generated code", point.name, f"the point `{point.name}`", subject.index.by_name[point.name][0])
     for old in point.was:
+        if point.variant is not None:
+            held = f"the old name `{old}` of `{point.name}` of {point.variant}"
+            yield Claim("generated code", old + point.item[len(point.name) :], held, draft.layer("was"), "was")
         yield Claim("generated code", old, f"the old name `{old}` of `{point.name}`", draft.layer("was"), "was")
     if point.generated:
         type_name = pascal(point.item)

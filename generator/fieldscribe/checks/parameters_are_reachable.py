@@ -23,7 +23,8 @@ def check(subject: Subject) -> None:
     family = subject.scope.header["family"]
     if family not in ("can", "uss") or not subject.bus_is_whole:
         return
-    points = [one.point for one in subject.resolved if one.point.generated and one.point.space != SPACE]
+    sound = [one.point for one in subject.resolved if one.point.generated and "type" not in one.draft.failed]
+    points = [point for point in sound if point.space != SPACE]
     for count, message, hint in (_messages if family == "can" else _tasks)(subject, points):
         if count and subject.scope.bus is not None:
             span = subject.scope.bus.span()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -19,6 +20,13 @@ if TYPE_CHECKING:
     from fieldscribe.reading import Inputs
 
 _UNSAFE_NAMES = frozenset({"con", "prn", "aux", "nul", *(f"{port}{n}" for port in ("com", "lpt") for n in range(10))})
+_HEADERS = frozenset(
+    {"assert", "complex", "ctype", "errno", "fenv", "float", "inttypes", "iso646", "limits", "locale", "malloc", "math"}
+    | {"memory", "setjmp", "signal", "stdalign", "stdarg", "stdatomic", "stdbool", "stddef", "stdint", "stdio"}
+    | {"stdlib", "stdnoreturn", "string", "strings", "tgmath", "threads", "time", "uchar", "unistd", "wchar", "wctype"}
+)
+"""Headers of C libraries, which one of the same name in a folder of `-I` hides."""
+_CRATES = frozenset({"alloc", "core", "proc_macro", "std", "test"})
 _NEEDED = ("device", "family", "documents")
 
 
@@ -84,8 +92,19 @@ def _leads_beside(link: Path, device_file: Path) -> bool:
 
 
 def _safe_name(header: Map, report: Report) -> None:
-    if header.get("device") in _UNSAFE_NAMES:
-        message = f"`{header['device']}` is no safe name for a folder on every system"
-        report.error(
-            "unsafe-name", message, header.span("device"), "name it after vendor and model, such as `hitachi_l200`"
-        )
+    """A finding for a device whose files would take the place of others: of a system, a language, or our runtime."""
+    name = str(header.get("device"))
+    taken = None
+    if name in _UNSAFE_NAMES:
+        taken = "is no safe name for a folder on every system"
+    elif name == "fieldscribe" or name.startswith("fieldscribe_"):
+        taken = "is taken by the runtime, which stands beside the generated files"
+    elif name in sys.stdlib_module_names:
+        taken = "is a module of Python's own, which the generated package would hide"
+    elif name in _HEADERS:
+        taken = f"would make a header `{name}.h`, which hides the one of the C library"
+    elif name in _CRATES:
+        taken = "is a crate of Rust's own, which the generated crate would hide"
+    if taken is not None:
+        hint = "name it after vendor and model, such as `hitachi_l200`"
+        report.error("unsafe-name", f"`{name}` {taken}", header.span("device"), hint)

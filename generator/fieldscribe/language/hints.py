@@ -88,12 +88,13 @@ def _about_number(value: int | Decimal, accepted: Collection[type], example: Any
     """What to do about a number, or true or false, where something else belongs."""
     if int in accepted and isinstance(value, Decimal | bool):
         return _whole_hint(value, example)
-    if pattern is not None and not re.search(pattern, str(value)):
-        return form_hint(str(value), pattern)
+    typed = str(value).lower() if isinstance(value, bool) else str(value)
+    if pattern is not None and not re.search(pattern, typed):
+        return form_hint(typed, pattern)
     if isinstance(example, str) and "wire" in example:
         return f"write a formula: {example}"
     if str in accepted:
-        return f'quote it: "{str(value).lower() if isinstance(value, bool) else value}"'
+        return f'quote it: "{typed}"'
     return None
 
 

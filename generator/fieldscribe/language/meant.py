@@ -17,6 +17,7 @@ _LONGEST = 60
 _NUMBER = r"[-+]?[0-9][0-9A-Fa-fxX]*(?:\.[0-9]+)?[hH]?"
 _BETWEEN = r"(?:\.\.|-|\u2013|\u2014|~|:|;|\.\.\.|\u2026|\u00f7|to|bis|through)"
 _INTERVAL = re.compile(rf"[\[(]?\s*({_NUMBER})\s*{_BETWEEN}\s*({_NUMBER})\s*[\])]?\s*[^\s\d]{{0,4}}")
+_CODE = r"-?[0-9]+|0x[0-9A-Fa-f]+|[0-9A-Fa-f]+h|[Hh]'[0-9A-Fa-f]+"
 _PAIRS = re.compile(r"([-+]?[0-9]+)\s*[=:]\s*([A-Za-z][A-Za-z0-9_ ]*)")
 
 
@@ -47,7 +48,8 @@ def _word_hint(key: str, value: Any) -> str | None:
     if known is None or not isinstance(value, str | int | Decimal):
         return None
     word = str(value).strip().lower()[:_LONGEST]
-    found = known.get(word) or (known.get(ENDIAN.sub("", word)) if key == "type" else None)
+    bare = ENDIAN.sub("", word)
+    found = known.get(word) or ((bare if bare in TYPE_WORDS else known.get(bare)) if key == "type" else None)
     if found is None:
         return None
     order = "" if key != "type" or word in known else "; the order of words goes under `words`"
@@ -61,8 +63,9 @@ def _type(_: str, value: Any) -> str | None:
     word = value.strip().lower()
     if word in TYPE_WORDS:
         return f"write `type: {word}`"
-    if re.fullmatch(r"[usi]?(int)?(24|40|48|56|128)(_t)?", word) or "bcd" in word:
-        return "no type here is like this: `type: ~` documents the point and makes no code for it"
+    if re.fullmatch(r"[usi]?(int)?(24|40|48|56|128)(_t)?", word) or re.search("(^|[^a])bcd", word):
+        words = '`untyped: "48-bit counter"` with `takes: 3` words'
+        return f"no type here is like this: leave `type` out and say it in words, as {words}"
     return None
 
 
@@ -225,7 +228,12 @@ def _digits(key: str, value: Any) -> str | None:
 
 
 def _special(key: str, value: Any) -> str | None:
-    return f"write `{key}: {{{value}: name_of_it}}`" if isinstance(value, int) else _names(key, value)
+    """Codes without names."""
+    codes = value if isinstance(value, Seq) else [value]
+    if 0 < len(codes) <= 8 and all(isinstance(one, int | str) and re.fullmatch(_CODE, str(one)) for one in codes):
+        named = ("name_of_it", *(f"name_of_it_{number}" for number in range(2, 9)))
+        return f"write `{key}: {{{', '.join(f'{one}: {name}' for one, name in zip(codes, named, strict=False))}}}`"
+    return None if isinstance(value, Seq) else _names(key, value)
 
 
 def _functions(key: str, value: Any) -> str | None:

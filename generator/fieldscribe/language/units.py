@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
@@ -17,7 +18,9 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
 
 LISTED = "`fieldscribe units` lists what is known"
-_NO_UNIT = frozenset({"-", "--", "1", "none", "n/a", "number", "count", "counts", "raw", "bool", "enum", "hex"})
+_STEPPED = re.compile(r"([0-9]{1,9}(?:[.,][0-9]{1,9})?)[ *x]*([^ 0-9*x].*)")
+"""A resolution, such as `0.1 Hz`."""
+_NO_UNIT = frozenset({"", "-", "--", "1", "none", "n/a", "number", "count", "counts", "raw", "bool", "enum", "hex"})
 _SAME = str.maketrans({"\u03bc": "\u00b5", "\u2126": "\u03a9"})
 """Micro and ohm have two characters each that look alike."""
 _PREFIX_LETTERS = frozenset("yzafpnµmcdhkMGTPEZY")
@@ -66,6 +69,10 @@ def unit_hint(typed: str, declared: Iterable[str]) -> str:
     """What to do about an unknown unit. A unit of another magnitude or quantity is never suggested alone."""
     if typed.casefold() in _NO_UNIT:
         return "a plain number has no unit: leave `unit` out"
+    stepped = _STEPPED.fullmatch(typed)
+    if stepped is not None and (shipped_unit(stepped[2]) or stepped[2] in declared):
+        scale = f"`scale: value = raw * {stepped[1].replace(',', '.')}`"
+        return f"write `unit: {stepped[2]}`; what one raw step is worth belongs to the scale: {scale}"
     meant = _meant(typed, declared)
     if not meant:
         return f"declare it under `units`: `units: {{{_as_key(typed)}: {{name: …, quantity: …}}}}`; {LISTED}"

@@ -8,7 +8,11 @@ from pathlib import Path
 
 def cache_dir(name: str) -> Path | None:
     """A folder for that purpose, made if need be; None where there is no place that only this user can write to."""
-    base = os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")
+    base = os.environ.get("XDG_CACHE_HOME", "")
+    if not os.path.isabs(base):  # as the XDG specification asks: a relative one is none
+        base = os.path.expanduser("~/.cache")
+    if not os.path.isabs(base):
+        return None  # nobody's home
     place = Path(base) / "fieldscribe" / name
     try:
         place.mkdir(mode=0o700, parents=True, exist_ok=True)

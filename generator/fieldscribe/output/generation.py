@@ -119,8 +119,10 @@ class Generation:
             yield device, made
 
     def _report_refused(self, plan: Plan) -> None:
-        hint = f"move it away, or replace it with `--force`; nothing of {plan.device} was written"
         for path, reason in sorted(plan.refused.items()):
+            removable = not (self.out / path).is_dir()
+            way = "move it away, or replace it with `--force`" if removable else "move it away"
+            hint = f"{way}; nothing of {plan.device} was written"
             place = Span(shown(self.out / path), 1, 1)
             self.report.error("foreign-file", f"a file is in the way: {reason}", place, hint)
 

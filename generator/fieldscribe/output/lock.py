@@ -28,6 +28,8 @@ PATIENCE = 60.0
 _PAUSE = 0.05
 _TELL_AFTER = 0.5
 _LEFT_BEHIND = 600.0
+_VANISHED = 5
+"""So often the folder may go away between being made and being used; then it is one that holds no files."""
 _BUSY = (errno.EACCES, errno.EAGAIN, errno.EDEADLK, getattr(errno, "EDEADLOCK", errno.EDEADLK))
 _FLAGS = os.O_RDWR
 for _name in ("O_NOFOLLOW", "O_NONBLOCK", "O_CLOEXEC", "O_BINARY", "O_NOINHERIT"):
@@ -51,9 +53,14 @@ def only_run(out: Path, waiting: Callable[[], None], patience: float = PATIENCE)
 
 
 def _acquired(place: Path, waiting: Callable[[], None], patience: float) -> int:
-    start, told = time.monotonic(), False
+    start, told, vanished = time.monotonic(), False, 0
     while True:
-        handle = _tried(place)
+        try:
+            handle = _tried(place)
+        except FileNotFoundError:  # another run has removed the folder that it had made
+            handle, vanished = None, vanished + 1
+            if vanished > _VANISHED:
+                raise
         if handle is not None:
             return handle
         waited = time.monotonic() - start
@@ -91,8 +98,6 @@ def _opened(place: Path) -> tuple[int | None, bool]:
         return os.open(place, _FLAGS | os.O_CREAT | os.O_EXCL, 0o666), True
     except FileExistsError:
         return _existing(place), False
-    except FileNotFoundError:
-        return None, False  # another run has removed the folder that it had made
 
 
 def _existing(place: Path) -> int | None:

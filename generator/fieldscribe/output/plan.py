@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from hashlib import sha256
 from typing import TYPE_CHECKING
 
-from fieldscribe.output.manifests import manifest_path, manifest_text
+from fieldscribe.output.manifests import made_of, manifest_path, manifest_text
 from fieldscribe.reading import kind_of, read_regular, state_of
 
 if TYPE_CHECKING:
@@ -144,7 +144,10 @@ class _Planner:
             raise
         except OSError as error:
             return f"it cannot be read: {error.strerror}"
-        return None if self._manifests.vouch_for(path, self._plan.device, data) else _NOT_OURS
+        device, maker = self._plan.device, made_of(data)
+        if maker not in (None, device):
+            return f"it was made of the device `{maker}`; the names of the two devices meet, so rename one of them"
+        return None if self._manifests.vouch_for(path, device, data) else _NOT_OURS
 
 
 def _state(place: Path) -> State | None:

@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     from fieldscribe.language.nodes import Map
 
 
+_WIDEST = 63
+"""The highest bit that any type has: what is higher is no bit number."""
 _MASKS = 3
 """So many keys that are powers of two in a row are masks."""
 
@@ -137,6 +139,9 @@ def flags_of(scope: Scope, draft: Draft, bits: tuple[int, int] | None, width: in
                 outside = high if high > last else low
                 message = f"bit {outside} lies outside the {width} bits of the point"
                 hint = f"bits are numbered {last}..{first}{', as in the word' if bits else ''}"
+                place = outside.bit_length() - 1
+                if outside == 1 << place and outside > _WIDEST and first <= place <= last:
+                    hint += f"; the mask {key} is bit {place}"
                 scope.report.error("bit-outside-word", message, span, hint)
         elif taken.takes((low, high), name, span, raw.span(key)):
             result.append(_flag(scope, raw, key, low - first, high - low + 1))

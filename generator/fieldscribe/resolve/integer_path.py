@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
+from fieldscribe.resolve.bounds import MOST_EXPONENT
+
 if TYPE_CHECKING:
     from fieldscribe.model import Linear, ScaleCase
     from fieldscribe.resolve.bounds import Bounds
@@ -68,8 +70,12 @@ def paths_of(draft: Draft, cases: tuple[ScaleCase, ...] | None, bounds: Bounds) 
         return Paths(0)
     chosen = _is_chosen(cases)
     needs = [_needs(case.rule, _largest(draft, bounds), bounds, chosen=chosen) for case in cases]
-    if any(one.constant >= _WORD for one in needs):
-        message = "this scale needs integers of more than 64 bits: the point has raw numbers alone"
+    widest = max(one.constant for one in needs)
+    if widest >= _WORD:
+        bits = widest.bit_length()
+        message = (
+            f"this scale needs integers of {bits} bits, and code computes with 63: the point has raw numbers alone"
+        )
         report.warning("wide-scale", message, draft.span("scale"), _way_out(cases, bounds))
         return Paths(None, encodes_values=False, raw_alone=True)
     encodes = all(one.encodes for one in needs)
@@ -127,10 +133,23 @@ def _decimals(draft: Draft, cases: tuple[ScaleCase, ...], bounds: Bounds, needs:
 
 def _way_out(cases: tuple[ScaleCase, ...], bounds: Bounds) -> str:
     """What to do where the integers of a scale do not fit: something that leads into no other fault."""
-    used = {bounds.scales.index.by_item(factor.point).name for case in cases for factor in case.rule.factors}
-    if used:
-        return f"for values give {' and '.join(f'`{name}`' for name in sorted(used))} a narrower `range`"
-    return "for values write a scale of fewer digits"
+    factors = [factor for case in cases for factor in case.rule.factors]
+    names = " and ".join(
+        f"`{name}`" for name in sorted({bounds.scales.index.by_item(one.point).name for one in factors})
+    )
+    tens = [factor.ten_to for factor in factors]
+
+    def fits(most: int) -> bool:
+        return all(_needs(case.rule, 0, bounds, chosen=True, limit=most).constant < _WORD for case in cases)
+
+    if any(tens) and not all(tens):
+        return f"for values give {names} a narrower `range`"
+    tries = range(MOST_EXPONENT, 0, -1) if any(tens) else [(1 << bits) - 1 for bits in range(63, 0, -1)]
+    room = next((one for one in tries if fits(one)), 0) if factors else 0
+    if room > 1:
+        within = f"within -{room}..{room}" if any(tens) else f"that ends at {room} at most"
+        return f"for values give {names} a narrower `range` {within}"
+    return "for values take the unit with another prefix (kW, mm), which brings the factor nearer to 1"
 
 
 def _fit(needs: list[_Needs], decimals: int) -> bool:
@@ -153,8 +172,8 @@ def _needed(rule: Linear, bounds: Bounds) -> int:
     return needed
 
 
-def _needs(rule: Linear, raw: int, bounds: Bounds, *, chosen: bool) -> _Needs:
-    """What both paths of a rule meet, whatever the points in it hold."""
+def _needs(rule: Linear, raw: int, bounds: Bounds, *, chosen: bool, limit: int | None = None) -> _Needs:
+    """What both paths of a rule meet, whatever the points in it hold; or if none of them held more than `limit`."""
     up, down = abs(rule.ratio.numerator), rule.ratio.denominator
     floats = bounds.scales.floats(rule)
     for factor in rule.factors:
@@ -162,6 +181,7 @@ def _needs(rule: Linear, raw: int, bounds: Bounds, *, chosen: bool) -> _Needs:
             up, down = (up << _MANTISSA, down) if factor.power == 1 else (up, down << _MANTISSA)
             continue
         most = max(map(abs, bounds.ends_of(factor)))
+        most = most if limit is None else min(most, limit)
         if factor.ten_to:
             up, down = up * 10**most, down * 10**most
         elif factor.power == 1:

@@ -158,7 +158,11 @@ def _carrier_fault(scope: Scope, said: str, space: str) -> tuple[str, str, str] 
     widest = scope.family.widest(space)
     if said == "text" and space in scope.family.indexed:
         message = f"a text does not fit an address of `{space}`, which carries {widest} bits"
-        return "type-outside-space", message, "write `type: ~` and say under `unsaid` what it is"
+        return (
+            "type-outside-space",
+            message,
+            'write in place of `type` and `characters`: `untyped: "a text, one character an index"`, in words that fit',
+        )
     if said == "text" or TYPES[said].bits <= widest:
         return None
     if space in scope.family.indexed:

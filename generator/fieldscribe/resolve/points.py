@@ -178,7 +178,7 @@ def _reason(draft: Draft, has_place: bool, access: str, *, raw_alone: bool) -> s
     if draft.layer("scale") is not None and draft.get("scale") is None:
         return "the manual does not settle its scale"
     if raw_alone:
-        return "its scale needs integers of more than 64 bits"
+        return "its scale needs integers of more than 63 bits"
     return "not reachable over the bus" if access == "none" else None
 
 

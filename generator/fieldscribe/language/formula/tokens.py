@@ -47,6 +47,10 @@ _STRANGE = {
     "\u2265": "write >=",
     "\u2260": "write !=",
     "&": "write and",
+    "'": "names stand without quotes; a hexadecimal number is written H'33F, 33Fh or 0x33F",
+    '"': "names stand without quotes",
+    "[": "a list stands in parentheses",
+    "]": "a list stands in parentheses",
     "!": "write not, or != between two things",
     "\n": "write the formula on one line",
 }

@@ -19,9 +19,9 @@ if TYPE_CHECKING:
 _FLOATS = {"round", "round_wide", "times", "times_wide", "real", "f32", "f64", "rules", "quotient"}
 
 
-def device_view(device: Device) -> tuple[DeviceView, Scope]:
-    """The header's view, and the scope it was built in."""
-    scope = scope_of(device)
+def device_view(device: Device, *, names_only: bool = False) -> tuple[DeviceView, Scope]:
+    """The header's view, and the scope it was built in; with `names_only` all of its names, and no bodies."""
+    scope = scope_of(device, names_only=names_only)
     by_group: dict[str, list[tuple[PointView | None, RemarkView]]] = {group.name: [] for group in device.groups}
     aliases: list[tuple[str, str]] = []
     spaces: dict[str, None] = {}

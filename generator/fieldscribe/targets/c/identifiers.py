@@ -79,15 +79,20 @@ _MACROS = (
 
 def identifiers(device: Device) -> Iterator[Identifier]:
     """All that the headers of a device define, in the one namespace of C."""
-    view, scope = device_view(device)
+    view, scope = device_view(device, names_only=True)
     for name in _HELPERS:
         yield Identifier("C", f"{view.prefix}_{name}", OWN)
     for name in (*(f"{view.upper}_{name}" for name in _MACROS), *(name for name, _ in view.spaces)):
         yield Identifier("C", name, OWN)
     for one in view.telegrams:
         yield from (Identifier("C", name, OWN) for name in (one.name, one.words_name))
-    yield from (Identifier("C", name, owner) for name, owner in _of_points(view))
-    yield from (Identifier("C", alias, Owner("point", name, "old name")) for alias, name in view.aliases)
+    owners = {}
+    for name, owner in _of_points(view):
+        owners[name] = owner
+        yield Identifier("C", name, owner)
+    yield from (
+        Identifier("C", alias, owners[name]._replace(part=f"old name of {name}")) for alias, name in view.aliases
+    )
     family = FAMILIES[device.family]
     yield from (
         Identifier("C", name, owner) for name, owner in family.identifiers(family.view(device, view, scope), view)

@@ -46,6 +46,7 @@ if TYPE_CHECKING:
     from fieldscribe.targets.c.scope import Scope
 
 _COMMENT_WIDTH = 114
+_NO_BODY = PlainView("", "", "")
 
 
 def point_view(point: Point, scope: Scope) -> PointView:
@@ -54,8 +55,9 @@ def point_view(point: Point, scope: Scope) -> PointView:
     low, high = (0, 0) if point.info.floating else point.outer
     scale, limits = point.scale_arguments, point.limit_arguments
     reach = encoded_limits(point) if point.specials and not point.info.floating else (low, high)
-    shape, codec = _codec(point, macro, scope, reach, scale)
-    checked = point.writable and shape in ("plain", "scaled", "ruled")
+    shape = _shape(point, scale)
+    codec = _NO_BODY if scope.names_only else _codec(shape, point, macro, scope, reach)
+    checked = point.writable and shape in ("plain", "scaled", "ruled") and not scope.names_only
     check = check_view(point, macro, scope, limits) if checked else None
     enum = named_numbers(point)
     kind = raw_type(point)
@@ -64,7 +66,7 @@ def point_view(point: Point, scope: Scope) -> PointView:
         function=f"{scope.prefix}_{point.item}",
         macro=macro,
         item=point.item,
-        comment=comment_lines(point, scope),
+        comment=() if scope.names_only else comment_lines(point, scope),
         defines=tuple(defines(point, macro, scope, (low, high))),
         enum=_enum_view(enum, point, scope) if enum is not None else None,
         shape=shape,
@@ -149,30 +151,39 @@ def _wrapped(text: str) -> list[str]:
     )
 
 
-def _codec(
-    point: Point, macro: str, scope: Scope, outer: tuple[int, int], arguments: tuple[str, ...]
-) -> tuple[str, Codec]:
-    """The shape of the point's functions, and their view; `arguments` are the points that its scale needs."""
+def _shape(point: Point, arguments: tuple[str, ...]) -> str:
+    """The shape of the point's functions; `arguments` are the points that its scale needs."""
     form = point.form
     if form == "scaled":
-        return ("ruled", ruled_view(point, scope)) if arguments else ("scaled", scaled_view(point, scope, *outer))
-    if form == "float":
-        return "float", _float_view(point, scope)
-    if form == "text":
-        return "text", text_view(point)
-    if form == "digits":
-        return "digits", digits_view(point)
+        return "ruled" if arguments else form
+    return form if form in ("float", "text", "digits") else "plain"
+
+
+def _codec(shape: str, point: Point, macro: str, scope: Scope, outer: tuple[int, int]) -> Codec:
+    """The view of the point's functions."""
+    if shape == "scaled":
+        return scaled_view(point, scope, *outer)
+    if shape == "ruled":
+        return ruled_view(point, scope)
+    if shape == "float":
+        return _float_view(point, scope)
+    if shape == "text":
+        return text_view(point)
+    return digits_view(point) if shape == "digits" else _plain_view(point, macro, scope, outer)
+
+
+def _plain_view(point: Point, macro: str, scope: Scope, outer: tuple[int, int]) -> PlainView:
     kind = value_type(point)
     least, greatest = VALUE_BOUNDS[kind]
     if fixes(point):  # a value without its constant bits may lie outside: only what the type cannot hold is refused
         low, high = raw_bounds(point)
         tests = [f"value < {bare(low)}"] if low > least else []
         tests += [f"value > {bare(high)}"] if high < greatest else []
-        return "plain", PlainView(kind, " || ".join(tests), fixed_number(point, macro, scope, "value"))
+        return PlainView(kind, " || ".join(tests), fixed_number(point, macro, scope, "value"))
     low_end, high_end = (bare(outer[0]), bare(outer[1])) if point.specials else (f"{macro}_RAW_MIN", f"{macro}_RAW_MAX")
     tests = [f"value < {low_end}"] if outer[0] > least else []
     tests += [f"value > {high_end}"] if outer[1] < greatest else []
-    return "plain", PlainView(kind, " || ".join(tests), "")
+    return PlainView(kind, " || ".join(tests), "")
 
 
 def _float_view(point: Point, scope: Scope) -> FloatView:

@@ -20,7 +20,8 @@ class Scope:
     """The namespace of one device.
 
     `shifts` says that some rule has a factor of type f32, `lifts` that one with factors has an offset. `used` collects
-    the names of shared helpers, `enums` and `codes` those already placed, `scales` what points share.
+    the names of shared helpers, `enums` and `codes` those already placed, `scales` what points share. `names_only` says
+    that nobody will see the comments, tests and arithmetic of points, which take most of the time.
     """
 
     prefix: str
@@ -29,6 +30,7 @@ class Scope:
     errata: Mapping[str, str]
     shifts: bool
     lifts: bool
+    names_only: bool = False
     used: set[str] = field(default_factory=set)
     enums: set[str] = field(default_factory=set)
     codes: set[str] = field(default_factory=set)
@@ -48,7 +50,7 @@ class Scope:
         return "".join(f", {name}_raw" for name in names) if names else ""
 
 
-def scope_of(device: Device) -> Scope:
+def scope_of(device: Device, *, names_only: bool = False) -> Scope:
     """A fresh scope for a device."""
     points: dict[str, Point] = {}
     for point in device.points:
@@ -62,7 +64,7 @@ def scope_of(device: Device) -> Scope:
     floating = {point.name for point in device.points if point.info.floating}
     shifts = any(not floating.isdisjoint(point.arguments) for point in device.points) if floating else False
     lifts = any(rule.offset for point in device.points for rule in _rules(point))
-    return Scope(device.id, upper(device.id), points, lines, shifts, lifts)
+    return Scope(device.id, upper(device.id), points, lines, shifts, lifts, names_only)
 
 
 def _rules(point: Point) -> Iterator[Linear]:

@@ -82,6 +82,7 @@ def can(lines: Lines, device: Device) -> None:
         if not any(role.kind == "word" for role in message.roles):
             _builds(lines, device.bus.units, message)
             _parses(lines, device.bus.units, message)
+    lines.add("can_bus", device.bus.identifier_bits or 11, device.bus.bitrate)
     codes(lines, "constant", "exception", device.bus.exceptions)
     for group in device.groups:
         members = (one for one in device.points if one.generated and one.readable and one.group == group.name)
@@ -163,6 +164,7 @@ def _misheard(lines: Lines, telegram: Telegram, message: Message, unit: int) -> 
             frames.append(CanFrame(good.id, bytes((*data[:place], data[place] ^ 0x80, *data[place + 1 :]))))
     receiver = Receiver(telegram, message, unit)
     lines.set("telegram", telegram.name, unit)
+    lines.add("can_carrier", message.name)
     lines.add("can_taken", [(one.id, one.data) for one in frames], [int(receiver.take(one)) for one in frames])
 
 

@@ -91,8 +91,15 @@ KINDS = _table(
         "write": _EXCHANGE,
         "store": _EXCHANGE,
         # what Python alone says of a point beside: C and Rust do so in comments, which no program can hold
-        "facts": "only:python group:word name:word symbol:text? default:real? changes:word? changes_with:names? "
-        "variant:text? write_space:word? write_addresses:ints?",
+        "facts": "only:python group:word name:word type:word symbol:text? default:real? changes:word? "
+        "changes_with:names? variant:text? only_for:names? write_space:word? write_addresses:ints?",
+        # what a point was called before
+        "alias": "only:python old:word new:word",
+        # the values of an axis of variants, and all that is documented only
+        "variant": "only:python axis:word choices:names",
+        "left_out": "only:python names:names",
+        # the symbol of the unit of a point that has one
+        "symbol": "only:rust symbol:text",
         # where the words of points are that are documented only
         "documented": "name:word space:word address:int words:int index:int?",
         # the words that bring a group where each is asked for by itself: Rust reads the points themselves
@@ -111,6 +118,8 @@ KINDS = _table(
         "can_build": "unit:int address:int raw:int status:word id:int? bytes:bytes?",
         "can_parse": "unit:int id:int bytes:bytes? status:word address:int? raw:int?",
         "can_taken": "frames:frames taken:ints",
+        "can_bus": "only:rust identifier_bits:int bitrate:int?",
+        "can_carrier": "only:rust carrier:word",
         "can_telegram": "frames:frames? taken:ints? status:word raw:int?",
         # telegrams of USS
         "uss_build": "status:word bytes:bytes?",

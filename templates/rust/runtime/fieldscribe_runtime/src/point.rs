@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: 0BSD
 //! What a point is. Each point of a device is a type that implements [`Point`] and what its access allows.
 
-use crate::arithmetic::insert;
+use crate::arithmetic::{extract, extract_signed, insert};
 use crate::{Error, Raw, Rule};
 
 /// Where the words of a point are that is documented only: nothing says what they mean.
@@ -141,6 +141,20 @@ pub trait BitGroup: Point<Raw: Raw<Words = [u16; 1]>> {
         let word = insert(word, Self::SHIFT, Self::MASK, bits);
         (word & !low_word(Self::FIXED_MASK)) | low_word(Self::FIXED_BITS)
     }
+}
+
+/// The bits of the group in `word`, right-aligned.
+#[must_use]
+#[inline]
+pub fn group<P: BitGroup>(word: u16) -> u16 {
+    extract(word, P::SHIFT, P::MASK)
+}
+
+/// The bits of the group in `word` as a number in two's complement, right-aligned, the sign in all upper bits.
+#[must_use]
+#[inline]
+pub fn signed_group<P: BitGroup>(word: u16) -> u16 {
+    extract_signed(word, P::SHIFT, P::MASK)
 }
 
 /// A word whose decimal digits each mean something.
