@@ -46,7 +46,7 @@ def check_scaled(package: Package) -> None:
     none = "no 64-bit integer holds the counts, so there are none: use raw numbers or values"
     refuses(runtime.WrongTypeError, f"one: {none}", wide.decode_count, 1)
     refuses(runtime.WrongTypeError, f"one: {none}", wide.encode_count, 1)
-    only = "raw numbers have more than 53 bits, so values are only decoded: use raw numbers"
+    only = "numbers of this scale have more than 53 bits, so values are only decoded: use raw numbers"
     refuses(runtime.WrongTypeError, f"one: {only}", wide.encode, 1.0)
     assert (wide.decimals, wide.size) == (None, 4)
     refuses(runtime.ResultOverflowError, "one: raw 9223372036854775808 gives a count beyond 64 bits",

@@ -141,6 +141,7 @@ def _needs(scope: Scope) -> Needs:
         tens="times_ten_to" in used,
         f32_encodes="bits_of_f32" in used,
         f64_encodes="bits_of_f64" in used,
+        rules_wide="rules_wide" in used,
         shifts=rules and scope.shifts,
         lifts=rules and scope.lifts,
         floats=bool(used & _FLOATS),

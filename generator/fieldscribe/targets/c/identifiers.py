@@ -48,6 +48,7 @@ _HELPERS = (
     "f64_order",
     "raw_from_value",
     "value_from_raw",
+    "value_from_wide",
     "modbus_functions",
     "modbus_profile",
     "split_f32",

@@ -84,7 +84,12 @@ def _moving(point: Point, scope: Scope, refused: str) -> CheckView:
             else:
                 ends.append(bound)
         tests.append(interval_test("number", ends[0], ends[1], raw_bounds(point), bare))
-    return CheckView(tuple(limits), "int64_t" if wide else "int32_t", any_of(tests), refused)
+    return CheckView(tuple(limits), "int64_t" if wide else "int32_t", any_of(tests), refused, _number(point))
+
+
+def _number(point: Point) -> str:
+    """The raw number as the signed type that limits have: what lies beyond that is beyond all of them."""
+    return "raw > (uint64_t)INT64_MAX ? INT64_MAX : (int64_t)raw" if point.type == "u64" else "raw"
 
 
 def _is_fixed(interval: Interval) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import prod
 from typing import TYPE_CHECKING
 
-from fieldscribe.targets.c.literals import INT32, INT64, bare, raw_bounds, signed
+from fieldscribe.targets.c.literals import INT32, INT64, bare, raw_bounds, sign_and_size, signed
 from fieldscribe.targets.c.views import LimitView, RuleCase, RuledView, Step
 
 if TYPE_CHECKING:
@@ -20,12 +20,16 @@ def ruled_view(point: Point, scope: Scope) -> RuledView:
     """The rule function of a point, case by case."""
     cases = tuple(_case(case, scope) for case in point.scale or ())
     scope.used.add("rules")
+    wide = point.readable and not point.encodes_values
+    if wide:
+        scope.used.update(("quotient", "rules_wide"))
     return RuledView(
         cases=cases,
         total=any(not case.test for case in cases),
         tens=signed(10 ** (point.decimals or 0)),
         pass_scale=scope.place(point.scale_arguments),
         beyond=_too_large(point),
+        parts=sign_and_size(point) if wide else None,
     )
 
 

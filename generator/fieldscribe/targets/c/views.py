@@ -78,6 +78,7 @@ class CheckView:
     number_type: str
     test: str
     refused: str
+    number: str = "raw"
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,13 +108,17 @@ class ScaledView:
 
 @dataclass(frozen=True, slots=True)
 class RuledView:
-    """A scale that other points decide at run time; `beyond` tests for raw numbers too large for it, or is empty."""
+    """A scale that other points decide at run time; `beyond` tests for raw numbers too large for it, or is empty.
+
+    `parts` are the sign and the size of a raw number that only a division of 128 bits decodes.
+    """
 
     cases: tuple[RuleCase, ...]
     total: bool
     tens: str
     pass_scale: str
     beyond: str
+    parts: tuple[str, str] | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -280,6 +285,7 @@ class Needs:
     f32_encodes: bool
     f64_encodes: bool
     quotient: bool
+    rules_wide: bool
     f32_order: bool
     f64_order: bool
     rules: bool
