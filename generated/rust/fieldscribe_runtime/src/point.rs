@@ -245,7 +245,7 @@ pub trait Writable: Point {
     }
 }
 
-/// A point whose values can be encoded: all that are written, but for raw numbers of more than 53 bits with a scale.
+/// A point whose values can be encoded: all that are written, but for scales with numbers of more than 53 bits.
 pub trait Encodable: Writable {
     /// The raw number of a value: nearest, halves away from zero, then checked.
     ///
