@@ -180,7 +180,7 @@ class Point:
         return number(text) if is_number(text) else nearest(evaluate(text, named))
 
     def expect(self, raw: int) -> None:
-        """Raises UnknownError if the point never holds that number: what follows from it then is no fact of the YAML."""
+        """Raises UnknownError if the point never holds that number: what follows then is no fact of the YAML."""
         if self.outermost and not self.outermost[0] <= raw <= self.outermost[1]:
             raise UnknownError("a limit by a number that is none")
 
