@@ -329,8 +329,8 @@ def test_the_two_notations_of_a_key_are_one_number(tmp_path: Path) -> None:
 
 
 WIDE = [
-    ("range: 0..4294967295", "scale: raw = value / k", "`k` a narrower `range` that ends at 2097151 at most"),
-    ("range: -20..20, type: s16", "scale: value = raw * 10 ** k", "`k` a narrower `range` within -6..6"),
+    ("range: 0..4294967295", "scale: raw = value / k / k", "`k` a narrower `range` that ends at 2147483647 at most"),
+    ("range: -20..20, type: s16", "scale: value = raw * 10 ** k", "`k` a narrower `range` within -18..18"),
     ("range: 0..5", "scale: value = raw * 9223372036854775808", "take the unit with another prefix"),
 ]
 

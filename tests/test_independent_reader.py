@@ -60,8 +60,9 @@ def check(point: Point, vector: Vector, points: Points) -> object:
     if "digits" in point.row or point.type in ("f32", "f64") or vector["status"] not in _JUDGED:
         raise UnknownError(vector["status"])
     raw, (mask, constant) = vector["raw"], point.fixed
+    if raw in point.special:  # a code is a whole word: constant bits do not change it
+        return (raw in point.writable_codes) == (vector["status"] == "ok")
     inside = any(low <= raw <= high for low, high in point.intervals(_with(vector), points))
-    inside = raw in point.writable_codes if raw in point.special else inside
     fits = bool(point.bits) or raw & mask == constant
     return (inside and fits) == (vector["status"] == "ok")
 

@@ -48,6 +48,7 @@ PYTHON = '''\
 """Docs 1."""
 from typing import Literal
 Choice = Literal["230V"]
+T = TypeVar("T")
 @wrapped(1, frozen=True)
 class A:
     """More 2."""

@@ -237,6 +237,17 @@ def test_a_wrong_vector_is_noticed(workspace: Path, tmp_path: Path, monkeypatch:
     assert re.search(r"^address \d+ passed, 1 failed$", done.stdout, re.MULTILINE)
 
 
+def test_vectors_of_another_description_are_refused(
+    workspace: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    text = (workspace.parent / "vectors/sample_drive.txt").read_text("utf-8")
+    (tmp_path / "other.txt").write_text(text.replace("\t1.2.0\t", "\t1.2.1\t", 1), encoding="utf-8")
+    monkeypatch.setenv("FIELDSCRIBE_VECTORS", str(tmp_path / "other.txt"))
+    done = cargo(workspace, "test", "--quiet", "--package", "sample_drive", "--test", "conformance")
+    assert done.returncode != 0
+    assert "is of another description" in done.stderr
+
+
 @pytest.mark.full
 def test_clippy_has_nothing_to_say(workspace: Path) -> None:
     flags = ("--", "-Dwarnings", "-Wclippy::pedantic", "-Wclippy::incompatible_msrv")

@@ -14,6 +14,7 @@ import pytest
 from fieldscribe.model import Device, Entry, Enum, Factor, Flag, Interval, Limit, Linear, Point, ScaleCase, Special
 from fieldscribe.render import render
 from fieldscribe.targets.vectors import outputs
+from fieldscribe.targets.vectors.kinds import KINDS
 from fieldscribe.targets.vectors.lines import Lines
 from fieldscribe.targets.vectors.numbers import bits32, half_away, quotient
 from fieldscribe.targets.vectors.oracle import fixed_ratio
@@ -35,8 +36,10 @@ def text_of(device: Device) -> str:
 
 
 def vectors(device: Device) -> list[Vector]:
-    """The vectors of a device, without what is absent."""
-    return [plain(vector) for vector in vectors_of(text_of(device))]
+    """The vectors of a device that are not for other languages alone, without what is absent."""
+    text = text_of(device)
+    kinds = counts_of(text)
+    return [plain(vector) for vector in vectors_of(text) if vector["kind"] in kinds]
 
 
 SAMPLE = sample_device()
@@ -51,9 +54,18 @@ def test_one_vector_per_line_with_counts_before() -> None:
     assert text.startswith("vectors\t2\tsample_drive\t1.2.0\t0123456789abcdef")
     assert text.endswith("\n")
     kinds = Counter(vector["kind"] for vector in VECTORS)
-    assert counts_of(text) == kinds
+    assert counts_of(text) == {kind: kinds[kind] for kind in kinds if "python" in (KINDS[kind].only or "python")}
     lines = Counter(line.split("\t")[0] for line in text.splitlines())
     assert {kind: lines[kind] for kind in kinds} == kinds
+
+
+def test_units_of_points_are_vectors() -> None:
+    symbols = {
+        vector["point"]: vector["symbol"] for vector in vectors_of(text_of(SAMPLE)) if vector["kind"] == "symbol"
+    }
+    assert symbols == {
+        point.item: point.unit.symbol for point in SAMPLE.points if point.generated and point.unit.symbol
+    }
 
 
 def test_the_same_text_twice_and_no_vector_twice() -> None:
@@ -65,7 +77,7 @@ def test_the_same_text_twice_and_no_vector_twice() -> None:
 
 def test_a_device_without_points_is_still_a_file() -> None:
     bus = replace(sample_bus(), framings=(), exceptions=())
-    device = replace(sample_device(()), bus=bus, frames=(), blocks={}, commands=())
+    device = replace(sample_device(()), bus=bus, frames=(), blocks={}, commands=(), variants={})
     assert vectors(device) == []
 
 

@@ -241,28 +241,31 @@ static inline bool fieldscribe_can_carries(const fieldscribe_can_message *messag
     return at < FIELDSCRIBE_CAN_BYTES;
 }
 
-/* Reads the word that answers for `address`. */
+/* The frame that asks for the word at `address`. */
+static inline fieldscribe_can_status fieldscribe_can_ask(const fieldscribe_can_profile *profile,
+    const fieldscribe_can_message *message, uint8_t unit, uint16_t address, fieldscribe_can_frame *frame)
+{
+    return fieldscribe_can_build(profile, message, unit, address, 0U, frame);
+}
+
+/* Reads the word that answers for `address`; 0 unless the result is OK. */
 static inline fieldscribe_can_status fieldscribe_can_answer(const fieldscribe_can_message *message, uint8_t unit,
     uint16_t address, const fieldscribe_can_frame *frame, uint16_t *word)
 {
-    uint16_t answered = 0U;
-    uint16_t raw = 0U;
-    const fieldscribe_can_status status = fieldscribe_can_parse(message, unit, frame, &answered, &raw);
-    if (status != FIELDSCRIBE_CAN_OK) {
-        return status;
-    }
-    if (answered != address && fieldscribe_can_carries(message, FIELDSCRIBE_CAN_ADDRESS)) {
+    uint16_t answered;
+    const fieldscribe_can_status status = fieldscribe_can_parse(message, unit, frame, &answered, word);
+    if (status == FIELDSCRIBE_CAN_OK && answered != address && fieldscribe_can_carries(message, FIELDSCRIBE_CAN_ADDRESS)) {
+        *word = 0U;
         return FIELDSCRIBE_CAN_WRONG_ADDRESS;
     }
-    *word = raw;
-    return FIELDSCRIBE_CAN_OK;
+    return status;
 }
 
 /* Whether a frame confirms that `written` stands at `address` now: the device tells what it took. */
 static inline fieldscribe_can_status fieldscribe_can_confirm(const fieldscribe_can_message *message, uint8_t unit,
     uint16_t address, uint16_t written, const fieldscribe_can_frame *frame)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status = fieldscribe_can_answer(message, unit, address, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK && word != written && fieldscribe_can_carries(message, FIELDSCRIBE_CAN_RAW)) {
         return FIELDSCRIBE_CAN_ECHO_MISMATCH;

@@ -23,6 +23,7 @@ enum {
     FIELDSCRIBE_HEAD_MOST = 16384,
     FIELDSCRIBE_VALUES_MOST = 2048,
     FIELDSCRIBE_BYTES_MOST = 1024,
+    FIELDSCRIBE_ROOM = 256, /* words that one exchange can bring, and more */
     FIELDSCRIBE_SHOWN_FAILURES = 20
 };
 
@@ -77,6 +78,7 @@ typedef struct fieldscribe_blocks {
     const char *group;
     const fieldscribe_modbus_block *blocks;
     size_t count;
+    size_t rows; /* of the table, of which `count` has to be the number */
 } fieldscribe_blocks;
 #endif
 
@@ -89,11 +91,13 @@ typedef struct fieldscribe_named_message {
 typedef struct fieldscribe_named_telegram {
     const char *name;
     const fieldscribe_can_telegram *telegram;
+    fieldscribe_can_receiver (*listen)(uint8_t unit, fieldscribe_can_slot *slots);
 } fieldscribe_named_telegram;
 #endif
 
 typedef struct fieldscribe_suite {
     const char *device;
+    const char *version;
     const char *digest;
     const char *const *spaces;
     const fieldscribe_status_name *statuses;
@@ -325,6 +329,25 @@ static inline void fieldscribe_is_words(fieldscribe_vector *v, const char *key, 
         memcmp(expected, words, count * sizeof expected[0]) == 0);
 }
 
+/* What a caller's memory holds before a call, so that it shows what the call stores, and where. */
+enum { FIELDSCRIBE_PATTERN = 0x5A };
+
+static inline void fieldscribe_fill(void *memory, size_t size)
+{
+    memset(memory, FIELDSCRIBE_PATTERN, size);
+}
+
+/* Nothing may have been stored from there on. */
+static inline void fieldscribe_untouched(fieldscribe_vector *v, const void *memory, size_t size)
+{
+    const uint8_t *const bytes = (const uint8_t *)memory;
+    size_t at = 0U;
+    while (at < size && bytes[at] == (uint8_t)FIELDSCRIBE_PATTERN) {
+        ++at;
+    }
+    fieldscribe_agree(v, at == size);
+}
+
 /* One more pair of a map. */
 static inline void fieldscribe_is_pair(fieldscribe_vector *v, const char *key, const char *name, uint64_t bits)
 {
@@ -371,6 +394,12 @@ static inline void fieldscribe_stored(fieldscribe_vector *v, int status, const c
     } else {
         fieldscribe_agree(v, untouched && fieldscribe_absent(fieldscribe_field(v, key)));
     }
+}
+
+/* What stands in a number before it is read: another one than is expected, and 1 where none is. */
+static inline uint64_t fieldscribe_other(fieldscribe_vector *v)
+{
+    return fieldscribe_bits(v, "raw") ^ 1U;
 }
 
 /* ---- What points answer ---- */
@@ -474,19 +503,24 @@ static inline bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
         fieldscribe_is_text(v, "name", function((number_type)fieldscribe_bits(v, "raw")));       \
     }
 
-#define FIELDSCRIBE_BITS(function, raw_type)                                                     \
+#define FIELDSCRIBE_BITS(function, raw_type, macro)                                              \
     if (fieldscribe_asks(v, "bits")) {                                                           \
         const uint16_t word = (uint16_t)fieldscribe_bits(v, "word");                             \
         const raw_type put = (raw_type)fieldscribe_bits(v, "replaced");                          \
+        const uint32_t ones = (uint32_t)(macro##_MASK) >> macro##_SHIFT;                         \
+        fieldscribe_agree(v, (word & (uint32_t)(macro##_MASK)) ==                                \
+            ((uint32_t)fieldscribe_bits(v, "raw") & ones) << macro##_SHIFT);                     \
         fieldscribe_is_number(v, "raw", (uint64_t)function##_extract(word));                     \
         fieldscribe_is_number(v, "result", (uint64_t)function##_insert(word, put));              \
     }
 
 #define FIELDSCRIBE_WORDS(function, raw_type, count)                                             \
     if (fieldscribe_asks(v, "words")) {                                                          \
-        uint16_t words[count];                                                                   \
+        uint16_t words[count + 1U];                                                              \
+        fieldscribe_fill(words, sizeof words);                                                   \
         function##_to_words((raw_type)fieldscribe_bits(v, "raw"), words);                        \
         fieldscribe_is_words(v, "words", words, count);                                          \
+        fieldscribe_untouched(v, words + count, sizeof words[0]);                                \
         fieldscribe_is_number(v, "raw", (uint64_t)function##_from_words(words));                 \
     }
 
@@ -543,34 +577,42 @@ static inline bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
 #define FIELDSCRIBE_TEXT_DECODE(function, macro)                                                 \
     if (fieldscribe_asks(v, "text_decode")) {                                                    \
         uint16_t words[macro##_WORDS];                                                           \
-        char text[macro##_WORDS * 2U + 1U];                                                      \
+        char text[macro##_CHARACTERS + 2U];                                                      \
         const size_t count = fieldscribe_numbers(v, "words", words, macro##_WORDS);              \
-        const size_t length = function##_decode(words, text);                                    \
-        fieldscribe_agree(v, count == macro##_WORDS && text[length] == '\0');                    \
+        size_t length;                                                                           \
+        fieldscribe_fill(text, sizeof text);                                                     \
+        length = function##_decode(words, text);                                                 \
+        fieldscribe_agree(v, count == macro##_WORDS && length <= macro##_CHARACTERS && text[length] == '\0'); \
+        fieldscribe_untouched(v, text + macro##_CHARACTERS + 1U, 1U);                            \
         fieldscribe_is_bytes(v, "text", text, length);                                           \
     }
 
 #define FIELDSCRIBE_TEXT_ENCODE(function, macro)                                                 \
     if (fieldscribe_asks(v, "text_encode")) {                                                    \
         uint8_t text[FIELDSCRIBE_BYTES_MOST] = {0U};                                             \
-        uint16_t words[macro##_WORDS] = {0U};                                                    \
+        uint16_t words[macro##_WORDS + 1U];                                                      \
         const size_t length = fieldscribe_bytes(v, "text", text, sizeof text);                   \
-        const int status = (int)function##_encode((const char *)text, length, words);            \
+        int status;                                                                              \
+        fieldscribe_fill(words, sizeof words);                                                   \
+        status = (int)function##_encode((const char *)text, length, words);                      \
         fieldscribe_is_status(v, status);                                                        \
-        fieldscribe_agree(v, status == 0 || words[0] == 0U);                                     \
+        fieldscribe_untouched(v, words + (status == 0 ? macro##_WORDS : 0U),                     \
+            status == 0 ? sizeof words[0] : sizeof words);                                       \
         fieldscribe_is_words(v, "words", words, status == 0 ? macro##_WORDS : 0U);               \
     }
 
 #define FIELDSCRIBE_DIGITS(function, digit_type, macro)                                          \
     if (fieldscribe_asks(v, "digits")) {                                                         \
-        digit_type digits[macro##_DIGITS];                                                       \
+        digit_type digits[macro##_DIGITS + 1U];                                                  \
         uint16_t numbers[macro##_DIGITS];                                                        \
         size_t at;                                                                               \
+        fieldscribe_fill(digits, sizeof digits);                                                 \
         function##_decode((uint16_t)fieldscribe_bits(v, "raw"), digits);                         \
         for (at = 0U; at < macro##_DIGITS; ++at) {                                               \
             numbers[at] = digits[at];                                                            \
         }                                                                                        \
         fieldscribe_is_status(v, 0);                                                             \
+        fieldscribe_untouched(v, digits + macro##_DIGITS, sizeof digits[0]);                     \
         fieldscribe_is_words(v, "digits", numbers, macro##_DIGITS);                              \
     }
 
@@ -603,9 +645,12 @@ static inline bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
         fieldscribe_stored(v, status, "raw", raw, raw == 1U);                                    \
     }
 
-#define FIELDSCRIBE_FLAG(flag, bits)                                                             \
+/* A flag of several bits: their number, and where they lie. */
+#define FIELDSCRIBE_WIDE_FLAG(flag, bits, macro)                                                 \
     if (fieldscribe_asks_of(v, "flag", "flag", flag)) {                                          \
+        const uint64_t raw = fieldscribe_bits(v, "raw");                                         \
         fieldscribe_is_number(v, "number", (uint64_t)(bits));                                    \
+        fieldscribe_agree(v, (raw & (uint64_t)(macro##_MASK)) == fieldscribe_bits(v, "number") << macro##_SHIFT); \
     }
 
 /* A flag of one bit, and whether it is true. */
@@ -643,7 +688,7 @@ static inline bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
 /* A point of a telegram, out of what was received. */
 #define FIELDSCRIBE_RECEIVED(function, raw_type)                                                 \
     if (fieldscribe_asks(v, "can_telegram")) {                                                   \
-        raw_type raw = (raw_type)1;                                                              \
+        raw_type raw = (raw_type)fieldscribe_other(v);                                           \
         const fieldscribe_can_status status =                                                    \
             function##_received((const fieldscribe_can_receiver *)v->receiver, &raw);            \
         fieldscribe_is_text(v, "status", fieldscribe_can_status_text(status));                   \
@@ -652,6 +697,18 @@ static inline bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
         } else {                                                                                 \
             fieldscribe_agree(v, raw == (raw_type)1 && fieldscribe_bits(v, "raw") == 0U);        \
         }                                                                                        \
+    }
+
+/* A text of a telegram: its words in reading order. */
+#define FIELDSCRIBE_RECEIVED_TEXT(function, macro)                                               \
+    if (fieldscribe_asks(v, "can_text")) {                                                       \
+        uint16_t words[macro##_WORDS + 1U];                                                      \
+        fieldscribe_can_status status;                                                           \
+        fieldscribe_fill(words, sizeof words);                                                   \
+        status = function##_received((const fieldscribe_can_receiver *)v->receiver, words);      \
+        fieldscribe_is_text(v, "status", fieldscribe_can_status_text(status));                   \
+        fieldscribe_is_words(v, "words", words, status == FIELDSCRIBE_CAN_OK ? macro##_WORDS : 0U); \
+        fieldscribe_untouched(v, words + macro##_WORDS, sizeof words[0]);                        \
     }
 
 /* ---- What the protocol names ---- */
@@ -670,19 +727,75 @@ static inline bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
 
 #define FIELDSCRIBE_COMMAND(command, function, constant)                                         \
     if (fieldscribe_asks_of(v, "command", "command", command)) {                                 \
-        uint16_t words[128] = {0U};                                                              \
-        const fieldscribe_modbus_request request = function((uint8_t)fieldscribe_bits(v, "unit"), words); \
+        uint16_t words[FIELDSCRIBE_ROOM];                                                        \
+        fieldscribe_modbus_request request;                                                      \
+        fieldscribe_fill(words, sizeof words);                                                   \
+        request = function((uint8_t)fieldscribe_bits(v, "unit"), words);                         \
         fieldscribe_is_number(v, "value", (constant));                                           \
+        fieldscribe_agree(v, request.values == words);                                           \
+        fieldscribe_untouched(v, words + 1, sizeof words - sizeof words[0]);                     \
         (void)fieldscribe_exchange(v, 0U, &request, words);                                      \
     }
 
-#define FIELDSCRIBE_DOCUMENTED(point, macro)                                                     \
+#define FIELDSCRIBE_DOCUMENTED_CODE(point, macro)                                                \
+    if (fieldscribe_asks_of(v, "documented_code", "name", point)) {                              \
+        fieldscribe_is_text(v, "code", macro##_CODE);                                            \
+    }
+#define FIELDSCRIBE_DOCUMENTED(point, macro, index)                                              \
     if (fieldscribe_asks_of(v, "documented", "name", point)) {                                   \
         fieldscribe_is_text(v, "space", v->suite->spaces[macro##_SPACE]);                        \
         fieldscribe_is_number(v, "address", macro##_ADDRESS);                                    \
         fieldscribe_is_number(v, "words", macro##_WORDS);                                        \
-        (void)fieldscribe_field(v, "index");                                                     \
+        index                                                                                    \
     }
+
+/* Whether the line is about that part of a device, or about none where there is no part. */
+static inline bool fieldscribe_is_part(fieldscribe_vector *v, const char *part)
+{
+    const char *const field = fieldscribe_field(v, "of");
+    return fieldscribe_absent(field) ? *part == '\0' : fieldscribe_spells(field, part);
+}
+
+/* A number that limits the protocol, or a table. */
+#define FIELDSCRIBE_LIMIT(limit, constant)                                                       \
+    if (fieldscribe_asks_of(v, "limit", "what", limit)) {                                        \
+        fieldscribe_is_number(v, "number", (uint64_t)(constant));                                \
+    }
+#define FIELDSCRIBE_LIMIT_OF(limit, part, constant)                                              \
+    if (fieldscribe_asks_of(v, "size", "what", limit) && fieldscribe_is_part(v, part)) {         \
+        fieldscribe_is_number(v, "number", (uint64_t)(constant));                                \
+    }
+
+/* What a point was called before: each old name stands for the same as the new one. */
+typedef void (*fieldscribe_function)(void);
+
+static inline bool fieldscribe_same_function(fieldscribe_function one, fieldscribe_function other)
+{
+    return one == other;
+}
+
+static inline bool fieldscribe_same_number(uint64_t one, uint64_t other)
+{
+    return one == other;
+}
+
+#define FIELDSCRIBE_ALIAS(was, point, same)                                                      \
+    if (fieldscribe_asks_of(v, "alias", "old", was)) {                                           \
+        fieldscribe_is_text(v, "new", point);                                                    \
+        fieldscribe_agree(v, same);                                                              \
+    }
+#define FIELDSCRIBE_ALIAS_OF_NUMBER(was, point, old_name, new_name)                              \
+    FIELDSCRIBE_ALIAS(was, point, fieldscribe_same_number((uint64_t)(old_name), (uint64_t)(new_name)))
+#define FIELDSCRIBE_ALIAS_OF_TEXT(was, point, old_name, new_name)                                \
+    FIELDSCRIBE_ALIAS(was, point, strcmp(old_name, new_name) == 0)
+#define FIELDSCRIBE_ALIAS_OF_FUNCTION(was, point, old_name, new_name)                            \
+    FIELDSCRIBE_ALIAS(                                                                           \
+        was, point, fieldscribe_same_function((fieldscribe_function)(old_name), (fieldscribe_function)(new_name)))
+#if defined(FIELDSCRIBE_NO_FLOAT)
+#define FIELDSCRIBE_ALIAS_OF_FLOATING_FUNCTION(was, point, old_name, new_name)
+#else
+#define FIELDSCRIBE_ALIAS_OF_FLOATING_FUNCTION FIELDSCRIBE_ALIAS_OF_FUNCTION
+#endif
 
 #define FIELDSCRIBE_GROUP(group, array, size)                                                    \
     if (fieldscribe_asks_of(v, "group", "group", group)) {                                       \
@@ -746,64 +859,73 @@ static inline bool fieldscribe_exchange(
     if (!fieldscribe_step(v, place, &sent, &received)) {
         return false;
     }
+    fieldscribe_agree(v, request->transaction == 0U);
     numbered.transaction = tcp ? (uint16_t)(place + 1U) : 0U;
     status = fieldscribe_modbus_build(v->suite->profile, framing, &numbered, bytes, sizeof bytes, &length);
     fieldscribe_agree(v, status == FIELDSCRIBE_MODBUS_OK);
     fieldscribe_sends(v, sent, bytes, length);
     length = fieldscribe_hex(received, bytes, sizeof bytes);
-    status = fieldscribe_modbus_parse(framing, &numbered, bytes, length, words, 128U, &reply);
+    status = fieldscribe_modbus_parse(framing, &numbered, bytes, length, words, FIELDSCRIBE_ROOM, &reply);
     fieldscribe_is_text(v, "status", fieldscribe_modbus_status_text(status));
     return status == FIELDSCRIBE_MODBUS_OK;
 }
 
 #define FIELDSCRIBE_READ(function, raw_of_words)                                                 \
     if (fieldscribe_asks(v, "read")) {                                                           \
-        uint16_t words[128] = {0U};                                                              \
+        uint16_t words[FIELDSCRIBE_ROOM];                                                        \
         const fieldscribe_modbus_request request = function##_read_request((uint8_t)fieldscribe_bits(v, "unit")); \
+        fieldscribe_fill(words, sizeof words);                                                   \
         if (fieldscribe_exchange(v, 0U, &request, words)) {                                      \
+            fieldscribe_untouched(v, words + request.count, sizeof words - request.count * sizeof words[0]); \
             fieldscribe_is_number(v, "raw", (uint64_t)(raw_of_words));                           \
         }                                                                                        \
     }
 
 #define FIELDSCRIBE_READ_TEXT(function)                                                          \
     if (fieldscribe_asks(v, "read")) {                                                           \
-        uint16_t words[128] = {0U};                                                              \
+        uint16_t words[FIELDSCRIBE_ROOM];                                                        \
         const fieldscribe_modbus_request request = function##_read_request((uint8_t)fieldscribe_bits(v, "unit")); \
+        fieldscribe_fill(words, sizeof words);                                                   \
         if (fieldscribe_exchange(v, 0U, &request, words)) {                                      \
+            fieldscribe_untouched(v, words + request.count, sizeof words - request.count * sizeof words[0]); \
             fieldscribe_is_words(v, "words", words, request.count);                              \
         }                                                                                        \
     }
 
 #define FIELDSCRIBE_WRITE(function, raw_type, count)                                             \
     if (fieldscribe_asks(v, "write")) {                                                          \
-        uint16_t words[count] = {0U};                                                            \
-        uint16_t echoed[128] = {0U};                                                             \
+        uint16_t words[count + 1U];                                                              \
+        uint16_t echoed[FIELDSCRIBE_ROOM];                                                       \
         const raw_type raw = (raw_type)fieldscribe_bits(v, "raw");                               \
-        const fieldscribe_modbus_request request =                                               \
-            function##_write_request((uint8_t)fieldscribe_bits(v, "unit"), raw, words);          \
+        fieldscribe_modbus_request request;                                                      \
+        fieldscribe_fill(words, sizeof words);                                                   \
+        request = function##_write_request((uint8_t)fieldscribe_bits(v, "unit"), raw, words);    \
+        fieldscribe_untouched(v, words + count, sizeof words[0]);                                \
         (void)fieldscribe_exchange(v, 0U, &request, echoed);                                     \
     }
 
 #define FIELDSCRIBE_WRITE_TEXT(function, count)                                                  \
     if (fieldscribe_asks(v, "write")) {                                                          \
-        uint16_t words[count] = {0U};                                                            \
+        uint16_t words[count + 1U];                                                              \
         uint16_t given[count] = {0U};                                                            \
         uint16_t text[count] = {0U};                                                             \
-        uint16_t echoed[128] = {0U};                                                             \
+        uint16_t echoed[FIELDSCRIBE_ROOM];                                                       \
         fieldscribe_modbus_request request;                                                      \
         size_t at;                                                                               \
         fieldscribe_agree(v, fieldscribe_numbers(v, "words", given, count) == count);            \
         for (at = 0U; at < count; ++at) {                                                        \
             text[at] = given[fieldscribe_rank(function##_addresses, count, at)];                 \
         }                                                                                        \
+        fieldscribe_fill(words, sizeof words);                                                   \
         request = function##_write_request((uint8_t)fieldscribe_bits(v, "unit"), text, words);   \
+        fieldscribe_untouched(v, words + count, sizeof words[0]);                                \
         (void)fieldscribe_exchange(v, 0U, &request, echoed);                                     \
     }
 
 /* A group of bits: its word is read, and goes back with other bits. */
 #define FIELDSCRIBE_UPDATE(function, raw_type, address)                                          \
     if (fieldscribe_asks(v, "write")) {                                                          \
-        uint16_t words[128] = {0U};                                                              \
+        uint16_t words[FIELDSCRIBE_ROOM];                                                        \
         const uint8_t unit = (uint8_t)fieldscribe_bits(v, "unit");                               \
         fieldscribe_modbus_request request = function##_read_request(unit);                      \
         if (fieldscribe_exchange(v, 0U, &request, words)) {                                      \
@@ -863,11 +985,17 @@ static inline void fieldscribe_is_answer(fieldscribe_vector *v, fieldscribe_can_
         const uint8_t unit = (uint8_t)fieldscribe_bits(v, "unit");                               \
         const char *sent = NULL;                                                                 \
         const char *received = NULL;                                                             \
-        raw_type raw = (raw_type)1;                                                              \
+        raw_type raw = (raw_type)fieldscribe_other(v);                                           \
         if (fieldscribe_step(v, 0U, &sent, &received)) {                                         \
             fieldscribe_can_frame frame = fieldscribe_frame_of(received);                        \
             const fieldscribe_can_status status = function##_read_answer(unit, &frame, &raw);    \
             fieldscribe_is_answer(v, status);                                                    \
+            if (status == FIELDSCRIBE_CAN_OK) { /* the same of another unit changes nothing */   \
+                raw_type other = (raw_type)1;                                                    \
+                frame.id ^= 1U;                                                                  \
+                fieldscribe_agree(v, function##_read_answer(unit, &frame, &other) == FIELDSCRIBE_CAN_WRONG_ID); \
+                fieldscribe_agree(v, other == (raw_type)1);                                      \
+            }                                                                                    \
             fieldscribe_agree(v, function##_read_request(unit, &frame) == FIELDSCRIBE_CAN_OK);   \
             fieldscribe_sends_frame(v, sent, &frame);                                            \
             if (status == FIELDSCRIBE_CAN_OK) {                                                  \
@@ -927,8 +1055,12 @@ static inline void fieldscribe_is_answer(fieldscribe_vector *v, fieldscribe_can_
             if (fieldscribe_step(v, rank, &sent, &received)) {                                   \
                 fieldscribe_can_frame frame = fieldscribe_frame_of(received);                    \
                 fieldscribe_is_answer(v, function##_read_answer(unit, at, &frame, words));       \
+                fieldscribe_agree(v, function##_read_answer(unit, macro##_WORDS, &frame, words) == \
+                    FIELDSCRIBE_CAN_BAD_ADDRESS);                                                \
                 fieldscribe_agree(v, function##_read_request(unit, at, &frame) == FIELDSCRIBE_CAN_OK); \
                 fieldscribe_sends_frame(v, sent, &frame);                                        \
+                fieldscribe_agree(v, function##_read_request(unit, macro##_WORDS, &frame) ==     \
+                    FIELDSCRIBE_CAN_BAD_ADDRESS);                                                \
                 sorted[rank] = words[at];                                                        \
             }                                                                                    \
         }                                                                                        \
@@ -952,8 +1084,12 @@ static inline void fieldscribe_is_answer(fieldscribe_vector *v, fieldscribe_can_
             if (fieldscribe_step(v, rank, &sent, &received)) {                                   \
                 fieldscribe_can_frame frame = fieldscribe_frame_of(received);                    \
                 fieldscribe_is_answer(v, function##_write_answer(unit, at, words, &frame));      \
+                fieldscribe_agree(v, function##_write_answer(unit, macro##_WORDS, words, &frame) == \
+                    FIELDSCRIBE_CAN_BAD_ADDRESS);                                                \
                 fieldscribe_agree(v, function##_write_request(unit, at, words, &frame) == FIELDSCRIBE_CAN_OK); \
                 fieldscribe_sends_frame(v, sent, &frame);                                        \
+                fieldscribe_agree(v, function##_write_request(unit, macro##_WORDS, words, &frame) == \
+                    FIELDSCRIBE_CAN_BAD_ADDRESS);                                                \
             }                                                                                    \
         }                                                                                        \
     }
@@ -1001,13 +1137,16 @@ static inline bool fieldscribe_exchange(fieldscribe_vector *v, size_t place, con
     if (fieldscribe_asks(v, "read")) {                                                           \
         uint16_t words[256] = {0U};                                                              \
         fieldscribe_uss_reply reply;                                                             \
-        raw_type raw = (raw_type)1;                                                              \
+        raw_type raw = (raw_type)fieldscribe_other(v);                                           \
         const fieldscribe_uss_request request = function##_read_request((uint8_t)fieldscribe_bits(v, "unit")); \
         if (fieldscribe_exchange(v, 0U, &request, words, &reply)) {                              \
             fieldscribe_agree(v, function##_from_reply(&reply, &raw));                           \
             fieldscribe_is_number(v, "raw", (uint64_t)raw);                                      \
             reply.width = (uint8_t)(3U - reply.width);                                           \
-            fieldscribe_agree(v, !function##_from_reply(&reply, &raw));                          \
+            raw = (raw_type)1;                                                                   \
+            fieldscribe_agree(v, !function##_from_reply(&reply, &raw) && raw == (raw_type)1);    \
+            reply.width = 0U;                                                                    \
+            fieldscribe_agree(v, !function##_from_reply(&reply, &raw) && raw == (raw_type)1);    \
         }                                                                                        \
     }
 
@@ -1017,6 +1156,7 @@ static inline bool fieldscribe_exchange(fieldscribe_vector *v, size_t place, con
         fieldscribe_uss_reply reply;                                                             \
         const raw_type raw = (raw_type)fieldscribe_bits(v, "raw");                               \
         const fieldscribe_uss_request request = function##_##call((uint8_t)fieldscribe_bits(v, "unit"), raw); \
+        fieldscribe_agree(v, request.width == 1U || request.width == 2U);                        \
         (void)fieldscribe_exchange(v, 0U, &request, words, &reply);                              \
     }
 
@@ -1043,6 +1183,35 @@ static inline bool fieldscribe_exchange(fieldscribe_vector *v, size_t place, con
         start(words);                                                                            \
         function##_to_pzd((raw_type)fieldscribe_bits(v, "raw"), words);                          \
         (void)fieldscribe_exchange(v, 0U, &request, words, &reply);                              \
+    }
+
+/* The same without a telegram: a word or two at their place, and the others as they were. */
+#define FIELDSCRIBE_PUT(function, raw_type, macro, count)                                        \
+    if (fieldscribe_asks(v, "words") || fieldscribe_asks(v, "bits")) {                           \
+        const bool part = fieldscribe_asks(v, "bits");                                           \
+        uint16_t words[count];                                                                   \
+        fieldscribe_fill(words, sizeof words);                                                   \
+        words[macro##_ADDRESS] = part ? (uint16_t)fieldscribe_bits(v, "word") : 0U;              \
+        function##_to_pzd((raw_type)fieldscribe_bits(v, part ? "replaced" : "raw"), words);      \
+        if (part) {                                                                              \
+            fieldscribe_is_number(v, "result", words[macro##_ADDRESS]);                          \
+        } else {                                                                                 \
+            fieldscribe_is_words(v, "words", words + macro##_ADDRESS, macro##_WORDS);            \
+        }                                                                                        \
+        fieldscribe_untouched(v, words, macro##_ADDRESS * sizeof words[0]);                      \
+        fieldscribe_untouched(v, words + macro##_ADDRESS + macro##_WORDS,                        \
+            sizeof words - (macro##_ADDRESS + macro##_WORDS) * sizeof words[0]);                 \
+    }
+#define FIELDSCRIBE_TAKE(function, macro, count)                                                 \
+    if (fieldscribe_asks(v, "words") || fieldscribe_asks(v, "bits")) {                           \
+        uint16_t words[count];                                                                   \
+        fieldscribe_fill(words, sizeof words);                                                   \
+        if (fieldscribe_asks(v, "bits")) {                                                       \
+            words[macro##_ADDRESS] = (uint16_t)fieldscribe_bits(v, "word");                      \
+        } else {                                                                                 \
+            (void)fieldscribe_numbers(v, "words", words + macro##_ADDRESS, macro##_WORDS);       \
+        }                                                                                        \
+        fieldscribe_is_number(v, "raw", (uint64_t)function##_from_pzd(words));                   \
     }
 
 #define FIELDSCRIBE_HEAR(function, count)                                                        \
@@ -1100,17 +1269,75 @@ static fieldscribe_modbus_framing fieldscribe_read_request(
     return fieldscribe_spells(fieldscribe_field(v, "framing"), "tcp") ? FIELDSCRIBE_MODBUS_TCP : FIELDSCRIBE_MODBUS_RTU;
 }
 
+/* A buffer of exactly the length does, one that is shorter does not; and what writes needs values. */
+static void fieldscribe_rebuild(fieldscribe_vector *v, fieldscribe_modbus_framing framing,
+    const fieldscribe_modbus_request *request, const uint8_t *expected, size_t length)
+{
+    const fieldscribe_modbus_profile *const profile = v->suite->profile;
+    fieldscribe_modbus_request empty = *request;
+    uint8_t built[FIELDSCRIBE_MODBUS_TCP_MOST];
+    size_t again = SIZE_MAX;
+    fieldscribe_fill(built, sizeof built);
+    fieldscribe_agree(v,
+        fieldscribe_modbus_build(profile, framing, request, built, length - 1U, &again) ==
+            FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL && again == 0U);
+    fieldscribe_untouched(v, built, sizeof built);
+    fieldscribe_agree(v,
+        fieldscribe_modbus_build(profile, framing, request, built, length, &again) == FIELDSCRIBE_MODBUS_OK &&
+            again == length && memcmp(built, expected, length) == 0);
+    empty.values = NULL;
+    fieldscribe_agree(v, fieldscribe_modbus_build(profile, framing, &empty, built, sizeof built, &again) ==
+        (fieldscribe_modbus_reads(request->function) ? FIELDSCRIBE_MODBUS_OK : FIELDSCRIBE_MODBUS_BAD_COUNT));
+}
+
 static void fieldscribe_run_build(fieldscribe_vector *v)
 {
     static uint16_t values[FIELDSCRIBE_VALUES_MOST];
     uint8_t built[FIELDSCRIBE_MODBUS_TCP_MOST];
     fieldscribe_modbus_request request;
-    size_t length = 0U;
+    size_t length = SIZE_MAX;
     const fieldscribe_modbus_framing framing = fieldscribe_read_request(v, values, &request);
-    const fieldscribe_modbus_status status =
-        fieldscribe_modbus_build(v->suite->profile, framing, &request, built, sizeof built, &length);
+    fieldscribe_modbus_status status;
+    fieldscribe_fill(built, sizeof built);
+    status = fieldscribe_modbus_build(v->suite->profile, framing, &request, built, sizeof built, &length);
     fieldscribe_is_text(v, "status", fieldscribe_modbus_status_text(status));
-    fieldscribe_is_bytes(v, "bytes", built, length);
+    fieldscribe_agree(v, length <= sizeof built);
+    if (length <= sizeof built) {
+        fieldscribe_is_bytes(v, "bytes", built, length);
+        fieldscribe_untouched(v, built + length, sizeof built - length);
+    }
+    if (status == FIELDSCRIBE_MODBUS_OK && length > 0U) {
+        fieldscribe_rebuild(v, framing, &request, built, length);
+    }
+}
+
+/* Room for exactly what came does, less does not; and an echo is held against what was sent, if something was. */
+static void fieldscribe_reparse(fieldscribe_vector *v, fieldscribe_modbus_framing framing,
+    const fieldscribe_modbus_request *request, const uint8_t *bytes, size_t length)
+{
+    static uint16_t read[FIELDSCRIBE_VALUES_MOST];
+    const bool reads = fieldscribe_modbus_reads(request->function);
+    const bool several = request->function == 0x0FU || request->function == 0x10U;
+    const size_t room = reads ? request->count : 1U;
+    fieldscribe_modbus_request empty = *request;
+    fieldscribe_modbus_reply reply;
+    fieldscribe_fill(read, sizeof read);
+    fieldscribe_agree(v,
+        fieldscribe_modbus_parse(framing, request, bytes, length, read, room - 1U, &reply) ==
+            (reads ? FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL : FIELDSCRIBE_MODBUS_OK) && reply.count == 0U);
+    fieldscribe_untouched(v, read, sizeof read);
+    fieldscribe_agree(v,
+        fieldscribe_modbus_parse(framing, request, bytes, length, read, room, &reply) == FIELDSCRIBE_MODBUS_OK &&
+            reply.count == (several ? 0U : room));
+    if (!reads && !several) {
+        empty.values = NULL;
+        fieldscribe_agree(v, fieldscribe_modbus_parse(framing, &empty, bytes, length, read, room, &reply) ==
+            FIELDSCRIBE_MODBUS_ECHO_MISMATCH);
+        empty = *request;
+        empty.count = 0U;
+        fieldscribe_agree(v, fieldscribe_modbus_parse(framing, &empty, bytes, length, read, room, &reply) ==
+            FIELDSCRIBE_MODBUS_ECHO_MISMATCH);
+    }
 }
 
 static void fieldscribe_run_reply(fieldscribe_vector *v)
@@ -1120,13 +1347,47 @@ static void fieldscribe_run_reply(fieldscribe_vector *v)
     uint8_t bytes[FIELDSCRIBE_BYTES_MOST];
     fieldscribe_modbus_request request;
     fieldscribe_modbus_reply reply;
+    fieldscribe_modbus_status status;
     const fieldscribe_modbus_framing framing = fieldscribe_read_request(v, values, &request);
     const size_t length = fieldscribe_bytes(v, "bytes", bytes, sizeof bytes);
-    const fieldscribe_modbus_status status =
-        fieldscribe_modbus_parse(framing, &request, bytes, length, read, FIELDSCRIBE_VALUES_MOST, &reply);
+    fieldscribe_fill(read, sizeof read);
+    fieldscribe_fill(&reply, sizeof reply);
+    status = fieldscribe_modbus_parse(framing, &request, bytes, length, read, FIELDSCRIBE_VALUES_MOST, &reply);
     fieldscribe_is_text(v, "status", fieldscribe_modbus_status_text(status));
-    fieldscribe_is_words(v, "values_out", read, reply.count);
+    fieldscribe_agree(v, reply.count <= (size_t)FIELDSCRIBE_VALUES_MOST);
+    if (reply.count <= (size_t)FIELDSCRIBE_VALUES_MOST) {
+        fieldscribe_is_words(v, "values_out", read, reply.count);
+        fieldscribe_untouched(v, read + reply.count, sizeof read - reply.count * sizeof read[0]);
+    }
     fieldscribe_is_count(v, "exception", reply.exception);
+    if (status == FIELDSCRIBE_MODBUS_OK) {
+        fieldscribe_reparse(v, framing, &request, bytes, length);
+    }
+}
+
+/* What the profile says of a function. */
+static void fieldscribe_run_function(fieldscribe_vector *v)
+{
+    const fieldscribe_modbus_profile *const profile = v->suite->profile;
+    const uint64_t index = fieldscribe_bits(v, "index");
+    if (index < profile->function_count) {
+        fieldscribe_agree(v, !fieldscribe_modbus_reads(0x00U) && !fieldscribe_modbus_reads(0x05U));
+        fieldscribe_is_number(v, "number", profile->functions[index].code);
+        fieldscribe_is_number(v, "most", profile->functions[index].most);
+        fieldscribe_is_number(v, "broadcast", profile->functions[index].broadcast ? 1U : 0U);
+    }
+}
+
+static void fieldscribe_run_limit(fieldscribe_vector *v)
+{
+    const fieldscribe_modbus_profile *const profile = v->suite->profile;
+    FIELDSCRIBE_LIMIT("first_unit", profile->first_unit)
+    FIELDSCRIBE_LIMIT("last_unit", profile->last_unit)
+    FIELDSCRIBE_LIMIT("functions", profile->function_count)
+    FIELDSCRIBE_LIMIT("broadcast", profile->broadcast)
+    FIELDSCRIBE_LIMIT("no_broadcast", FIELDSCRIBE_MODBUS_NO_BROADCAST)
+    FIELDSCRIBE_LIMIT("rtu_bytes", FIELDSCRIBE_MODBUS_RTU_MOST)
+    FIELDSCRIBE_LIMIT("tcp_bytes", FIELDSCRIBE_MODBUS_TCP_MOST)
 }
 
 static void fieldscribe_run_block(fieldscribe_vector *v)
@@ -1135,6 +1396,7 @@ static void fieldscribe_run_block(fieldscribe_vector *v)
     const uint64_t index = fieldscribe_bits(v, "index");
     const fieldscribe_blocks *group = v->suite->blocks;
     const fieldscribe_modbus_block *block;
+    fieldscribe_modbus_request request;
     while (group->group != NULL && !fieldscribe_spells(fieldscribe_field(v, "group"), group->group)) {
         ++group;
     }
@@ -1142,6 +1404,9 @@ static void fieldscribe_run_block(fieldscribe_vector *v)
         return;
     }
     block = &group->blocks[index];
+    request = fieldscribe_modbus_read_block(1U, block);
+    fieldscribe_agree(v, group->count == group->rows && request.unit == 1U && request.values == NULL &&
+        request.function == block->function && request.address == block->address && request.count == block->count);
     fieldscribe_is_text(v, "space", block->function >= 1U && block->function <= 4U ? spaces[block->function] : NULL);
     fieldscribe_is_number(v, "function", block->function);
     fieldscribe_is_number(v, "address", block->address);
@@ -1156,6 +1421,10 @@ static bool fieldscribe_run_frame(fieldscribe_vector *v)
         fieldscribe_run_reply(v);
     } else if (fieldscribe_asks(v, "block")) {
         fieldscribe_run_block(v);
+    } else if (fieldscribe_asks(v, "function")) {
+        fieldscribe_run_function(v);
+    } else if (fieldscribe_asks(v, "limit")) {
+        fieldscribe_run_limit(v);
     } else {
         return false;
     }
@@ -1189,12 +1458,17 @@ static void fieldscribe_run_can_build(fieldscribe_vector *v)
     const uint32_t raw = fieldscribe_at_most(v, "raw", UINT32_MAX);
     fieldscribe_can_frame frame;
     fieldscribe_can_status status;
-    memset(&frame, 0, sizeof frame);
+    fieldscribe_fill(&frame, sizeof frame);
     if (message != NULL) {
         status = fieldscribe_can_build(v->suite->profile, message, unit, address, raw, &frame);
         fieldscribe_is_text(v, "status", fieldscribe_can_status_text(status));
-        fieldscribe_is_count(v, "id", frame.id);
-        fieldscribe_is_bytes(v, "bytes", frame.data, frame.length);
+        if (status == FIELDSCRIBE_CAN_OK) {
+            fieldscribe_is_number(v, "id", frame.id);
+            fieldscribe_agree(v, frame.length == FIELDSCRIBE_CAN_BYTES);
+            fieldscribe_is_bytes(v, "bytes", frame.data, FIELDSCRIBE_CAN_BYTES);
+        } else {
+            fieldscribe_untouched(v, &frame, sizeof frame);
+        }
     }
 }
 
@@ -1232,19 +1506,52 @@ static void fieldscribe_feed(fieldscribe_vector *v, fieldscribe_can_receiver *re
     fieldscribe_agree(v, fed == count && memcmp(taken, expected_taken, fed * sizeof taken[0]) == 0);
 }
 
-static void fieldscribe_run_can_telegram(fieldscribe_vector *v)
+/* Slots in a caller's memory, with one behind them that is not theirs. */
+typedef struct fieldscribe_slots {
+    fieldscribe_can_slot all[257];
+} fieldscribe_slots;
+
+/* The telegram of the line with a receiver that has heard nothing; NULL when there is none. */
+static const fieldscribe_named_telegram *fieldscribe_listen(
+    fieldscribe_vector *v, fieldscribe_slots *slots, fieldscribe_can_receiver *receiver)
 {
-    static fieldscribe_can_slot slots[256];
     const fieldscribe_named_telegram *one = v->suite->cyclic;
-    fieldscribe_can_receiver receiver;
     while (one->name != NULL && !fieldscribe_spells(fieldscribe_field(v, "telegram"), one->name)) {
         ++one;
     }
-    if (one->name != NULL && fieldscribe_can_slots(one->telegram) <= 256U) {
-        memset(slots, 0x5A, sizeof slots);
-        receiver = fieldscribe_can_listen(one->telegram, (uint8_t)fieldscribe_at_most(v, "unit", 255U), slots);
+    if (one->name == NULL || fieldscribe_can_slots(one->telegram) > 256U) {
+        return NULL;
+    }
+    fieldscribe_fill(slots, sizeof *slots);
+    *receiver = one->listen((uint8_t)fieldscribe_at_most(v, "unit", 255U), slots->all);
+    return one;
+}
+
+/* Nothing was stored behind the slots, and a table of nonsense counts as the most words in a frame. */
+static void fieldscribe_stays_inside(
+    fieldscribe_vector *v, const fieldscribe_slots *slots, const fieldscribe_can_telegram *telegram)
+{
+    const size_t used = fieldscribe_can_slots(telegram);
+    fieldscribe_can_telegram odd = *telegram;
+    fieldscribe_untouched(v, slots->all + used, sizeof *slots - used * sizeof slots->all[0]);
+    odd.words = 9U;
+    odd.per_frame = 0U;
+    fieldscribe_agree(v, fieldscribe_can_slots(&odd) == 3U);
+    odd.per_frame = 5U;
+    fieldscribe_agree(v, fieldscribe_can_slots(&odd) == 3U);
+    odd.per_frame = 3U;
+    fieldscribe_agree(v, fieldscribe_can_slots(&odd) == 3U && fieldscribe_can_per_frame(&odd) == 3U);
+}
+
+static void fieldscribe_run_can_telegram(fieldscribe_vector *v)
+{
+    static fieldscribe_slots slots;
+    fieldscribe_can_receiver receiver;
+    const fieldscribe_named_telegram *const one = fieldscribe_listen(v, &slots, &receiver);
+    if (one != NULL) {
         v->receiver = &receiver;
         fieldscribe_feed(v, &receiver);
+        fieldscribe_stays_inside(v, &slots, one->telegram);
         v->answered = false; /* until the point answers too */
         fieldscribe_run_point(v);
         v->receiver = NULL;
@@ -1253,27 +1560,38 @@ static void fieldscribe_run_can_telegram(fieldscribe_vector *v)
 
 static void fieldscribe_run_can_taken(fieldscribe_vector *v)
 {
-    static fieldscribe_can_slot slots[256];
-    const fieldscribe_named_telegram *one = v->suite->cyclic;
+    static fieldscribe_slots slots;
     fieldscribe_can_receiver receiver;
-    while (one->name != NULL && !fieldscribe_spells(fieldscribe_field(v, "telegram"), one->name)) {
-        ++one;
-    }
-    if (one->name != NULL && fieldscribe_can_slots(one->telegram) <= 256U) {
-        receiver = fieldscribe_can_listen(one->telegram, (uint8_t)fieldscribe_at_most(v, "unit", 255U), slots);
+    const fieldscribe_named_telegram *const one = fieldscribe_listen(v, &slots, &receiver);
+    uint16_t word = 0x5A5AU;
+    if (one != NULL) {
+        fieldscribe_agree(v, fieldscribe_can_word(&receiver, one->telegram->words, &word) == FIELDSCRIBE_CAN_MISSING);
         fieldscribe_feed(v, &receiver);
+        fieldscribe_stays_inside(v, &slots, one->telegram);
+        fieldscribe_agree(v, fieldscribe_can_word(&receiver, one->telegram->words, &word) == FIELDSCRIBE_CAN_MISSING);
+        fieldscribe_agree(v, word == 0x5A5AU);
     }
+}
+
+static void fieldscribe_run_limit(fieldscribe_vector *v)
+{
+    const fieldscribe_can_profile *const profile = v->suite->profile;
+    FIELDSCRIBE_LIMIT("first_unit", profile->first_unit)
+    FIELDSCRIBE_LIMIT("last_unit", profile->last_unit)
+    FIELDSCRIBE_LIMIT("identifier_bits", profile->identifier_bits)
 }
 
 static bool fieldscribe_run_frame(fieldscribe_vector *v)
 {
-    if (fieldscribe_asks(v, "can_taken")) {
+    if (fieldscribe_asks(v, "limit")) {
+        fieldscribe_run_limit(v);
+    } else if (fieldscribe_asks(v, "can_taken")) {
         fieldscribe_run_can_taken(v);
     } else if (fieldscribe_asks(v, "can_build")) {
         fieldscribe_run_can_build(v);
     } else if (fieldscribe_asks(v, "can_parse")) {
         fieldscribe_run_can_parse(v);
-    } else if (fieldscribe_asks(v, "can_telegram")) {
+    } else if (fieldscribe_asks(v, "can_telegram") || fieldscribe_asks(v, "can_text")) {
         fieldscribe_run_can_telegram(v);
     } else {
         return false;
@@ -1293,24 +1611,48 @@ static fieldscribe_uss_request fieldscribe_read_task(fieldscribe_vector *v)
     return request;
 }
 
+/* The telegram of the line in `built`, and nothing behind it. */
+static void fieldscribe_is_telegram(
+    fieldscribe_vector *v, fieldscribe_uss_status status, const uint8_t *built, size_t size, size_t length)
+{
+    fieldscribe_is_text(v, "status", fieldscribe_uss_status_text(status));
+    fieldscribe_agree(v, length <= size);
+    if (length <= size) {
+        fieldscribe_is_bytes(v, "bytes", built, length);
+        fieldscribe_untouched(v, built + length, size - length);
+    }
+}
+
 static void fieldscribe_run_uss_build(fieldscribe_vector *v)
 {
     uint16_t words[FIELDSCRIBE_BYTES_MOST] = {0U};
     uint8_t built[FIELDSCRIBE_USS_MOST];
-    size_t length = 0U;
+    uint8_t exact[FIELDSCRIBE_USS_MOST];
+    size_t length = SIZE_MAX;
+    size_t again = SIZE_MAX;
+    const fieldscribe_uss_profile *const profile = v->suite->profile;
     const fieldscribe_uss_link link = fieldscribe_read_link(v);
     fieldscribe_uss_request request = fieldscribe_read_task(v);
     const size_t count = fieldscribe_numbers(v, "words", words, FIELDSCRIBE_BYTES_MOST);
     fieldscribe_uss_status status;
     request.width = (uint8_t)fieldscribe_at_most(v, "width", 255U);
     request.value = fieldscribe_at_most(v, "value", UINT32_MAX);
-    status = fieldscribe_uss_build(v->suite->profile, &link, &request, words, count, built, sizeof built, &length);
+    fieldscribe_fill(built, sizeof built);
+    status = fieldscribe_uss_build(profile, &link, &request, words, count, built, sizeof built, &length);
     if (status == FIELDSCRIBE_USS_OK && fieldscribe_bits(v, "value") != request.value) {
+        fieldscribe_fill(built, sizeof built);
         status = FIELDSCRIBE_USS_BAD_VALUE; /* the argument's type alone refuses it */
         length = 0U;
     }
-    fieldscribe_is_text(v, "status", fieldscribe_uss_status_text(status));
-    fieldscribe_is_bytes(v, "bytes", built, length);
+    fieldscribe_is_telegram(v, status, built, sizeof built, length);
+    if (status == FIELDSCRIBE_USS_OK && length > 0U && length <= sizeof built) {
+        fieldscribe_fill(exact, sizeof exact);
+        status = fieldscribe_uss_build(profile, &link, &request, words, count, exact, length - 1U, &again);
+        fieldscribe_agree(v, status == FIELDSCRIBE_USS_BUFFER_TOO_SMALL && again == 0U);
+        fieldscribe_untouched(v, exact, sizeof exact);
+        status = fieldscribe_uss_build(profile, &link, &request, words, count, exact, length, &again);
+        fieldscribe_agree(v, status == FIELDSCRIBE_USS_OK && again == length && memcmp(built, exact, length) == 0);
+    }
 }
 
 static void fieldscribe_run_uss_broadcast(fieldscribe_vector *v)
@@ -1318,38 +1660,98 @@ static void fieldscribe_run_uss_broadcast(fieldscribe_vector *v)
     uint16_t mask[4] = {0U};
     uint16_t words[FIELDSCRIBE_BYTES_MOST] = {0U};
     uint8_t built[FIELDSCRIBE_USS_MOST];
-    size_t length = 0U;
+    size_t length = SIZE_MAX;
     const fieldscribe_uss_link link = fieldscribe_read_link(v);
     const size_t masks = fieldscribe_numbers(v, "mask", mask, 4U);
     const size_t count = fieldscribe_numbers(v, "words", words, FIELDSCRIBE_BYTES_MOST);
-    const fieldscribe_uss_status status =
+    fieldscribe_uss_status status;
+    fieldscribe_fill(built, sizeof built);
+    status =
         fieldscribe_uss_build_broadcast(v->suite->profile, &link, mask, words, count, built, sizeof built, &length);
     fieldscribe_agree(v, masks == 4U);
-    fieldscribe_is_text(v, "status", fieldscribe_uss_status_text(status));
-    fieldscribe_is_bytes(v, "bytes", built, length);
+    fieldscribe_is_telegram(v, status, built, sizeof built, length);
+}
+
+/* Process data comes with every good telegram, also with one that brings no value; else nothing is stored. */
+static void fieldscribe_are_heard(fieldscribe_vector *v, fieldscribe_uss_status status, const uint16_t *words,
+    const uint8_t *bytes, size_t length, size_t count)
+{
+    const bool good = status == FIELDSCRIBE_USS_OK || status >= FIELDSCRIBE_USS_WRONG_PARAMETER;
+    const size_t heard = good ? count : 0U;
+    size_t at;
+    for (at = 0U; at < heard; ++at) {
+        fieldscribe_agree(v, words[at] == fieldscribe_uss_get(bytes + length - 1U - 2U * (count - at)));
+    }
+    fieldscribe_untouched(v, words + heard, (FIELDSCRIBE_BYTES_MOST - heard) * sizeof words[0]);
 }
 
 static void fieldscribe_run_uss_reply(fieldscribe_vector *v)
 {
-    uint16_t words[FIELDSCRIBE_BYTES_MOST] = {0U};
+    uint16_t words[FIELDSCRIBE_BYTES_MOST];
     uint8_t bytes[FIELDSCRIBE_BYTES_MOST];
     fieldscribe_uss_reply reply;
+    fieldscribe_uss_reply again;
+    const fieldscribe_uss_profile *const profile = v->suite->profile;
     const fieldscribe_uss_link link = fieldscribe_read_link(v);
     const fieldscribe_uss_request request = fieldscribe_read_task(v);
     const size_t length = fieldscribe_bytes(v, "bytes", bytes, sizeof bytes);
-    const fieldscribe_uss_status status = fieldscribe_uss_parse(
-        v->suite->profile, &link, &request, bytes, length, words, FIELDSCRIBE_BYTES_MOST, &reply);
+    fieldscribe_uss_status status;
+    fieldscribe_fill(words, sizeof words);
+    fieldscribe_fill(&reply, sizeof reply);
+    status = fieldscribe_uss_parse(profile, &link, &request, bytes, length, words, FIELDSCRIBE_BYTES_MOST, &reply);
     fieldscribe_is_text(v, "status", fieldscribe_uss_status_text(status));
     fieldscribe_is_count(v, "response", reply.response);
     fieldscribe_is_count(v, "width", reply.width);
     fieldscribe_is_count(v, "value", reply.value);
     fieldscribe_is_count(v, "error", reply.error);
     fieldscribe_is_words(v, "words", words, status == FIELDSCRIBE_USS_OK ? link.pzd : 0U);
+    fieldscribe_are_heard(v, status, words, bytes, length, link.pzd);
+    if (status == FIELDSCRIBE_USS_OK) {
+        fieldscribe_agree(v, fieldscribe_uss_parse(profile, &link, &request, bytes, length, words, link.pzd, &again) ==
+            FIELDSCRIBE_USS_OK);
+    }
+    if (status == FIELDSCRIBE_USS_OK && link.pzd > 0U) {
+        fieldscribe_fill(words, sizeof words);
+        fieldscribe_agree(v,
+            fieldscribe_uss_parse(profile, &link, &request, bytes, length, words, link.pzd - 1U, &again) ==
+                FIELDSCRIBE_USS_BUFFER_TOO_SMALL);
+        fieldscribe_untouched(v, words, sizeof words);
+    }
+}
+
+/* What the profile says of a task. */
+static void fieldscribe_run_function(fieldscribe_vector *v)
+{
+    const fieldscribe_uss_profile *const profile = v->suite->profile;
+    const uint64_t index = fieldscribe_bits(v, "index");
+    if (index < profile->task_count) {
+        fieldscribe_is_number(v, "number", profile->tasks[index].number);
+        fieldscribe_is_number(v, "answers", profile->tasks[index].answers);
+    }
+}
+
+static void fieldscribe_run_limit(fieldscribe_vector *v)
+{
+    const fieldscribe_uss_profile *const profile = v->suite->profile;
+    FIELDSCRIBE_LIMIT("first_unit", profile->first_unit)
+    FIELDSCRIBE_LIMIT("last_unit", profile->last_unit)
+    FIELDSCRIBE_LIMIT("functions", profile->task_count)
+    FIELDSCRIBE_LIMIT("broadcast", profile->broadcast)
+    FIELDSCRIBE_LIMIT("no_broadcast", FIELDSCRIBE_USS_NO_BROADCAST)
+    FIELDSCRIBE_LIMIT("telegram_bytes", FIELDSCRIBE_USS_MOST)
+    FIELDSCRIBE_LIMIT("last_parameter", FIELDSCRIBE_USS_LAST_PARAMETER)
+    FIELDSCRIBE_LIMIT("least_process_words", profile->least_pzd)
+    FIELDSCRIBE_LIMIT("most_process_words", profile->most_pzd)
+    FIELDSCRIBE_LIMIT("parameter_parts", profile->pkw_count)
 }
 
 static bool fieldscribe_run_frame(fieldscribe_vector *v)
 {
-    if (fieldscribe_asks(v, "uss_build") || fieldscribe_asks(v, "uss_printed_build")) {
+    if (fieldscribe_asks(v, "function")) {
+        fieldscribe_run_function(v);
+    } else if (fieldscribe_asks(v, "limit")) {
+        fieldscribe_run_limit(v);
+    } else if (fieldscribe_asks(v, "uss_build") || fieldscribe_asks(v, "uss_printed_build")) {
         fieldscribe_run_uss_build(v);
     } else if (fieldscribe_asks(v, "uss_broadcast")) {
         fieldscribe_run_uss_broadcast(v);
@@ -1449,8 +1851,8 @@ static bool fieldscribe_take_head(fieldscribe_file *file, char *text)
     count = fieldscribe_split(text, parts, sizeof parts / sizeof parts[0]);
     if (parts[0][0] == 'v') {
         file->fits = count == 5U && fieldscribe_pattern(parts[1]) == (uint64_t)FIELDSCRIBE_FORMAT &&
-            strcmp(parts[2], file->v.suite->device) == 0 &&
-            strncmp(parts[4], file->v.suite->digest, strlen(file->v.suite->digest)) == 0;
+            strcmp(parts[2], file->v.suite->device) == 0 && strcmp(parts[3], file->v.suite->version) == 0 &&
+            strlen(file->v.suite->digest) == 16U && strncmp(parts[4], file->v.suite->digest, 16U) == 0;
     } else if (parts[0][0] == 's' && file->set_count < (size_t)FIELDSCRIBE_SETS_MOST) {
         file->fits = fieldscribe_declare(file, &file->sets[file->set_count], parts, count, 2U) && file->fits;
         ++file->set_count;
@@ -1536,7 +1938,8 @@ static void fieldscribe_run_vector(fieldscribe_file *file, const char *text)
     v->differs = false;
     v->matched = 0U;
     if (fieldscribe_asks(v, "code") || fieldscribe_asks(v, "constant") || fieldscribe_asks(v, "command") ||
-        fieldscribe_asks(v, "group") || fieldscribe_asks(v, "documented")) {
+        fieldscribe_asks(v, "group") || fieldscribe_asks(v, "documented") || fieldscribe_asks(v, "size") || fieldscribe_asks(v, "alias") ||
+        fieldscribe_asks(v, "documented_code")) {
         v->suite->run_code(v);
     } else if (!fieldscribe_run_frame(v)) {
         fieldscribe_run_point(v);

@@ -2545,7 +2545,7 @@ static inline int32_t hitachi_l200_run_source_set_2_decode(uint16_t raw)
 static inline hitachi_l200_status hitachi_l200_motor_rated_frequency_check(uint16_t raw, uint16_t maximum_frequency_raw)
 {
     const int32_t number = raw;
-    int32_t high = 400;
+    int32_t high;
     high = (int32_t)maximum_frequency_raw;
     if (high > 400) {
         high = 400;
@@ -2590,7 +2590,7 @@ static inline int32_t hitachi_l200_motor_rated_frequency_decode(uint16_t raw)
 static inline hitachi_l200_status hitachi_l200_motor_rated_frequency_set_2_check(uint16_t raw, uint16_t maximum_frequency_set_2_raw)
 {
     const int32_t number = raw;
-    int32_t high = 400;
+    int32_t high;
     high = (int32_t)maximum_frequency_set_2_raw;
     if (high > 400) {
         high = 400;
@@ -2633,7 +2633,7 @@ static inline int32_t hitachi_l200_motor_rated_frequency_set_2_decode(uint16_t r
 static inline hitachi_l200_status hitachi_l200_maximum_frequency_check(uint16_t raw, uint16_t motor_rated_frequency_raw)
 {
     const int32_t number = raw;
-    int32_t low = 30;
+    int32_t low;
     low = (int32_t)motor_rated_frequency_raw;
     if (low < 30) {
         low = 30;
@@ -2680,7 +2680,7 @@ static inline int32_t hitachi_l200_maximum_frequency_decode(uint16_t raw)
 static inline hitachi_l200_status hitachi_l200_maximum_frequency_set_2_check(uint16_t raw, uint16_t motor_rated_frequency_set_2_raw)
 {
     const int32_t number = raw;
-    int32_t low = 30;
+    int32_t low;
     low = (int32_t)motor_rated_frequency_set_2_raw;
     if (low < 30) {
         low = 30;
@@ -4488,7 +4488,7 @@ static inline int32_t hitachi_l200_dc_brake_enable_decode(uint16_t raw)
 static inline hitachi_l200_status hitachi_l200_dc_brake_frequency_check(uint16_t raw, uint16_t start_frequency_raw)
 {
     const int32_t number = raw;
-    int32_t low = 5;
+    int32_t low;
     low = (int32_t)start_frequency_raw;
     if (low < 5) {
         low = 5;
@@ -4769,7 +4769,7 @@ static inline hitachi_l200_status hitachi_l200_upper_frequency_limit_check(uint1
     }
     const int32_t number = raw;
     int32_t low = 0;
-    int32_t high = 4000;
+    int32_t high;
     if (lower_frequency_limit_raw != 0) {
         low = (int32_t)lower_frequency_limit_raw;
     }
@@ -4882,7 +4882,7 @@ static inline hitachi_l200_status hitachi_l200_upper_frequency_limit_set_2_check
     }
     const int32_t number = raw;
     int32_t low = 0;
-    int32_t high = 4000;
+    int32_t high;
     if (lower_frequency_limit_set_2_raw != 0) {
         low = (int32_t)lower_frequency_limit_set_2_raw;
     }
@@ -4992,7 +4992,7 @@ static inline hitachi_l200_status hitachi_l200_lower_frequency_limit_check(uint1
         return HITACHI_L200_SPECIAL;
     }
     const int32_t number = raw;
-    int32_t low = 5;
+    int32_t low;
     int32_t high = 4000;
     low = (int32_t)start_frequency_raw;
     if (low < 5) {
@@ -5110,7 +5110,7 @@ static inline hitachi_l200_status hitachi_l200_lower_frequency_limit_set_2_check
         return HITACHI_L200_SPECIAL;
     }
     const int32_t number = raw;
-    int32_t low = 5;
+    int32_t low;
     int32_t high = 4000;
     low = (int32_t)start_frequency_raw;
     if (low < 5) {

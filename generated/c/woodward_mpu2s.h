@@ -3248,13 +3248,10 @@ static inline int32_t woodward_mpu2s_generator_voltage_factor_decode(uint16_t ra
 static inline woodward_mpu2s_status woodward_mpu2s_generator_voltage_setpoint_100v_check(uint16_t raw, uint16_t generator_voltage_factor_raw)
 {
     const int32_t number = raw;
-    int32_t low = 0;
-    int32_t high = 20480;
+    int32_t low;
+    int32_t high;
     low = woodward_mpu2s_divide((int32_t)generator_voltage_factor_raw, 16);
     high = woodward_mpu2s_divide((int32_t)generator_voltage_factor_raw * 5, 16);
-    if (high > 20480) {
-        high = 20480;
-    }
     return number >= low && number <= high ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
 }
 
@@ -3334,8 +3331,8 @@ static inline woodward_mpu2s_status woodward_mpu2s_generator_voltage_setpoint_10
 static inline woodward_mpu2s_status woodward_mpu2s_generator_voltage_setpoint_400v_check(uint16_t raw, uint16_t generator_voltage_factor_raw)
 {
     const int32_t number = raw;
-    int32_t low = 0;
-    int32_t high = 65535;
+    int32_t low;
+    int32_t high;
     low = woodward_mpu2s_divide((int32_t)generator_voltage_factor_raw, 8);
     high = woodward_mpu2s_divide((int32_t)generator_voltage_factor_raw * 6, 5);
     if (high > 65535) {
@@ -3420,13 +3417,10 @@ static inline woodward_mpu2s_status woodward_mpu2s_generator_voltage_setpoint_40
 static inline woodward_mpu2s_status woodward_mpu2s_generator_rated_voltage_100v_check(uint16_t raw, uint16_t generator_voltage_factor_raw)
 {
     const int32_t number = raw;
-    int32_t low = 0;
-    int32_t high = 20480;
+    int32_t low;
+    int32_t high;
     low = woodward_mpu2s_divide((int32_t)generator_voltage_factor_raw, 16);
     high = woodward_mpu2s_divide((int32_t)generator_voltage_factor_raw * 5, 16);
-    if (high > 20480) {
-        high = 20480;
-    }
     return number >= low && number <= high ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
 }
 
@@ -3506,8 +3500,8 @@ static inline woodward_mpu2s_status woodward_mpu2s_generator_rated_voltage_100v_
 static inline woodward_mpu2s_status woodward_mpu2s_generator_rated_voltage_400v_check(uint16_t raw, uint16_t generator_voltage_factor_raw)
 {
     const int32_t number = raw;
-    int32_t low = 0;
-    int32_t high = 65535;
+    int32_t low;
+    int32_t high;
     low = woodward_mpu2s_divide((int32_t)generator_voltage_factor_raw, 8);
     high = woodward_mpu2s_divide((int32_t)generator_voltage_factor_raw * 6, 5);
     if (high > 65535) {
@@ -7394,13 +7388,10 @@ static inline uint16_t woodward_mpu2s_generator_overvoltage_monitoring_insert(ui
 static inline woodward_mpu2s_status woodward_mpu2s_generator_overvoltage_1_threshold_100v_check(uint16_t raw, uint16_t generator_voltage_factor_raw)
 {
     const int32_t number = raw;
-    int32_t low = 0;
-    int32_t high = 24576;
+    int32_t low;
+    int32_t high;
     low = woodward_mpu2s_divide((int32_t)generator_voltage_factor_raw, 20);
     high = woodward_mpu2s_divide((int32_t)generator_voltage_factor_raw * 3, 8);
-    if (high > 24576) {
-        high = 24576;
-    }
     return number >= low && number <= high ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
 }
 
@@ -7480,8 +7471,8 @@ static inline woodward_mpu2s_status woodward_mpu2s_generator_overvoltage_1_thres
 static inline woodward_mpu2s_status woodward_mpu2s_generator_overvoltage_1_threshold_400v_check(uint16_t raw, uint16_t generator_voltage_factor_raw)
 {
     const int32_t number = raw;
-    int32_t low = 0;
-    int32_t high = 65535;
+    int32_t low;
+    int32_t high;
     low = woodward_mpu2s_divide((int32_t)generator_voltage_factor_raw, 20);
     high = woodward_mpu2s_divide((int32_t)generator_voltage_factor_raw * 13, 10);
     if (high > 65535) {
@@ -7613,13 +7604,10 @@ static inline woodward_mpu2s_real woodward_mpu2s_generator_overvoltage_1_delay_d
 static inline woodward_mpu2s_status woodward_mpu2s_generator_overvoltage_2_threshold_100v_check(uint16_t raw, uint16_t generator_voltage_factor_raw)
 {
     const int32_t number = raw;
-    int32_t low = 0;
-    int32_t high = 24576;
+    int32_t low;
+    int32_t high;
     low = woodward_mpu2s_divide((int32_t)generator_voltage_factor_raw, 20);
     high = woodward_mpu2s_divide((int32_t)generator_voltage_factor_raw * 3, 8);
-    if (high > 24576) {
-        high = 24576;
-    }
     return number >= low && number <= high ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
 }
 
@@ -7699,8 +7687,8 @@ static inline woodward_mpu2s_status woodward_mpu2s_generator_overvoltage_2_thres
 static inline woodward_mpu2s_status woodward_mpu2s_generator_overvoltage_2_threshold_400v_check(uint16_t raw, uint16_t generator_voltage_factor_raw)
 {
     const int32_t number = raw;
-    int32_t low = 0;
-    int32_t high = 65535;
+    int32_t low;
+    int32_t high;
     low = woodward_mpu2s_divide((int32_t)generator_voltage_factor_raw, 20);
     high = woodward_mpu2s_divide((int32_t)generator_voltage_factor_raw * 13, 10);
     if (high > 65535) {
@@ -7876,13 +7864,10 @@ static inline uint16_t woodward_mpu2s_generator_undervoltage_monitoring_insert(u
 static inline woodward_mpu2s_status woodward_mpu2s_generator_undervoltage_1_threshold_100v_check(uint16_t raw, uint16_t generator_voltage_factor_raw)
 {
     const int32_t number = raw;
-    int32_t low = 0;
-    int32_t high = 24576;
+    int32_t low;
+    int32_t high;
     low = woodward_mpu2s_divide((int32_t)generator_voltage_factor_raw, 20);
     high = woodward_mpu2s_divide((int32_t)generator_voltage_factor_raw * 3, 8);
-    if (high > 24576) {
-        high = 24576;
-    }
     return number >= low && number <= high ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
 }
 
@@ -7962,8 +7947,8 @@ static inline woodward_mpu2s_status woodward_mpu2s_generator_undervoltage_1_thre
 static inline woodward_mpu2s_status woodward_mpu2s_generator_undervoltage_1_threshold_400v_check(uint16_t raw, uint16_t generator_voltage_factor_raw)
 {
     const int32_t number = raw;
-    int32_t low = 0;
-    int32_t high = 65535;
+    int32_t low;
+    int32_t high;
     low = woodward_mpu2s_divide((int32_t)generator_voltage_factor_raw, 20);
     high = woodward_mpu2s_divide((int32_t)generator_voltage_factor_raw * 13, 10);
     if (high > 65535) {
@@ -8095,13 +8080,10 @@ static inline woodward_mpu2s_real woodward_mpu2s_generator_undervoltage_1_delay_
 static inline woodward_mpu2s_status woodward_mpu2s_generator_undervoltage_2_threshold_100v_check(uint16_t raw, uint16_t generator_voltage_factor_raw)
 {
     const int32_t number = raw;
-    int32_t low = 0;
-    int32_t high = 24576;
+    int32_t low;
+    int32_t high;
     low = woodward_mpu2s_divide((int32_t)generator_voltage_factor_raw, 20);
     high = woodward_mpu2s_divide((int32_t)generator_voltage_factor_raw * 3, 8);
-    if (high > 24576) {
-        high = 24576;
-    }
     return number >= low && number <= high ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
 }
 
@@ -8181,8 +8163,8 @@ static inline woodward_mpu2s_status woodward_mpu2s_generator_undervoltage_2_thre
 static inline woodward_mpu2s_status woodward_mpu2s_generator_undervoltage_2_threshold_400v_check(uint16_t raw, uint16_t generator_voltage_factor_raw)
 {
     const int32_t number = raw;
-    int32_t low = 0;
-    int32_t high = 65535;
+    int32_t low;
+    int32_t high;
     low = woodward_mpu2s_divide((int32_t)generator_voltage_factor_raw, 20);
     high = woodward_mpu2s_divide((int32_t)generator_voltage_factor_raw * 13, 10);
     if (high > 65535) {
@@ -8608,13 +8590,10 @@ static inline int32_t woodward_mpu2s_mains_voltage_factor_decode(uint16_t raw)
 static inline woodward_mpu2s_status woodward_mpu2s_mains_overvoltage_threshold_100v_check(uint16_t raw, uint16_t mains_voltage_factor_raw)
 {
     const int32_t number = raw;
-    int32_t low = 0;
-    int32_t high = 24576;
+    int32_t low;
+    int32_t high;
     low = woodward_mpu2s_divide((int32_t)mains_voltage_factor_raw, 20);
     high = woodward_mpu2s_divide((int32_t)mains_voltage_factor_raw * 3, 8);
-    if (high > 24576) {
-        high = 24576;
-    }
     return number >= low && number <= high ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
 }
 
@@ -8694,8 +8673,8 @@ static inline woodward_mpu2s_status woodward_mpu2s_mains_overvoltage_threshold_1
 static inline woodward_mpu2s_status woodward_mpu2s_mains_overvoltage_threshold_400v_check(uint16_t raw, uint16_t mains_voltage_factor_raw)
 {
     const int32_t number = raw;
-    int32_t low = 0;
-    int32_t high = 65535;
+    int32_t low;
+    int32_t high;
     low = woodward_mpu2s_divide((int32_t)mains_voltage_factor_raw, 20);
     high = woodward_mpu2s_divide((int32_t)mains_voltage_factor_raw * 13, 10);
     if (high > 65535) {
@@ -8827,13 +8806,10 @@ static inline woodward_mpu2s_real woodward_mpu2s_mains_overvoltage_delay_decode(
 static inline woodward_mpu2s_status woodward_mpu2s_mains_undervoltage_threshold_100v_check(uint16_t raw, uint16_t mains_voltage_factor_raw)
 {
     const int32_t number = raw;
-    int32_t low = 0;
-    int32_t high = 24576;
+    int32_t low;
+    int32_t high;
     low = woodward_mpu2s_divide((int32_t)mains_voltage_factor_raw, 20);
     high = woodward_mpu2s_divide((int32_t)mains_voltage_factor_raw * 3, 8);
-    if (high > 24576) {
-        high = 24576;
-    }
     return number >= low && number <= high ? WOODWARD_MPU2S_OK : WOODWARD_MPU2S_OUT_OF_RANGE;
 }
 
@@ -8913,8 +8889,8 @@ static inline woodward_mpu2s_status woodward_mpu2s_mains_undervoltage_threshold_
 static inline woodward_mpu2s_status woodward_mpu2s_mains_undervoltage_threshold_400v_check(uint16_t raw, uint16_t mains_voltage_factor_raw)
 {
     const int32_t number = raw;
-    int32_t low = 0;
-    int32_t high = 65535;
+    int32_t low;
+    int32_t high;
     low = woodward_mpu2s_divide((int32_t)mains_voltage_factor_raw, 20);
     high = woodward_mpu2s_divide((int32_t)mains_voltage_factor_raw * 13, 10);
     if (high > 65535) {

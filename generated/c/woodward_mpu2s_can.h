@@ -216,13 +216,13 @@ static const uint16_t woodward_mpu2s_parameters_operation_group[] = {
 
 static inline fieldscribe_can_status woodward_mpu2s_password_level_2_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_PASSWORD_LEVEL_2_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_PASSWORD_LEVEL_2_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_password_level_2_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_PASSWORD_LEVEL_2_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -247,13 +247,13 @@ static inline fieldscribe_can_status woodward_mpu2s_password_level_2_write_answe
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_frequency_setpoint_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_FREQUENCY_SETPOINT_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_FREQUENCY_SETPOINT_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_frequency_setpoint_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_GENERATOR_FREQUENCY_SETPOINT_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -278,13 +278,13 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_frequency_setpoint
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_rated_frequency_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_RATED_FREQUENCY_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_RATED_FREQUENCY_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_rated_frequency_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_GENERATOR_RATED_FREQUENCY_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -309,13 +309,13 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_rated_frequency_wr
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_voltage_transformer_secondary_100v_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_VOLTAGE_TRANSFORMER_SECONDARY_100V_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_VOLTAGE_TRANSFORMER_SECONDARY_100V_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_voltage_transformer_secondary_100v_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_GENERATOR_VOLTAGE_TRANSFORMER_SECONDARY_100V_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -340,13 +340,13 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_voltage_transforme
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_voltage_transformer_secondary_400v_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_VOLTAGE_TRANSFORMER_SECONDARY_400V_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_VOLTAGE_TRANSFORMER_SECONDARY_400V_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_voltage_transformer_secondary_400v_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_GENERATOR_VOLTAGE_TRANSFORMER_SECONDARY_400V_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -371,13 +371,13 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_voltage_transforme
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_voltage_transformer_primary_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_VOLTAGE_TRANSFORMER_PRIMARY_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_VOLTAGE_TRANSFORMER_PRIMARY_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_voltage_transformer_primary_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_GENERATOR_VOLTAGE_TRANSFORMER_PRIMARY_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -402,13 +402,13 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_voltage_transforme
 
 static inline fieldscribe_can_status woodward_mpu2s_busbar_voltage_transformer_secondary_100v_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_BUSBAR_VOLTAGE_TRANSFORMER_SECONDARY_100V_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_BUSBAR_VOLTAGE_TRANSFORMER_SECONDARY_100V_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_busbar_voltage_transformer_secondary_100v_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_BUSBAR_VOLTAGE_TRANSFORMER_SECONDARY_100V_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -433,13 +433,13 @@ static inline fieldscribe_can_status woodward_mpu2s_busbar_voltage_transformer_s
 
 static inline fieldscribe_can_status woodward_mpu2s_busbar_voltage_transformer_secondary_400v_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_BUSBAR_VOLTAGE_TRANSFORMER_SECONDARY_400V_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_BUSBAR_VOLTAGE_TRANSFORMER_SECONDARY_400V_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_busbar_voltage_transformer_secondary_400v_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_BUSBAR_VOLTAGE_TRANSFORMER_SECONDARY_400V_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -464,13 +464,13 @@ static inline fieldscribe_can_status woodward_mpu2s_busbar_voltage_transformer_s
 
 static inline fieldscribe_can_status woodward_mpu2s_busbar_voltage_transformer_primary_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_BUSBAR_VOLTAGE_TRANSFORMER_PRIMARY_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_BUSBAR_VOLTAGE_TRANSFORMER_PRIMARY_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_busbar_voltage_transformer_primary_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_BUSBAR_VOLTAGE_TRANSFORMER_PRIMARY_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -495,13 +495,13 @@ static inline fieldscribe_can_status woodward_mpu2s_busbar_voltage_transformer_p
 
 static inline fieldscribe_can_status woodward_mpu2s_mains_voltage_transformer_secondary_100v_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_MAINS_VOLTAGE_TRANSFORMER_SECONDARY_100V_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_MAINS_VOLTAGE_TRANSFORMER_SECONDARY_100V_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_mains_voltage_transformer_secondary_100v_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_MAINS_VOLTAGE_TRANSFORMER_SECONDARY_100V_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -526,13 +526,13 @@ static inline fieldscribe_can_status woodward_mpu2s_mains_voltage_transformer_se
 
 static inline fieldscribe_can_status woodward_mpu2s_mains_voltage_transformer_secondary_400v_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_MAINS_VOLTAGE_TRANSFORMER_SECONDARY_400V_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_MAINS_VOLTAGE_TRANSFORMER_SECONDARY_400V_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_mains_voltage_transformer_secondary_400v_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_MAINS_VOLTAGE_TRANSFORMER_SECONDARY_400V_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -557,13 +557,13 @@ static inline fieldscribe_can_status woodward_mpu2s_mains_voltage_transformer_se
 
 static inline fieldscribe_can_status woodward_mpu2s_mains_voltage_transformer_primary_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_MAINS_VOLTAGE_TRANSFORMER_PRIMARY_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_MAINS_VOLTAGE_TRANSFORMER_PRIMARY_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_mains_voltage_transformer_primary_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_MAINS_VOLTAGE_TRANSFORMER_PRIMARY_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -588,13 +588,13 @@ static inline fieldscribe_can_status woodward_mpu2s_mains_voltage_transformer_pr
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_voltage_factor_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_VOLTAGE_FACTOR_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_VOLTAGE_FACTOR_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_voltage_factor_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_GENERATOR_VOLTAGE_FACTOR_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -605,13 +605,13 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_voltage_factor_rea
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_voltage_setpoint_100v_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_100V_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_100V_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_voltage_setpoint_100v_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_100V_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -636,13 +636,13 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_voltage_setpoint_1
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_voltage_setpoint_400v_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_400V_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_400V_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_voltage_setpoint_400v_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_GENERATOR_VOLTAGE_SETPOINT_400V_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -667,13 +667,13 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_voltage_setpoint_4
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_rated_voltage_100v_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_100V_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_100V_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_rated_voltage_100v_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_100V_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -698,13 +698,13 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_rated_voltage_100v
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_rated_voltage_400v_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_400V_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_400V_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_rated_voltage_400v_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_GENERATOR_RATED_VOLTAGE_400V_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -729,13 +729,13 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_rated_voltage_400v
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_current_transformer_ratio_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_CURRENT_TRANSFORMER_RATIO_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_CURRENT_TRANSFORMER_RATIO_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_current_transformer_ratio_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_GENERATOR_CURRENT_TRANSFORMER_RATIO_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -760,13 +760,13 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_current_transforme
 
 static inline fieldscribe_can_status woodward_mpu2s_power_measurement_phases_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_POWER_MEASUREMENT_PHASES_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_POWER_MEASUREMENT_PHASES_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_power_measurement_phases_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, bool *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_POWER_MEASUREMENT_PHASES_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -775,7 +775,7 @@ static inline fieldscribe_can_status woodward_mpu2s_power_measurement_phases_rea
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_power_measurement_phases_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_power_measurement_phases_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_power_measurement_phases_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -799,13 +799,13 @@ static inline fieldscribe_can_status woodward_mpu2s_power_measurement_phases_wri
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_rated_power_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_RATED_POWER_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_RATED_POWER_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_rated_power_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_GENERATOR_RATED_POWER_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -830,13 +830,13 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_rated_power_write_
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_rated_current_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_RATED_CURRENT_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_RATED_CURRENT_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_rated_current_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_GENERATOR_RATED_CURRENT_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -861,13 +861,13 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_rated_current_writ
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_power_setpoint_1_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_POWER_SETPOINT_1_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_POWER_SETPOINT_1_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_power_setpoint_1_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, int16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_GENERATOR_POWER_SETPOINT_1_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -892,13 +892,13 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_power_setpoint_1_w
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_power_setpoint_2_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_POWER_SETPOINT_2_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_POWER_SETPOINT_2_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_power_setpoint_2_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, int16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_GENERATOR_POWER_SETPOINT_2_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -923,13 +923,13 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_power_setpoint_2_w
 
 static inline fieldscribe_can_status woodward_mpu2s_frequency_controller_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_FREQUENCY_CONTROLLER_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_FREQUENCY_CONTROLLER_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_frequency_controller_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_FREQUENCY_CONTROLLER_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -938,7 +938,7 @@ static inline fieldscribe_can_status woodward_mpu2s_frequency_controller_read_an
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_frequency_controller_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_frequency_controller_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_frequency_controller_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -962,13 +962,13 @@ static inline fieldscribe_can_status woodward_mpu2s_frequency_controller_write_a
 
 static inline fieldscribe_can_status woodward_mpu2s_frequency_controller_start_frequency_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_FREQUENCY_CONTROLLER_START_FREQUENCY_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_FREQUENCY_CONTROLLER_START_FREQUENCY_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_frequency_controller_start_frequency_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_FREQUENCY_CONTROLLER_START_FREQUENCY_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -993,13 +993,13 @@ static inline fieldscribe_can_status woodward_mpu2s_frequency_controller_start_f
 
 static inline fieldscribe_can_status woodward_mpu2s_frequency_controller_start_delay_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_FREQUENCY_CONTROLLER_START_DELAY_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_FREQUENCY_CONTROLLER_START_DELAY_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_frequency_controller_start_delay_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_FREQUENCY_CONTROLLER_START_DELAY_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -1024,13 +1024,13 @@ static inline fieldscribe_can_status woodward_mpu2s_frequency_controller_start_d
 
 static inline fieldscribe_can_status woodward_mpu2s_frequency_controller_dead_band_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_FREQUENCY_CONTROLLER_DEAD_BAND_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_FREQUENCY_CONTROLLER_DEAD_BAND_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_frequency_controller_dead_band_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_FREQUENCY_CONTROLLER_DEAD_BAND_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -1055,13 +1055,13 @@ static inline fieldscribe_can_status woodward_mpu2s_frequency_controller_dead_ba
 
 static inline fieldscribe_can_status woodward_mpu2s_frequency_controller_pulse_time_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_FREQUENCY_CONTROLLER_PULSE_TIME_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_FREQUENCY_CONTROLLER_PULSE_TIME_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_frequency_controller_pulse_time_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_FREQUENCY_CONTROLLER_PULSE_TIME_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -1086,13 +1086,13 @@ static inline fieldscribe_can_status woodward_mpu2s_frequency_controller_pulse_t
 
 static inline fieldscribe_can_status woodward_mpu2s_frequency_controller_proportional_gain_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_FREQUENCY_CONTROLLER_PROPORTIONAL_GAIN_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_FREQUENCY_CONTROLLER_PROPORTIONAL_GAIN_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_frequency_controller_proportional_gain_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_FREQUENCY_CONTROLLER_PROPORTIONAL_GAIN_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -1117,13 +1117,13 @@ static inline fieldscribe_can_status woodward_mpu2s_frequency_controller_proport
 
 static inline fieldscribe_can_status woodward_mpu2s_voltage_controller_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_VOLTAGE_CONTROLLER_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_VOLTAGE_CONTROLLER_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_voltage_controller_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_VOLTAGE_CONTROLLER_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -1132,7 +1132,7 @@ static inline fieldscribe_can_status woodward_mpu2s_voltage_controller_read_answ
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_voltage_controller_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_voltage_controller_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_voltage_controller_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -1156,13 +1156,13 @@ static inline fieldscribe_can_status woodward_mpu2s_voltage_controller_write_ans
 
 static inline fieldscribe_can_status woodward_mpu2s_voltage_controller_dead_band_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_VOLTAGE_CONTROLLER_DEAD_BAND_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_VOLTAGE_CONTROLLER_DEAD_BAND_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_voltage_controller_dead_band_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_VOLTAGE_CONTROLLER_DEAD_BAND_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -1187,13 +1187,13 @@ static inline fieldscribe_can_status woodward_mpu2s_voltage_controller_dead_band
 
 static inline fieldscribe_can_status woodward_mpu2s_voltage_controller_pulse_time_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_VOLTAGE_CONTROLLER_PULSE_TIME_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_VOLTAGE_CONTROLLER_PULSE_TIME_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_voltage_controller_pulse_time_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_VOLTAGE_CONTROLLER_PULSE_TIME_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -1218,13 +1218,13 @@ static inline fieldscribe_can_status woodward_mpu2s_voltage_controller_pulse_tim
 
 static inline fieldscribe_can_status woodward_mpu2s_voltage_controller_proportional_gain_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_VOLTAGE_CONTROLLER_PROPORTIONAL_GAIN_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_VOLTAGE_CONTROLLER_PROPORTIONAL_GAIN_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_voltage_controller_proportional_gain_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_VOLTAGE_CONTROLLER_PROPORTIONAL_GAIN_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -1249,13 +1249,13 @@ static inline fieldscribe_can_status woodward_mpu2s_voltage_controller_proportio
 
 static inline fieldscribe_can_status woodward_mpu2s_cos_phi_controller_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_COS_PHI_CONTROLLER_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_COS_PHI_CONTROLLER_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_cos_phi_controller_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_COS_PHI_CONTROLLER_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -1264,7 +1264,7 @@ static inline fieldscribe_can_status woodward_mpu2s_cos_phi_controller_read_answ
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_cos_phi_controller_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_cos_phi_controller_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_cos_phi_controller_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -1288,13 +1288,13 @@ static inline fieldscribe_can_status woodward_mpu2s_cos_phi_controller_write_ans
 
 static inline fieldscribe_can_status woodward_mpu2s_cos_phi_controller_setpoint_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_COS_PHI_CONTROLLER_SETPOINT_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_COS_PHI_CONTROLLER_SETPOINT_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_cos_phi_controller_setpoint_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, int16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_COS_PHI_CONTROLLER_SETPOINT_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -1319,13 +1319,13 @@ static inline fieldscribe_can_status woodward_mpu2s_cos_phi_controller_setpoint_
 
 static inline fieldscribe_can_status woodward_mpu2s_cos_phi_controller_dead_band_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_COS_PHI_CONTROLLER_DEAD_BAND_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_COS_PHI_CONTROLLER_DEAD_BAND_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_cos_phi_controller_dead_band_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_COS_PHI_CONTROLLER_DEAD_BAND_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -1350,13 +1350,13 @@ static inline fieldscribe_can_status woodward_mpu2s_cos_phi_controller_dead_band
 
 static inline fieldscribe_can_status woodward_mpu2s_cos_phi_controller_proportional_gain_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_COS_PHI_CONTROLLER_PROPORTIONAL_GAIN_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_COS_PHI_CONTROLLER_PROPORTIONAL_GAIN_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_cos_phi_controller_proportional_gain_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_COS_PHI_CONTROLLER_PROPORTIONAL_GAIN_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -1381,13 +1381,13 @@ static inline fieldscribe_can_status woodward_mpu2s_cos_phi_controller_proportio
 
 static inline fieldscribe_can_status woodward_mpu2s_active_power_controller_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_active_power_controller_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -1396,7 +1396,7 @@ static inline fieldscribe_can_status woodward_mpu2s_active_power_controller_read
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_active_power_controller_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_active_power_controller_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_active_power_controller_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -1420,13 +1420,13 @@ static inline fieldscribe_can_status woodward_mpu2s_active_power_controller_writ
 
 static inline fieldscribe_can_status woodward_mpu2s_active_power_controller_ramp_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_RAMP_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_RAMP_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_active_power_controller_ramp_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_RAMP_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -1451,13 +1451,13 @@ static inline fieldscribe_can_status woodward_mpu2s_active_power_controller_ramp
 
 static inline fieldscribe_can_status woodward_mpu2s_active_power_controller_maximum_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_MAXIMUM_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_MAXIMUM_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_active_power_controller_maximum_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_MAXIMUM_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -1482,13 +1482,13 @@ static inline fieldscribe_can_status woodward_mpu2s_active_power_controller_maxi
 
 static inline fieldscribe_can_status woodward_mpu2s_active_power_controller_minimum_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_MINIMUM_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_MINIMUM_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_active_power_controller_minimum_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_MINIMUM_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -1513,13 +1513,13 @@ static inline fieldscribe_can_status woodward_mpu2s_active_power_controller_mini
 
 static inline fieldscribe_can_status woodward_mpu2s_active_power_controller_dead_band_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_DEAD_BAND_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_DEAD_BAND_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_active_power_controller_dead_band_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_DEAD_BAND_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -1544,13 +1544,13 @@ static inline fieldscribe_can_status woodward_mpu2s_active_power_controller_dead
 
 static inline fieldscribe_can_status woodward_mpu2s_active_power_controller_proportional_gain_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_PROPORTIONAL_GAIN_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_PROPORTIONAL_GAIN_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_active_power_controller_proportional_gain_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_PROPORTIONAL_GAIN_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -1575,13 +1575,13 @@ static inline fieldscribe_can_status woodward_mpu2s_active_power_controller_prop
 
 static inline fieldscribe_can_status woodward_mpu2s_active_power_controller_sensitivity_reduction_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_SENSITIVITY_REDUCTION_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_SENSITIVITY_REDUCTION_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_active_power_controller_sensitivity_reduction_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_ACTIVE_POWER_CONTROLLER_SENSITIVITY_REDUCTION_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -1606,13 +1606,13 @@ static inline fieldscribe_can_status woodward_mpu2s_active_power_controller_sens
 
 static inline fieldscribe_can_status woodward_mpu2s_part_load_lead_setpoint_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_PART_LOAD_LEAD_SETPOINT_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_PART_LOAD_LEAD_SETPOINT_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_part_load_lead_setpoint_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_PART_LOAD_LEAD_SETPOINT_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -1637,13 +1637,13 @@ static inline fieldscribe_can_status woodward_mpu2s_part_load_lead_setpoint_writ
 
 static inline fieldscribe_can_status woodward_mpu2s_part_load_lead_time_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_PART_LOAD_LEAD_TIME_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_PART_LOAD_LEAD_TIME_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_part_load_lead_time_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_PART_LOAD_LEAD_TIME_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -1668,13 +1668,13 @@ static inline fieldscribe_can_status woodward_mpu2s_part_load_lead_time_write_an
 
 static inline fieldscribe_can_status woodward_mpu2s_control_by_interface_x1_x5_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_CONTROL_BY_INTERFACE_X1_X5_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_CONTROL_BY_INTERFACE_X1_X5_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_control_by_interface_x1_x5_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_CONTROL_BY_INTERFACE_X1_X5_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -1683,7 +1683,7 @@ static inline fieldscribe_can_status woodward_mpu2s_control_by_interface_x1_x5_r
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_control_by_interface_x1_x5_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_control_by_interface_x1_x5_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_control_by_interface_x1_x5_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -1707,13 +1707,13 @@ static inline fieldscribe_can_status woodward_mpu2s_control_by_interface_x1_x5_w
 
 static inline fieldscribe_can_status woodward_mpu2s_breaker_logic_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_BREAKER_LOGIC_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_BREAKER_LOGIC_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_breaker_logic_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_BREAKER_LOGIC_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -1722,7 +1722,7 @@ static inline fieldscribe_can_status woodward_mpu2s_breaker_logic_read_answer(
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_breaker_logic_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_breaker_logic_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_breaker_logic_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -1746,13 +1746,13 @@ static inline fieldscribe_can_status woodward_mpu2s_breaker_logic_write_answer(
 
 static inline fieldscribe_can_status woodward_mpu2s_load_ramp_maximum_time_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_LOAD_RAMP_MAXIMUM_TIME_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_LOAD_RAMP_MAXIMUM_TIME_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_load_ramp_maximum_time_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_LOAD_RAMP_MAXIMUM_TIME_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -1777,13 +1777,13 @@ static inline fieldscribe_can_status woodward_mpu2s_load_ramp_maximum_time_write
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_breaker_signal_logic_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_BREAKER_SIGNAL_LOGIC_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_BREAKER_SIGNAL_LOGIC_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_breaker_signal_logic_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, bool *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_GENERATOR_BREAKER_SIGNAL_LOGIC_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -1792,7 +1792,7 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_breaker_signal_log
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_generator_breaker_signal_logic_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_generator_breaker_signal_logic_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_generator_breaker_signal_logic_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -1816,13 +1816,13 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_breaker_signal_log
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_breaker_open_relay_logic_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_BREAKER_OPEN_RELAY_LOGIC_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_BREAKER_OPEN_RELAY_LOGIC_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_breaker_open_relay_logic_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, bool *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_GENERATOR_BREAKER_OPEN_RELAY_LOGIC_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -1831,7 +1831,7 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_breaker_open_relay
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_generator_breaker_open_relay_logic_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_generator_breaker_open_relay_logic_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_generator_breaker_open_relay_logic_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -1855,13 +1855,13 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_breaker_open_relay
 
 static inline fieldscribe_can_status woodward_mpu2s_synchronisation_frequency_difference_maximum_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_SYNCHRONISATION_FREQUENCY_DIFFERENCE_MAXIMUM_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_SYNCHRONISATION_FREQUENCY_DIFFERENCE_MAXIMUM_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_synchronisation_frequency_difference_maximum_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_SYNCHRONISATION_FREQUENCY_DIFFERENCE_MAXIMUM_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -1886,13 +1886,13 @@ static inline fieldscribe_can_status woodward_mpu2s_synchronisation_frequency_di
 
 static inline fieldscribe_can_status woodward_mpu2s_synchronisation_frequency_difference_minimum_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_SYNCHRONISATION_FREQUENCY_DIFFERENCE_MINIMUM_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_SYNCHRONISATION_FREQUENCY_DIFFERENCE_MINIMUM_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_synchronisation_frequency_difference_minimum_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_SYNCHRONISATION_FREQUENCY_DIFFERENCE_MINIMUM_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -1917,13 +1917,13 @@ static inline fieldscribe_can_status woodward_mpu2s_synchronisation_frequency_di
 
 static inline fieldscribe_can_status woodward_mpu2s_synchronisation_voltage_difference_maximum_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_SYNCHRONISATION_VOLTAGE_DIFFERENCE_MAXIMUM_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_SYNCHRONISATION_VOLTAGE_DIFFERENCE_MAXIMUM_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_synchronisation_voltage_difference_maximum_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_SYNCHRONISATION_VOLTAGE_DIFFERENCE_MAXIMUM_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -1948,13 +1948,13 @@ static inline fieldscribe_can_status woodward_mpu2s_synchronisation_voltage_diff
 
 static inline fieldscribe_can_status woodward_mpu2s_synchronisation_voltage_difference_minimum_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_SYNCHRONISATION_VOLTAGE_DIFFERENCE_MINIMUM_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_SYNCHRONISATION_VOLTAGE_DIFFERENCE_MINIMUM_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_synchronisation_voltage_difference_minimum_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_SYNCHRONISATION_VOLTAGE_DIFFERENCE_MINIMUM_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -1979,13 +1979,13 @@ static inline fieldscribe_can_status woodward_mpu2s_synchronisation_voltage_diff
 
 static inline fieldscribe_can_status woodward_mpu2s_synchronisation_pulse_time_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_SYNCHRONISATION_PULSE_TIME_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_SYNCHRONISATION_PULSE_TIME_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_synchronisation_pulse_time_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_SYNCHRONISATION_PULSE_TIME_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -2010,13 +2010,13 @@ static inline fieldscribe_can_status woodward_mpu2s_synchronisation_pulse_time_w
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_breaker_pick_up_time_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_BREAKER_PICK_UP_TIME_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_BREAKER_PICK_UP_TIME_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_breaker_pick_up_time_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_GENERATOR_BREAKER_PICK_UP_TIME_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -2041,13 +2041,13 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_breaker_pick_up_ti
 
 static inline fieldscribe_can_status woodward_mpu2s_synchronisation_time_monitoring_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_SYNCHRONISATION_TIME_MONITORING_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_SYNCHRONISATION_TIME_MONITORING_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_synchronisation_time_monitoring_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, bool *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_SYNCHRONISATION_TIME_MONITORING_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -2056,7 +2056,7 @@ static inline fieldscribe_can_status woodward_mpu2s_synchronisation_time_monitor
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_synchronisation_time_monitoring_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_synchronisation_time_monitoring_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_synchronisation_time_monitoring_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -2080,13 +2080,13 @@ static inline fieldscribe_can_status woodward_mpu2s_synchronisation_time_monitor
 
 static inline fieldscribe_can_status woodward_mpu2s_synchronisation_time_monitoring_delay_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_SYNCHRONISATION_TIME_MONITORING_DELAY_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_SYNCHRONISATION_TIME_MONITORING_DELAY_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_synchronisation_time_monitoring_delay_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_SYNCHRONISATION_TIME_MONITORING_DELAY_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -2111,13 +2111,13 @@ static inline fieldscribe_can_status woodward_mpu2s_synchronisation_time_monitor
 
 static inline fieldscribe_can_status woodward_mpu2s_dead_bus_start_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_DEAD_BUS_START_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_DEAD_BUS_START_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_dead_bus_start_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_DEAD_BUS_START_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -2126,7 +2126,7 @@ static inline fieldscribe_can_status woodward_mpu2s_dead_bus_start_read_answer(
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_dead_bus_start_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_dead_bus_start_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_dead_bus_start_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -2150,13 +2150,13 @@ static inline fieldscribe_can_status woodward_mpu2s_dead_bus_start_write_answer(
 
 static inline fieldscribe_can_status woodward_mpu2s_dead_bus_start_frequency_difference_maximum_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_DEAD_BUS_START_FREQUENCY_DIFFERENCE_MAXIMUM_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_DEAD_BUS_START_FREQUENCY_DIFFERENCE_MAXIMUM_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_dead_bus_start_frequency_difference_maximum_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_DEAD_BUS_START_FREQUENCY_DIFFERENCE_MAXIMUM_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -2181,13 +2181,13 @@ static inline fieldscribe_can_status woodward_mpu2s_dead_bus_start_frequency_dif
 
 static inline fieldscribe_can_status woodward_mpu2s_dead_bus_start_voltage_difference_maximum_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_DEAD_BUS_START_VOLTAGE_DIFFERENCE_MAXIMUM_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_DEAD_BUS_START_VOLTAGE_DIFFERENCE_MAXIMUM_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_dead_bus_start_voltage_difference_maximum_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_DEAD_BUS_START_VOLTAGE_DIFFERENCE_MAXIMUM_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -2212,13 +2212,13 @@ static inline fieldscribe_can_status woodward_mpu2s_dead_bus_start_voltage_diffe
 
 static inline fieldscribe_can_status woodward_mpu2s_dead_bus_start_maximum_time_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_DEAD_BUS_START_MAXIMUM_TIME_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_DEAD_BUS_START_MAXIMUM_TIME_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_dead_bus_start_maximum_time_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_DEAD_BUS_START_MAXIMUM_TIME_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -2243,13 +2243,13 @@ static inline fieldscribe_can_status woodward_mpu2s_dead_bus_start_maximum_time_
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_breaker_monitoring_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_BREAKER_MONITORING_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_BREAKER_MONITORING_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_breaker_monitoring_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, bool *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_GENERATOR_BREAKER_MONITORING_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -2258,7 +2258,7 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_breaker_monitoring
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_generator_breaker_monitoring_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_generator_breaker_monitoring_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_generator_breaker_monitoring_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -2282,13 +2282,13 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_breaker_monitoring
 
 static inline fieldscribe_can_status woodward_mpu2s_automatic_breaker_unlocking_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_AUTOMATIC_BREAKER_UNLOCKING_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_AUTOMATIC_BREAKER_UNLOCKING_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_automatic_breaker_unlocking_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, bool *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_AUTOMATIC_BREAKER_UNLOCKING_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -2297,7 +2297,7 @@ static inline fieldscribe_can_status woodward_mpu2s_automatic_breaker_unlocking_
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_automatic_breaker_unlocking_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_automatic_breaker_unlocking_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_automatic_breaker_unlocking_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -2321,13 +2321,13 @@ static inline fieldscribe_can_status woodward_mpu2s_automatic_breaker_unlocking_
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_overload_monitoring_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_OVERLOAD_MONITORING_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_OVERLOAD_MONITORING_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_overload_monitoring_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, bool *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_GENERATOR_OVERLOAD_MONITORING_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -2336,7 +2336,7 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_overload_monitorin
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_generator_overload_monitoring_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_generator_overload_monitoring_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_generator_overload_monitoring_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -2360,13 +2360,13 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_overload_monitorin
 
 static inline fieldscribe_can_status woodward_mpu2s_overload_threshold_parallel_operation_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_OVERLOAD_THRESHOLD_PARALLEL_OPERATION_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_OVERLOAD_THRESHOLD_PARALLEL_OPERATION_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_overload_threshold_parallel_operation_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_OVERLOAD_THRESHOLD_PARALLEL_OPERATION_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -2391,13 +2391,13 @@ static inline fieldscribe_can_status woodward_mpu2s_overload_threshold_parallel_
 
 static inline fieldscribe_can_status woodward_mpu2s_overload_delay_parallel_operation_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_OVERLOAD_DELAY_PARALLEL_OPERATION_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_OVERLOAD_DELAY_PARALLEL_OPERATION_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_overload_delay_parallel_operation_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_OVERLOAD_DELAY_PARALLEL_OPERATION_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -2422,13 +2422,13 @@ static inline fieldscribe_can_status woodward_mpu2s_overload_delay_parallel_oper
 
 static inline fieldscribe_can_status woodward_mpu2s_overload_threshold_isolated_operation_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_OVERLOAD_THRESHOLD_ISOLATED_OPERATION_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_OVERLOAD_THRESHOLD_ISOLATED_OPERATION_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_overload_threshold_isolated_operation_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_OVERLOAD_THRESHOLD_ISOLATED_OPERATION_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -2453,13 +2453,13 @@ static inline fieldscribe_can_status woodward_mpu2s_overload_threshold_isolated_
 
 static inline fieldscribe_can_status woodward_mpu2s_overload_delay_isolated_operation_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_OVERLOAD_DELAY_ISOLATED_OPERATION_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_OVERLOAD_DELAY_ISOLATED_OPERATION_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_overload_delay_isolated_operation_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_OVERLOAD_DELAY_ISOLATED_OPERATION_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -2484,13 +2484,13 @@ static inline fieldscribe_can_status woodward_mpu2s_overload_delay_isolated_oper
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_reverse_power_monitoring_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_REVERSE_POWER_MONITORING_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_REVERSE_POWER_MONITORING_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_reverse_power_monitoring_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, bool *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_GENERATOR_REVERSE_POWER_MONITORING_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -2499,7 +2499,7 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_reverse_power_moni
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_generator_reverse_power_monitoring_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_generator_reverse_power_monitoring_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_generator_reverse_power_monitoring_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -2523,13 +2523,13 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_reverse_power_moni
 
 static inline fieldscribe_can_status woodward_mpu2s_reverse_power_threshold_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_REVERSE_POWER_THRESHOLD_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_REVERSE_POWER_THRESHOLD_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_reverse_power_threshold_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, int16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_REVERSE_POWER_THRESHOLD_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -2554,13 +2554,13 @@ static inline fieldscribe_can_status woodward_mpu2s_reverse_power_threshold_writ
 
 static inline fieldscribe_can_status woodward_mpu2s_reverse_power_delay_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_REVERSE_POWER_DELAY_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_REVERSE_POWER_DELAY_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_reverse_power_delay_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_REVERSE_POWER_DELAY_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -2585,13 +2585,13 @@ static inline fieldscribe_can_status woodward_mpu2s_reverse_power_delay_write_an
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_unbalanced_load_monitoring_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_UNBALANCED_LOAD_MONITORING_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_UNBALANCED_LOAD_MONITORING_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_unbalanced_load_monitoring_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, bool *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_GENERATOR_UNBALANCED_LOAD_MONITORING_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -2600,7 +2600,7 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_unbalanced_load_mo
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_generator_unbalanced_load_monitoring_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_generator_unbalanced_load_monitoring_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_generator_unbalanced_load_monitoring_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -2624,13 +2624,13 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_unbalanced_load_mo
 
 static inline fieldscribe_can_status woodward_mpu2s_unbalanced_load_threshold_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_UNBALANCED_LOAD_THRESHOLD_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_UNBALANCED_LOAD_THRESHOLD_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_unbalanced_load_threshold_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_UNBALANCED_LOAD_THRESHOLD_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -2655,13 +2655,13 @@ static inline fieldscribe_can_status woodward_mpu2s_unbalanced_load_threshold_wr
 
 static inline fieldscribe_can_status woodward_mpu2s_unbalanced_load_delay_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_UNBALANCED_LOAD_DELAY_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_UNBALANCED_LOAD_DELAY_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_unbalanced_load_delay_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_UNBALANCED_LOAD_DELAY_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -2686,13 +2686,13 @@ static inline fieldscribe_can_status woodward_mpu2s_unbalanced_load_delay_write_
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_overcurrent_monitoring_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_OVERCURRENT_MONITORING_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_OVERCURRENT_MONITORING_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_overcurrent_monitoring_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, bool *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_GENERATOR_OVERCURRENT_MONITORING_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -2701,7 +2701,7 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_overcurrent_monito
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_generator_overcurrent_monitoring_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_generator_overcurrent_monitoring_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_generator_overcurrent_monitoring_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -2725,13 +2725,13 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_overcurrent_monito
 
 static inline fieldscribe_can_status woodward_mpu2s_overcurrent_1_threshold_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_OVERCURRENT_1_THRESHOLD_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_OVERCURRENT_1_THRESHOLD_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_overcurrent_1_threshold_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_OVERCURRENT_1_THRESHOLD_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -2756,13 +2756,13 @@ static inline fieldscribe_can_status woodward_mpu2s_overcurrent_1_threshold_writ
 
 static inline fieldscribe_can_status woodward_mpu2s_overcurrent_1_delay_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_OVERCURRENT_1_DELAY_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_OVERCURRENT_1_DELAY_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_overcurrent_1_delay_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_OVERCURRENT_1_DELAY_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -2787,13 +2787,13 @@ static inline fieldscribe_can_status woodward_mpu2s_overcurrent_1_delay_write_an
 
 static inline fieldscribe_can_status woodward_mpu2s_overcurrent_2_threshold_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_OVERCURRENT_2_THRESHOLD_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_OVERCURRENT_2_THRESHOLD_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_overcurrent_2_threshold_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_OVERCURRENT_2_THRESHOLD_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -2818,13 +2818,13 @@ static inline fieldscribe_can_status woodward_mpu2s_overcurrent_2_threshold_writ
 
 static inline fieldscribe_can_status woodward_mpu2s_overcurrent_2_delay_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_OVERCURRENT_2_DELAY_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_OVERCURRENT_2_DELAY_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_overcurrent_2_delay_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_OVERCURRENT_2_DELAY_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -2849,13 +2849,13 @@ static inline fieldscribe_can_status woodward_mpu2s_overcurrent_2_delay_write_an
 
 static inline fieldscribe_can_status woodward_mpu2s_inverse_time_overcurrent_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_inverse_time_overcurrent_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, bool *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -2864,7 +2864,7 @@ static inline fieldscribe_can_status woodward_mpu2s_inverse_time_overcurrent_rea
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_inverse_time_overcurrent_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_inverse_time_overcurrent_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_inverse_time_overcurrent_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -2888,13 +2888,13 @@ static inline fieldscribe_can_status woodward_mpu2s_inverse_time_overcurrent_wri
 
 static inline fieldscribe_can_status woodward_mpu2s_inverse_time_overcurrent_characteristic_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_CHARACTERISTIC_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_CHARACTERISTIC_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_inverse_time_overcurrent_characteristic_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_CHARACTERISTIC_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -2903,7 +2903,7 @@ static inline fieldscribe_can_status woodward_mpu2s_inverse_time_overcurrent_cha
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_inverse_time_overcurrent_characteristic_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_inverse_time_overcurrent_characteristic_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_inverse_time_overcurrent_characteristic_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -2927,13 +2927,13 @@ static inline fieldscribe_can_status woodward_mpu2s_inverse_time_overcurrent_cha
 
 static inline fieldscribe_can_status woodward_mpu2s_inverse_time_overcurrent_tp_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_TP_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_TP_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_inverse_time_overcurrent_tp_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_TP_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -2958,13 +2958,13 @@ static inline fieldscribe_can_status woodward_mpu2s_inverse_time_overcurrent_tp_
 
 static inline fieldscribe_can_status woodward_mpu2s_inverse_time_overcurrent_ip_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_IP_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_IP_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_inverse_time_overcurrent_ip_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_IP_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -2989,13 +2989,13 @@ static inline fieldscribe_can_status woodward_mpu2s_inverse_time_overcurrent_ip_
 
 static inline fieldscribe_can_status woodward_mpu2s_inverse_time_overcurrent_istart_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_ISTART_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_ISTART_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_inverse_time_overcurrent_istart_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_ISTART_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -3020,13 +3020,13 @@ static inline fieldscribe_can_status woodward_mpu2s_inverse_time_overcurrent_ist
 
 static inline fieldscribe_can_status woodward_mpu2s_inverse_time_overcurrent_voltage_dependence_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_VOLTAGE_DEPENDENCE_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_VOLTAGE_DEPENDENCE_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_inverse_time_overcurrent_voltage_dependence_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, bool *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_VOLTAGE_DEPENDENCE_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -3035,7 +3035,7 @@ static inline fieldscribe_can_status woodward_mpu2s_inverse_time_overcurrent_vol
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_inverse_time_overcurrent_voltage_dependence_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_inverse_time_overcurrent_voltage_dependence_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_inverse_time_overcurrent_voltage_dependence_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -3059,13 +3059,13 @@ static inline fieldscribe_can_status woodward_mpu2s_inverse_time_overcurrent_vol
 
 static inline fieldscribe_can_status woodward_mpu2s_inverse_time_overcurrent_voltage_knee_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_VOLTAGE_KNEE_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_VOLTAGE_KNEE_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_inverse_time_overcurrent_voltage_knee_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_INVERSE_TIME_OVERCURRENT_VOLTAGE_KNEE_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -3090,13 +3090,13 @@ static inline fieldscribe_can_status woodward_mpu2s_inverse_time_overcurrent_vol
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_overfrequency_monitoring_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_MONITORING_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_MONITORING_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_overfrequency_monitoring_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, bool *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_MONITORING_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -3105,7 +3105,7 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_overfrequency_moni
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_generator_overfrequency_monitoring_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_generator_overfrequency_monitoring_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_generator_overfrequency_monitoring_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -3129,13 +3129,13 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_overfrequency_moni
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_overfrequency_1_threshold_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_1_THRESHOLD_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_1_THRESHOLD_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_overfrequency_1_threshold_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_1_THRESHOLD_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -3160,13 +3160,13 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_overfrequency_1_th
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_overfrequency_1_delay_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_1_DELAY_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_1_DELAY_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_overfrequency_1_delay_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_1_DELAY_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -3191,13 +3191,13 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_overfrequency_1_de
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_overfrequency_2_threshold_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_2_THRESHOLD_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_2_THRESHOLD_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_overfrequency_2_threshold_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_2_THRESHOLD_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -3222,13 +3222,13 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_overfrequency_2_th
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_overfrequency_2_delay_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_2_DELAY_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_2_DELAY_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_overfrequency_2_delay_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_GENERATOR_OVERFREQUENCY_2_DELAY_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -3253,13 +3253,13 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_overfrequency_2_de
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_underfrequency_monitoring_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_MONITORING_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_MONITORING_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_underfrequency_monitoring_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, bool *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_MONITORING_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -3268,7 +3268,7 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_underfrequency_mon
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_generator_underfrequency_monitoring_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_generator_underfrequency_monitoring_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_generator_underfrequency_monitoring_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -3292,13 +3292,13 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_underfrequency_mon
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_underfrequency_1_threshold_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_1_THRESHOLD_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_1_THRESHOLD_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_underfrequency_1_threshold_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_1_THRESHOLD_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -3323,13 +3323,13 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_underfrequency_1_t
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_underfrequency_1_delay_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_1_DELAY_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_1_DELAY_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_underfrequency_1_delay_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_1_DELAY_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -3354,13 +3354,13 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_underfrequency_1_d
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_underfrequency_2_threshold_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_2_THRESHOLD_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_2_THRESHOLD_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_underfrequency_2_threshold_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_2_THRESHOLD_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -3385,13 +3385,13 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_underfrequency_2_t
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_underfrequency_2_delay_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_2_DELAY_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_2_DELAY_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_underfrequency_2_delay_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_GENERATOR_UNDERFREQUENCY_2_DELAY_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -3416,13 +3416,13 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_underfrequency_2_d
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_overvoltage_monitoring_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_MONITORING_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_MONITORING_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_overvoltage_monitoring_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, bool *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_MONITORING_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -3431,7 +3431,7 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_overvoltage_monito
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_generator_overvoltage_monitoring_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_generator_overvoltage_monitoring_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_generator_overvoltage_monitoring_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -3455,13 +3455,13 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_overvoltage_monito
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_overvoltage_1_threshold_100v_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_100V_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_100V_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_overvoltage_1_threshold_100v_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_100V_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -3486,13 +3486,13 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_overvoltage_1_thre
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_overvoltage_1_threshold_400v_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_400V_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_400V_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_overvoltage_1_threshold_400v_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_THRESHOLD_400V_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -3517,13 +3517,13 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_overvoltage_1_thre
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_overvoltage_1_delay_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_DELAY_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_DELAY_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_overvoltage_1_delay_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_1_DELAY_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -3548,13 +3548,13 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_overvoltage_1_dela
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_overvoltage_2_threshold_100v_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_100V_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_100V_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_overvoltage_2_threshold_100v_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_100V_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -3579,13 +3579,13 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_overvoltage_2_thre
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_overvoltage_2_threshold_400v_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_400V_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_400V_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_overvoltage_2_threshold_400v_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_THRESHOLD_400V_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -3610,13 +3610,13 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_overvoltage_2_thre
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_overvoltage_2_delay_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_DELAY_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_DELAY_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_overvoltage_2_delay_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_GENERATOR_OVERVOLTAGE_2_DELAY_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -3641,13 +3641,13 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_overvoltage_2_dela
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_undervoltage_monitoring_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_MONITORING_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_MONITORING_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_undervoltage_monitoring_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, bool *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_MONITORING_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -3656,7 +3656,7 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_undervoltage_monit
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_generator_undervoltage_monitoring_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_generator_undervoltage_monitoring_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_generator_undervoltage_monitoring_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -3680,13 +3680,13 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_undervoltage_monit
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_undervoltage_1_threshold_100v_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_100V_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_100V_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_undervoltage_1_threshold_100v_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_100V_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -3711,13 +3711,13 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_undervoltage_1_thr
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_undervoltage_1_threshold_400v_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_400V_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_400V_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_undervoltage_1_threshold_400v_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_THRESHOLD_400V_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -3742,13 +3742,13 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_undervoltage_1_thr
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_undervoltage_1_delay_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_DELAY_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_DELAY_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_undervoltage_1_delay_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_1_DELAY_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -3773,13 +3773,13 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_undervoltage_1_del
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_undervoltage_2_threshold_100v_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_100V_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_100V_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_undervoltage_2_threshold_100v_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_100V_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -3804,13 +3804,13 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_undervoltage_2_thr
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_undervoltage_2_threshold_400v_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_400V_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_400V_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_undervoltage_2_threshold_400v_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_THRESHOLD_400V_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -3835,13 +3835,13 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_undervoltage_2_thr
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_undervoltage_2_delay_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_DELAY_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_DELAY_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_generator_undervoltage_2_delay_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_GENERATOR_UNDERVOLTAGE_2_DELAY_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -3866,13 +3866,13 @@ static inline fieldscribe_can_status woodward_mpu2s_generator_undervoltage_2_del
 
 static inline fieldscribe_can_status woodward_mpu2s_mains_frequency_monitoring_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_MAINS_FREQUENCY_MONITORING_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_MAINS_FREQUENCY_MONITORING_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_mains_frequency_monitoring_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, bool *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_MAINS_FREQUENCY_MONITORING_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -3881,7 +3881,7 @@ static inline fieldscribe_can_status woodward_mpu2s_mains_frequency_monitoring_r
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_mains_frequency_monitoring_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_mains_frequency_monitoring_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_mains_frequency_monitoring_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -3905,13 +3905,13 @@ static inline fieldscribe_can_status woodward_mpu2s_mains_frequency_monitoring_w
 
 static inline fieldscribe_can_status woodward_mpu2s_mains_overfrequency_threshold_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_MAINS_OVERFREQUENCY_THRESHOLD_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_MAINS_OVERFREQUENCY_THRESHOLD_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_mains_overfrequency_threshold_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_MAINS_OVERFREQUENCY_THRESHOLD_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -3936,13 +3936,13 @@ static inline fieldscribe_can_status woodward_mpu2s_mains_overfrequency_threshol
 
 static inline fieldscribe_can_status woodward_mpu2s_mains_overfrequency_delay_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_MAINS_OVERFREQUENCY_DELAY_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_MAINS_OVERFREQUENCY_DELAY_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_mains_overfrequency_delay_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_MAINS_OVERFREQUENCY_DELAY_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -3967,13 +3967,13 @@ static inline fieldscribe_can_status woodward_mpu2s_mains_overfrequency_delay_wr
 
 static inline fieldscribe_can_status woodward_mpu2s_mains_underfrequency_threshold_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_MAINS_UNDERFREQUENCY_THRESHOLD_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_MAINS_UNDERFREQUENCY_THRESHOLD_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_mains_underfrequency_threshold_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_MAINS_UNDERFREQUENCY_THRESHOLD_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -3998,13 +3998,13 @@ static inline fieldscribe_can_status woodward_mpu2s_mains_underfrequency_thresho
 
 static inline fieldscribe_can_status woodward_mpu2s_mains_underfrequency_delay_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_MAINS_UNDERFREQUENCY_DELAY_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_MAINS_UNDERFREQUENCY_DELAY_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_mains_underfrequency_delay_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_MAINS_UNDERFREQUENCY_DELAY_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -4029,13 +4029,13 @@ static inline fieldscribe_can_status woodward_mpu2s_mains_underfrequency_delay_w
 
 static inline fieldscribe_can_status woodward_mpu2s_mains_voltage_monitoring_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_MAINS_VOLTAGE_MONITORING_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_MAINS_VOLTAGE_MONITORING_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_mains_voltage_monitoring_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, bool *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_MAINS_VOLTAGE_MONITORING_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -4044,7 +4044,7 @@ static inline fieldscribe_can_status woodward_mpu2s_mains_voltage_monitoring_rea
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_mains_voltage_monitoring_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_mains_voltage_monitoring_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_mains_voltage_monitoring_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -4068,13 +4068,13 @@ static inline fieldscribe_can_status woodward_mpu2s_mains_voltage_monitoring_wri
 
 static inline fieldscribe_can_status woodward_mpu2s_mains_voltage_factor_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_MAINS_VOLTAGE_FACTOR_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_MAINS_VOLTAGE_FACTOR_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_mains_voltage_factor_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_MAINS_VOLTAGE_FACTOR_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -4085,13 +4085,13 @@ static inline fieldscribe_can_status woodward_mpu2s_mains_voltage_factor_read_an
 
 static inline fieldscribe_can_status woodward_mpu2s_mains_overvoltage_threshold_100v_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_100V_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_100V_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_mains_overvoltage_threshold_100v_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_100V_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -4116,13 +4116,13 @@ static inline fieldscribe_can_status woodward_mpu2s_mains_overvoltage_threshold_
 
 static inline fieldscribe_can_status woodward_mpu2s_mains_overvoltage_threshold_400v_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_400V_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_400V_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_mains_overvoltage_threshold_400v_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_MAINS_OVERVOLTAGE_THRESHOLD_400V_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -4147,13 +4147,13 @@ static inline fieldscribe_can_status woodward_mpu2s_mains_overvoltage_threshold_
 
 static inline fieldscribe_can_status woodward_mpu2s_mains_overvoltage_delay_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_MAINS_OVERVOLTAGE_DELAY_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_MAINS_OVERVOLTAGE_DELAY_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_mains_overvoltage_delay_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_MAINS_OVERVOLTAGE_DELAY_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -4178,13 +4178,13 @@ static inline fieldscribe_can_status woodward_mpu2s_mains_overvoltage_delay_writ
 
 static inline fieldscribe_can_status woodward_mpu2s_mains_undervoltage_threshold_100v_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_100V_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_100V_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_mains_undervoltage_threshold_100v_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_100V_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -4209,13 +4209,13 @@ static inline fieldscribe_can_status woodward_mpu2s_mains_undervoltage_threshold
 
 static inline fieldscribe_can_status woodward_mpu2s_mains_undervoltage_threshold_400v_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_400V_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_400V_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_mains_undervoltage_threshold_400v_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_THRESHOLD_400V_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -4240,13 +4240,13 @@ static inline fieldscribe_can_status woodward_mpu2s_mains_undervoltage_threshold
 
 static inline fieldscribe_can_status woodward_mpu2s_mains_undervoltage_delay_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_DELAY_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_DELAY_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_mains_undervoltage_delay_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_MAINS_UNDERVOLTAGE_DELAY_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -4271,13 +4271,13 @@ static inline fieldscribe_can_status woodward_mpu2s_mains_undervoltage_delay_wri
 
 static inline fieldscribe_can_status woodward_mpu2s_phase_shift_monitoring_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_PHASE_SHIFT_MONITORING_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_PHASE_SHIFT_MONITORING_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_phase_shift_monitoring_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, bool *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_PHASE_SHIFT_MONITORING_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -4286,7 +4286,7 @@ static inline fieldscribe_can_status woodward_mpu2s_phase_shift_monitoring_read_
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_phase_shift_monitoring_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_phase_shift_monitoring_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_phase_shift_monitoring_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -4310,13 +4310,13 @@ static inline fieldscribe_can_status woodward_mpu2s_phase_shift_monitoring_write
 
 static inline fieldscribe_can_status woodward_mpu2s_phase_shift_monitoring_phases_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_PHASE_SHIFT_MONITORING_PHASES_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_PHASE_SHIFT_MONITORING_PHASES_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_phase_shift_monitoring_phases_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, bool *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_PHASE_SHIFT_MONITORING_PHASES_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -4325,7 +4325,7 @@ static inline fieldscribe_can_status woodward_mpu2s_phase_shift_monitoring_phase
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_phase_shift_monitoring_phases_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_phase_shift_monitoring_phases_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_phase_shift_monitoring_phases_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -4349,13 +4349,13 @@ static inline fieldscribe_can_status woodward_mpu2s_phase_shift_monitoring_phase
 
 static inline fieldscribe_can_status woodward_mpu2s_phase_shift_threshold_single_phase_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_PHASE_SHIFT_THRESHOLD_SINGLE_PHASE_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_PHASE_SHIFT_THRESHOLD_SINGLE_PHASE_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_phase_shift_threshold_single_phase_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_PHASE_SHIFT_THRESHOLD_SINGLE_PHASE_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -4380,13 +4380,13 @@ static inline fieldscribe_can_status woodward_mpu2s_phase_shift_threshold_single
 
 static inline fieldscribe_can_status woodward_mpu2s_phase_shift_threshold_three_phase_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_PHASE_SHIFT_THRESHOLD_THREE_PHASE_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_PHASE_SHIFT_THRESHOLD_THREE_PHASE_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_phase_shift_threshold_three_phase_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_PHASE_SHIFT_THRESHOLD_THREE_PHASE_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -4411,13 +4411,13 @@ static inline fieldscribe_can_status woodward_mpu2s_phase_shift_threshold_three_
 
 static inline fieldscribe_can_status woodward_mpu2s_reactive_power_monitoring_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_REACTIVE_POWER_MONITORING_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_REACTIVE_POWER_MONITORING_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_reactive_power_monitoring_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, bool *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_REACTIVE_POWER_MONITORING_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -4426,7 +4426,7 @@ static inline fieldscribe_can_status woodward_mpu2s_reactive_power_monitoring_re
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_reactive_power_monitoring_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_reactive_power_monitoring_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_reactive_power_monitoring_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -4450,13 +4450,13 @@ static inline fieldscribe_can_status woodward_mpu2s_reactive_power_monitoring_wr
 
 static inline fieldscribe_can_status woodward_mpu2s_reactive_power_threshold_inductive_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_REACTIVE_POWER_THRESHOLD_INDUCTIVE_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_REACTIVE_POWER_THRESHOLD_INDUCTIVE_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_reactive_power_threshold_inductive_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_REACTIVE_POWER_THRESHOLD_INDUCTIVE_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -4481,13 +4481,13 @@ static inline fieldscribe_can_status woodward_mpu2s_reactive_power_threshold_ind
 
 static inline fieldscribe_can_status woodward_mpu2s_reactive_power_delay_inductive_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_REACTIVE_POWER_DELAY_INDUCTIVE_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_REACTIVE_POWER_DELAY_INDUCTIVE_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_reactive_power_delay_inductive_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_REACTIVE_POWER_DELAY_INDUCTIVE_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -4512,13 +4512,13 @@ static inline fieldscribe_can_status woodward_mpu2s_reactive_power_delay_inducti
 
 static inline fieldscribe_can_status woodward_mpu2s_reactive_power_threshold_capacitive_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_REACTIVE_POWER_THRESHOLD_CAPACITIVE_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_REACTIVE_POWER_THRESHOLD_CAPACITIVE_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_reactive_power_threshold_capacitive_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_REACTIVE_POWER_THRESHOLD_CAPACITIVE_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -4543,13 +4543,13 @@ static inline fieldscribe_can_status woodward_mpu2s_reactive_power_threshold_cap
 
 static inline fieldscribe_can_status woodward_mpu2s_reactive_power_delay_capacitive_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_REACTIVE_POWER_DELAY_CAPACITIVE_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_REACTIVE_POWER_DELAY_CAPACITIVE_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_reactive_power_delay_capacitive_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_REACTIVE_POWER_DELAY_CAPACITIVE_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -4574,13 +4574,13 @@ static inline fieldscribe_can_status woodward_mpu2s_reactive_power_delay_capacit
 
 static inline fieldscribe_can_status woodward_mpu2s_earth_fault_monitoring_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_EARTH_FAULT_MONITORING_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_EARTH_FAULT_MONITORING_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_earth_fault_monitoring_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, bool *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_EARTH_FAULT_MONITORING_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -4589,7 +4589,7 @@ static inline fieldscribe_can_status woodward_mpu2s_earth_fault_monitoring_read_
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_earth_fault_monitoring_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_earth_fault_monitoring_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_earth_fault_monitoring_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -4613,13 +4613,13 @@ static inline fieldscribe_can_status woodward_mpu2s_earth_fault_monitoring_write
 
 static inline fieldscribe_can_status woodward_mpu2s_earth_fault_threshold_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_EARTH_FAULT_THRESHOLD_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_EARTH_FAULT_THRESHOLD_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_earth_fault_threshold_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_EARTH_FAULT_THRESHOLD_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -4644,13 +4644,13 @@ static inline fieldscribe_can_status woodward_mpu2s_earth_fault_threshold_write_
 
 static inline fieldscribe_can_status woodward_mpu2s_earth_fault_delay_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_EARTH_FAULT_DELAY_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_EARTH_FAULT_DELAY_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_earth_fault_delay_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_EARTH_FAULT_DELAY_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -4675,13 +4675,13 @@ static inline fieldscribe_can_status woodward_mpu2s_earth_fault_delay_write_answ
 
 static inline fieldscribe_can_status woodward_mpu2s_battery_undervoltage_threshold_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_BATTERY_UNDERVOLTAGE_THRESHOLD_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_BATTERY_UNDERVOLTAGE_THRESHOLD_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_battery_undervoltage_threshold_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_BATTERY_UNDERVOLTAGE_THRESHOLD_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -4706,13 +4706,13 @@ static inline fieldscribe_can_status woodward_mpu2s_battery_undervoltage_thresho
 
 static inline fieldscribe_can_status woodward_mpu2s_battery_undervoltage_delay_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_BATTERY_UNDERVOLTAGE_DELAY_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_BATTERY_UNDERVOLTAGE_DELAY_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_battery_undervoltage_delay_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_BATTERY_UNDERVOLTAGE_DELAY_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -4737,13 +4737,13 @@ static inline fieldscribe_can_status woodward_mpu2s_battery_undervoltage_delay_w
 
 static inline fieldscribe_can_status woodward_mpu2s_digital_inputs_1_to_4_logic_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_LOGIC_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_LOGIC_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_digital_inputs_1_to_4_logic_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_LOGIC_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -4752,7 +4752,7 @@ static inline fieldscribe_can_status woodward_mpu2s_digital_inputs_1_to_4_logic_
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_digital_inputs_1_to_4_logic_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_digital_inputs_1_to_4_logic_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_digital_inputs_1_to_4_logic_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -4776,13 +4776,13 @@ static inline fieldscribe_can_status woodward_mpu2s_digital_inputs_1_to_4_logic_
 
 static inline fieldscribe_can_status woodward_mpu2s_digital_inputs_1_to_4_delay_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_DELAY_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_DELAY_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_digital_inputs_1_to_4_delay_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_DELAY_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -4807,13 +4807,13 @@ static inline fieldscribe_can_status woodward_mpu2s_digital_inputs_1_to_4_delay_
 
 static inline fieldscribe_can_status woodward_mpu2s_digital_inputs_1_to_4_engine_delay_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_ENGINE_DELAY_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_ENGINE_DELAY_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_digital_inputs_1_to_4_engine_delay_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_ENGINE_DELAY_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -4822,7 +4822,7 @@ static inline fieldscribe_can_status woodward_mpu2s_digital_inputs_1_to_4_engine
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_digital_inputs_1_to_4_engine_delay_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_digital_inputs_1_to_4_engine_delay_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_digital_inputs_1_to_4_engine_delay_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -4846,13 +4846,13 @@ static inline fieldscribe_can_status woodward_mpu2s_digital_inputs_1_to_4_engine
 
 static inline fieldscribe_can_status woodward_mpu2s_digital_inputs_1_to_4_fault_class_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_FAULT_CLASS_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_FAULT_CLASS_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_digital_inputs_1_to_4_fault_class_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_DIGITAL_INPUTS_1_TO_4_FAULT_CLASS_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -4877,13 +4877,13 @@ static inline fieldscribe_can_status woodward_mpu2s_digital_inputs_1_to_4_fault_
 
 static inline fieldscribe_can_status woodward_mpu2s_digital_inputs_5_to_8_logic_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_LOGIC_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_LOGIC_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_digital_inputs_5_to_8_logic_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_LOGIC_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -4892,7 +4892,7 @@ static inline fieldscribe_can_status woodward_mpu2s_digital_inputs_5_to_8_logic_
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_digital_inputs_5_to_8_logic_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_digital_inputs_5_to_8_logic_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_digital_inputs_5_to_8_logic_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -4916,13 +4916,13 @@ static inline fieldscribe_can_status woodward_mpu2s_digital_inputs_5_to_8_logic_
 
 static inline fieldscribe_can_status woodward_mpu2s_digital_inputs_5_to_8_delay_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_DELAY_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_DELAY_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_digital_inputs_5_to_8_delay_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_DELAY_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -4947,13 +4947,13 @@ static inline fieldscribe_can_status woodward_mpu2s_digital_inputs_5_to_8_delay_
 
 static inline fieldscribe_can_status woodward_mpu2s_digital_inputs_5_to_8_engine_delay_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_ENGINE_DELAY_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_ENGINE_DELAY_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_digital_inputs_5_to_8_engine_delay_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_ENGINE_DELAY_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -4962,7 +4962,7 @@ static inline fieldscribe_can_status woodward_mpu2s_digital_inputs_5_to_8_engine
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_digital_inputs_5_to_8_engine_delay_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_digital_inputs_5_to_8_engine_delay_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_digital_inputs_5_to_8_engine_delay_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -4986,13 +4986,13 @@ static inline fieldscribe_can_status woodward_mpu2s_digital_inputs_5_to_8_engine
 
 static inline fieldscribe_can_status woodward_mpu2s_digital_inputs_5_to_8_fault_class_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_FAULT_CLASS_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_FAULT_CLASS_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_digital_inputs_5_to_8_fault_class_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_DIGITAL_INPUTS_5_TO_8_FAULT_CLASS_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -5017,13 +5017,13 @@ static inline fieldscribe_can_status woodward_mpu2s_digital_inputs_5_to_8_fault_
 
 static inline fieldscribe_can_status woodward_mpu2s_digital_inputs_9_to_12_logic_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_LOGIC_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_LOGIC_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_digital_inputs_9_to_12_logic_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_LOGIC_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -5032,7 +5032,7 @@ static inline fieldscribe_can_status woodward_mpu2s_digital_inputs_9_to_12_logic
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_digital_inputs_9_to_12_logic_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_digital_inputs_9_to_12_logic_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_digital_inputs_9_to_12_logic_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -5056,13 +5056,13 @@ static inline fieldscribe_can_status woodward_mpu2s_digital_inputs_9_to_12_logic
 
 static inline fieldscribe_can_status woodward_mpu2s_digital_inputs_9_to_12_delay_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_DELAY_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_DELAY_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_digital_inputs_9_to_12_delay_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_DELAY_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -5087,13 +5087,13 @@ static inline fieldscribe_can_status woodward_mpu2s_digital_inputs_9_to_12_delay
 
 static inline fieldscribe_can_status woodward_mpu2s_digital_inputs_9_to_12_engine_delay_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_ENGINE_DELAY_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_ENGINE_DELAY_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_digital_inputs_9_to_12_engine_delay_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_ENGINE_DELAY_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -5102,7 +5102,7 @@ static inline fieldscribe_can_status woodward_mpu2s_digital_inputs_9_to_12_engin
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_digital_inputs_9_to_12_engine_delay_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_digital_inputs_9_to_12_engine_delay_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_digital_inputs_9_to_12_engine_delay_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -5126,13 +5126,13 @@ static inline fieldscribe_can_status woodward_mpu2s_digital_inputs_9_to_12_engin
 
 static inline fieldscribe_can_status woodward_mpu2s_digital_inputs_9_to_12_fault_class_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_FAULT_CLASS_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_FAULT_CLASS_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_digital_inputs_9_to_12_fault_class_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_DIGITAL_INPUTS_9_TO_12_FAULT_CLASS_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -5161,17 +5161,23 @@ static inline fieldscribe_can_status woodward_mpu2s_fault_text_terminal_62_read_
     if (at >= WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_62_WORDS) {
         return FIELDSCRIBE_CAN_BAD_ADDRESS;
     }
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, woodward_mpu2s_fault_text_terminal_62_addresses[at], 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, woodward_mpu2s_fault_text_terminal_62_addresses[at], frame);
 }
 
 /* Reads word `at` of the text into its place. */
 static inline fieldscribe_can_status woodward_mpu2s_fault_text_terminal_62_read_answer(
     uint8_t unit, size_t at, const fieldscribe_can_frame *frame, uint16_t words[WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_62_WORDS])
 {
+    fieldscribe_can_status status;
+    uint16_t word;
     if (at >= WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_62_WORDS) {
         return FIELDSCRIBE_CAN_BAD_ADDRESS;
     }
-    return fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, woodward_mpu2s_fault_text_terminal_62_addresses[at], frame, &words[at]);
+    status = fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, woodward_mpu2s_fault_text_terminal_62_addresses[at], frame, &word);
+    if (status == FIELDSCRIBE_CAN_OK) {
+        words[at] = word;
+    }
+    return status;
 }
 
 /* Writes word `at` of the text. */
@@ -5201,17 +5207,23 @@ static inline fieldscribe_can_status woodward_mpu2s_fault_text_terminal_63_read_
     if (at >= WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_63_WORDS) {
         return FIELDSCRIBE_CAN_BAD_ADDRESS;
     }
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, woodward_mpu2s_fault_text_terminal_63_addresses[at], 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, woodward_mpu2s_fault_text_terminal_63_addresses[at], frame);
 }
 
 /* Reads word `at` of the text into its place. */
 static inline fieldscribe_can_status woodward_mpu2s_fault_text_terminal_63_read_answer(
     uint8_t unit, size_t at, const fieldscribe_can_frame *frame, uint16_t words[WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_63_WORDS])
 {
+    fieldscribe_can_status status;
+    uint16_t word;
     if (at >= WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_63_WORDS) {
         return FIELDSCRIBE_CAN_BAD_ADDRESS;
     }
-    return fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, woodward_mpu2s_fault_text_terminal_63_addresses[at], frame, &words[at]);
+    status = fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, woodward_mpu2s_fault_text_terminal_63_addresses[at], frame, &word);
+    if (status == FIELDSCRIBE_CAN_OK) {
+        words[at] = word;
+    }
+    return status;
 }
 
 /* Writes word `at` of the text. */
@@ -5241,17 +5253,23 @@ static inline fieldscribe_can_status woodward_mpu2s_fault_text_terminal_64_read_
     if (at >= WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_64_WORDS) {
         return FIELDSCRIBE_CAN_BAD_ADDRESS;
     }
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, woodward_mpu2s_fault_text_terminal_64_addresses[at], 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, woodward_mpu2s_fault_text_terminal_64_addresses[at], frame);
 }
 
 /* Reads word `at` of the text into its place. */
 static inline fieldscribe_can_status woodward_mpu2s_fault_text_terminal_64_read_answer(
     uint8_t unit, size_t at, const fieldscribe_can_frame *frame, uint16_t words[WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_64_WORDS])
 {
+    fieldscribe_can_status status;
+    uint16_t word;
     if (at >= WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_64_WORDS) {
         return FIELDSCRIBE_CAN_BAD_ADDRESS;
     }
-    return fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, woodward_mpu2s_fault_text_terminal_64_addresses[at], frame, &words[at]);
+    status = fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, woodward_mpu2s_fault_text_terminal_64_addresses[at], frame, &word);
+    if (status == FIELDSCRIBE_CAN_OK) {
+        words[at] = word;
+    }
+    return status;
 }
 
 /* Writes word `at` of the text. */
@@ -5281,17 +5299,23 @@ static inline fieldscribe_can_status woodward_mpu2s_fault_text_terminal_65_read_
     if (at >= WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_65_WORDS) {
         return FIELDSCRIBE_CAN_BAD_ADDRESS;
     }
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, woodward_mpu2s_fault_text_terminal_65_addresses[at], 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, woodward_mpu2s_fault_text_terminal_65_addresses[at], frame);
 }
 
 /* Reads word `at` of the text into its place. */
 static inline fieldscribe_can_status woodward_mpu2s_fault_text_terminal_65_read_answer(
     uint8_t unit, size_t at, const fieldscribe_can_frame *frame, uint16_t words[WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_65_WORDS])
 {
+    fieldscribe_can_status status;
+    uint16_t word;
     if (at >= WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_65_WORDS) {
         return FIELDSCRIBE_CAN_BAD_ADDRESS;
     }
-    return fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, woodward_mpu2s_fault_text_terminal_65_addresses[at], frame, &words[at]);
+    status = fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, woodward_mpu2s_fault_text_terminal_65_addresses[at], frame, &word);
+    if (status == FIELDSCRIBE_CAN_OK) {
+        words[at] = word;
+    }
+    return status;
 }
 
 /* Writes word `at` of the text. */
@@ -5321,17 +5345,23 @@ static inline fieldscribe_can_status woodward_mpu2s_fault_text_terminal_66_read_
     if (at >= WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_66_WORDS) {
         return FIELDSCRIBE_CAN_BAD_ADDRESS;
     }
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, woodward_mpu2s_fault_text_terminal_66_addresses[at], 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, woodward_mpu2s_fault_text_terminal_66_addresses[at], frame);
 }
 
 /* Reads word `at` of the text into its place. */
 static inline fieldscribe_can_status woodward_mpu2s_fault_text_terminal_66_read_answer(
     uint8_t unit, size_t at, const fieldscribe_can_frame *frame, uint16_t words[WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_66_WORDS])
 {
+    fieldscribe_can_status status;
+    uint16_t word;
     if (at >= WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_66_WORDS) {
         return FIELDSCRIBE_CAN_BAD_ADDRESS;
     }
-    return fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, woodward_mpu2s_fault_text_terminal_66_addresses[at], frame, &words[at]);
+    status = fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, woodward_mpu2s_fault_text_terminal_66_addresses[at], frame, &word);
+    if (status == FIELDSCRIBE_CAN_OK) {
+        words[at] = word;
+    }
+    return status;
 }
 
 /* Writes word `at` of the text. */
@@ -5361,17 +5391,23 @@ static inline fieldscribe_can_status woodward_mpu2s_fault_text_terminal_67_read_
     if (at >= WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_67_WORDS) {
         return FIELDSCRIBE_CAN_BAD_ADDRESS;
     }
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, woodward_mpu2s_fault_text_terminal_67_addresses[at], 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, woodward_mpu2s_fault_text_terminal_67_addresses[at], frame);
 }
 
 /* Reads word `at` of the text into its place. */
 static inline fieldscribe_can_status woodward_mpu2s_fault_text_terminal_67_read_answer(
     uint8_t unit, size_t at, const fieldscribe_can_frame *frame, uint16_t words[WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_67_WORDS])
 {
+    fieldscribe_can_status status;
+    uint16_t word;
     if (at >= WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_67_WORDS) {
         return FIELDSCRIBE_CAN_BAD_ADDRESS;
     }
-    return fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, woodward_mpu2s_fault_text_terminal_67_addresses[at], frame, &words[at]);
+    status = fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, woodward_mpu2s_fault_text_terminal_67_addresses[at], frame, &word);
+    if (status == FIELDSCRIBE_CAN_OK) {
+        words[at] = word;
+    }
+    return status;
 }
 
 /* Writes word `at` of the text. */
@@ -5401,17 +5437,23 @@ static inline fieldscribe_can_status woodward_mpu2s_fault_text_terminal_68_read_
     if (at >= WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_68_WORDS) {
         return FIELDSCRIBE_CAN_BAD_ADDRESS;
     }
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, woodward_mpu2s_fault_text_terminal_68_addresses[at], 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, woodward_mpu2s_fault_text_terminal_68_addresses[at], frame);
 }
 
 /* Reads word `at` of the text into its place. */
 static inline fieldscribe_can_status woodward_mpu2s_fault_text_terminal_68_read_answer(
     uint8_t unit, size_t at, const fieldscribe_can_frame *frame, uint16_t words[WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_68_WORDS])
 {
+    fieldscribe_can_status status;
+    uint16_t word;
     if (at >= WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_68_WORDS) {
         return FIELDSCRIBE_CAN_BAD_ADDRESS;
     }
-    return fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, woodward_mpu2s_fault_text_terminal_68_addresses[at], frame, &words[at]);
+    status = fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, woodward_mpu2s_fault_text_terminal_68_addresses[at], frame, &word);
+    if (status == FIELDSCRIBE_CAN_OK) {
+        words[at] = word;
+    }
+    return status;
 }
 
 /* Writes word `at` of the text. */
@@ -5441,17 +5483,23 @@ static inline fieldscribe_can_status woodward_mpu2s_fault_text_terminal_69_read_
     if (at >= WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_69_WORDS) {
         return FIELDSCRIBE_CAN_BAD_ADDRESS;
     }
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, woodward_mpu2s_fault_text_terminal_69_addresses[at], 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, woodward_mpu2s_fault_text_terminal_69_addresses[at], frame);
 }
 
 /* Reads word `at` of the text into its place. */
 static inline fieldscribe_can_status woodward_mpu2s_fault_text_terminal_69_read_answer(
     uint8_t unit, size_t at, const fieldscribe_can_frame *frame, uint16_t words[WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_69_WORDS])
 {
+    fieldscribe_can_status status;
+    uint16_t word;
     if (at >= WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_69_WORDS) {
         return FIELDSCRIBE_CAN_BAD_ADDRESS;
     }
-    return fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, woodward_mpu2s_fault_text_terminal_69_addresses[at], frame, &words[at]);
+    status = fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, woodward_mpu2s_fault_text_terminal_69_addresses[at], frame, &word);
+    if (status == FIELDSCRIBE_CAN_OK) {
+        words[at] = word;
+    }
+    return status;
 }
 
 /* Writes word `at` of the text. */
@@ -5481,17 +5529,23 @@ static inline fieldscribe_can_status woodward_mpu2s_fault_text_terminal_70_read_
     if (at >= WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_70_WORDS) {
         return FIELDSCRIBE_CAN_BAD_ADDRESS;
     }
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, woodward_mpu2s_fault_text_terminal_70_addresses[at], 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, woodward_mpu2s_fault_text_terminal_70_addresses[at], frame);
 }
 
 /* Reads word `at` of the text into its place. */
 static inline fieldscribe_can_status woodward_mpu2s_fault_text_terminal_70_read_answer(
     uint8_t unit, size_t at, const fieldscribe_can_frame *frame, uint16_t words[WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_70_WORDS])
 {
+    fieldscribe_can_status status;
+    uint16_t word;
     if (at >= WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_70_WORDS) {
         return FIELDSCRIBE_CAN_BAD_ADDRESS;
     }
-    return fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, woodward_mpu2s_fault_text_terminal_70_addresses[at], frame, &words[at]);
+    status = fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, woodward_mpu2s_fault_text_terminal_70_addresses[at], frame, &word);
+    if (status == FIELDSCRIBE_CAN_OK) {
+        words[at] = word;
+    }
+    return status;
 }
 
 /* Writes word `at` of the text. */
@@ -5521,17 +5575,23 @@ static inline fieldscribe_can_status woodward_mpu2s_fault_text_terminal_71_read_
     if (at >= WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_71_WORDS) {
         return FIELDSCRIBE_CAN_BAD_ADDRESS;
     }
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, woodward_mpu2s_fault_text_terminal_71_addresses[at], 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, woodward_mpu2s_fault_text_terminal_71_addresses[at], frame);
 }
 
 /* Reads word `at` of the text into its place. */
 static inline fieldscribe_can_status woodward_mpu2s_fault_text_terminal_71_read_answer(
     uint8_t unit, size_t at, const fieldscribe_can_frame *frame, uint16_t words[WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_71_WORDS])
 {
+    fieldscribe_can_status status;
+    uint16_t word;
     if (at >= WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_71_WORDS) {
         return FIELDSCRIBE_CAN_BAD_ADDRESS;
     }
-    return fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, woodward_mpu2s_fault_text_terminal_71_addresses[at], frame, &words[at]);
+    status = fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, woodward_mpu2s_fault_text_terminal_71_addresses[at], frame, &word);
+    if (status == FIELDSCRIBE_CAN_OK) {
+        words[at] = word;
+    }
+    return status;
 }
 
 /* Writes word `at` of the text. */
@@ -5561,17 +5621,23 @@ static inline fieldscribe_can_status woodward_mpu2s_fault_text_terminal_72_read_
     if (at >= WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_72_WORDS) {
         return FIELDSCRIBE_CAN_BAD_ADDRESS;
     }
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, woodward_mpu2s_fault_text_terminal_72_addresses[at], 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, woodward_mpu2s_fault_text_terminal_72_addresses[at], frame);
 }
 
 /* Reads word `at` of the text into its place. */
 static inline fieldscribe_can_status woodward_mpu2s_fault_text_terminal_72_read_answer(
     uint8_t unit, size_t at, const fieldscribe_can_frame *frame, uint16_t words[WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_72_WORDS])
 {
+    fieldscribe_can_status status;
+    uint16_t word;
     if (at >= WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_72_WORDS) {
         return FIELDSCRIBE_CAN_BAD_ADDRESS;
     }
-    return fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, woodward_mpu2s_fault_text_terminal_72_addresses[at], frame, &words[at]);
+    status = fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, woodward_mpu2s_fault_text_terminal_72_addresses[at], frame, &word);
+    if (status == FIELDSCRIBE_CAN_OK) {
+        words[at] = word;
+    }
+    return status;
 }
 
 /* Writes word `at` of the text. */
@@ -5601,17 +5667,23 @@ static inline fieldscribe_can_status woodward_mpu2s_fault_text_terminal_73_read_
     if (at >= WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_73_WORDS) {
         return FIELDSCRIBE_CAN_BAD_ADDRESS;
     }
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, woodward_mpu2s_fault_text_terminal_73_addresses[at], 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, woodward_mpu2s_fault_text_terminal_73_addresses[at], frame);
 }
 
 /* Reads word `at` of the text into its place. */
 static inline fieldscribe_can_status woodward_mpu2s_fault_text_terminal_73_read_answer(
     uint8_t unit, size_t at, const fieldscribe_can_frame *frame, uint16_t words[WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_73_WORDS])
 {
+    fieldscribe_can_status status;
+    uint16_t word;
     if (at >= WOODWARD_MPU2S_FAULT_TEXT_TERMINAL_73_WORDS) {
         return FIELDSCRIBE_CAN_BAD_ADDRESS;
     }
-    return fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, woodward_mpu2s_fault_text_terminal_73_addresses[at], frame, &words[at]);
+    status = fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, woodward_mpu2s_fault_text_terminal_73_addresses[at], frame, &word);
+    if (status == FIELDSCRIBE_CAN_OK) {
+        words[at] = word;
+    }
+    return status;
 }
 
 /* Writes word `at` of the text. */
@@ -5637,13 +5709,13 @@ static inline fieldscribe_can_status woodward_mpu2s_fault_text_terminal_73_write
 
 static inline fieldscribe_can_status woodward_mpu2s_analog_output_1_source_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_ANALOG_OUTPUT_1_SOURCE_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_ANALOG_OUTPUT_1_SOURCE_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_analog_output_1_source_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_ANALOG_OUTPUT_1_SOURCE_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -5668,13 +5740,13 @@ static inline fieldscribe_can_status woodward_mpu2s_analog_output_1_source_write
 
 static inline fieldscribe_can_status woodward_mpu2s_analog_output_1_current_range_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_ANALOG_OUTPUT_1_CURRENT_RANGE_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_ANALOG_OUTPUT_1_CURRENT_RANGE_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_analog_output_1_current_range_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, bool *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_ANALOG_OUTPUT_1_CURRENT_RANGE_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -5683,7 +5755,7 @@ static inline fieldscribe_can_status woodward_mpu2s_analog_output_1_current_rang
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_analog_output_1_current_range_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_analog_output_1_current_range_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_analog_output_1_current_range_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -5707,13 +5779,13 @@ static inline fieldscribe_can_status woodward_mpu2s_analog_output_1_current_rang
 
 static inline fieldscribe_can_status woodward_mpu2s_analog_output_1_value_at_0_percent_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_ANALOG_OUTPUT_1_VALUE_AT_0_PERCENT_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_ANALOG_OUTPUT_1_VALUE_AT_0_PERCENT_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_analog_output_1_value_at_0_percent_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, int16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_ANALOG_OUTPUT_1_VALUE_AT_0_PERCENT_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -5738,13 +5810,13 @@ static inline fieldscribe_can_status woodward_mpu2s_analog_output_1_value_at_0_p
 
 static inline fieldscribe_can_status woodward_mpu2s_analog_output_1_value_at_100_percent_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_ANALOG_OUTPUT_1_VALUE_AT_100_PERCENT_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_ANALOG_OUTPUT_1_VALUE_AT_100_PERCENT_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_analog_output_1_value_at_100_percent_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, int16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_ANALOG_OUTPUT_1_VALUE_AT_100_PERCENT_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -5769,13 +5841,13 @@ static inline fieldscribe_can_status woodward_mpu2s_analog_output_1_value_at_100
 
 static inline fieldscribe_can_status woodward_mpu2s_analog_output_2_source_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_ANALOG_OUTPUT_2_SOURCE_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_ANALOG_OUTPUT_2_SOURCE_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_analog_output_2_source_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_ANALOG_OUTPUT_2_SOURCE_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -5800,13 +5872,13 @@ static inline fieldscribe_can_status woodward_mpu2s_analog_output_2_source_write
 
 static inline fieldscribe_can_status woodward_mpu2s_analog_output_2_current_range_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_ANALOG_OUTPUT_2_CURRENT_RANGE_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_ANALOG_OUTPUT_2_CURRENT_RANGE_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_analog_output_2_current_range_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, bool *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_ANALOG_OUTPUT_2_CURRENT_RANGE_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -5815,7 +5887,7 @@ static inline fieldscribe_can_status woodward_mpu2s_analog_output_2_current_rang
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_analog_output_2_current_range_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_analog_output_2_current_range_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_analog_output_2_current_range_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -5839,13 +5911,13 @@ static inline fieldscribe_can_status woodward_mpu2s_analog_output_2_current_rang
 
 static inline fieldscribe_can_status woodward_mpu2s_analog_output_2_value_at_0_percent_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_ANALOG_OUTPUT_2_VALUE_AT_0_PERCENT_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_ANALOG_OUTPUT_2_VALUE_AT_0_PERCENT_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_analog_output_2_value_at_0_percent_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, int16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_ANALOG_OUTPUT_2_VALUE_AT_0_PERCENT_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -5870,13 +5942,13 @@ static inline fieldscribe_can_status woodward_mpu2s_analog_output_2_value_at_0_p
 
 static inline fieldscribe_can_status woodward_mpu2s_analog_output_2_value_at_100_percent_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_ANALOG_OUTPUT_2_VALUE_AT_100_PERCENT_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_ANALOG_OUTPUT_2_VALUE_AT_100_PERCENT_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_analog_output_2_value_at_100_percent_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, int16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_ANALOG_OUTPUT_2_VALUE_AT_100_PERCENT_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -5901,13 +5973,13 @@ static inline fieldscribe_can_status woodward_mpu2s_analog_output_2_value_at_100
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_1_event_1_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_1_EVENT_1_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_1_EVENT_1_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_1_event_1_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_RELAY_1_EVENT_1_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -5916,7 +5988,7 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_1_event_1_read_answer(
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_relay_1_event_1_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_relay_1_event_1_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_relay_1_event_1_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -5940,13 +6012,13 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_1_event_1_write_answer
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_1_logic_1_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_1_LOGIC_1_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_1_LOGIC_1_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_1_logic_1_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_RELAY_1_LOGIC_1_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -5955,7 +6027,7 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_1_logic_1_read_answer(
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_relay_1_logic_1_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_relay_1_logic_1_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_relay_1_logic_1_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -5979,13 +6051,13 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_1_logic_1_write_answer
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_1_event_2_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_1_EVENT_2_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_1_EVENT_2_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_1_event_2_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_RELAY_1_EVENT_2_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -5994,7 +6066,7 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_1_event_2_read_answer(
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_relay_1_event_2_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_relay_1_event_2_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_relay_1_event_2_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -6018,13 +6090,13 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_1_event_2_write_answer
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_1_logic_2_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_1_LOGIC_2_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_1_LOGIC_2_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_1_logic_2_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_RELAY_1_LOGIC_2_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -6033,7 +6105,7 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_1_logic_2_read_answer(
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_relay_1_logic_2_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_relay_1_logic_2_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_relay_1_logic_2_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -6057,13 +6129,13 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_1_logic_2_write_answer
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_1_event_3_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_1_EVENT_3_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_1_EVENT_3_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_1_event_3_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_RELAY_1_EVENT_3_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -6072,7 +6144,7 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_1_event_3_read_answer(
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_relay_1_event_3_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_relay_1_event_3_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_relay_1_event_3_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -6096,13 +6168,13 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_1_event_3_write_answer
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_1_logic_3_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_1_LOGIC_3_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_1_LOGIC_3_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_1_logic_3_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_RELAY_1_LOGIC_3_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -6111,7 +6183,7 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_1_logic_3_read_answer(
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_relay_1_logic_3_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_relay_1_logic_3_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_relay_1_logic_3_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -6135,13 +6207,13 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_1_logic_3_write_answer
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_2_event_1_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_2_EVENT_1_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_2_EVENT_1_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_2_event_1_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_RELAY_2_EVENT_1_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -6150,7 +6222,7 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_2_event_1_read_answer(
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_relay_2_event_1_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_relay_2_event_1_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_relay_2_event_1_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -6174,13 +6246,13 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_2_event_1_write_answer
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_2_logic_1_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_2_LOGIC_1_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_2_LOGIC_1_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_2_logic_1_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_RELAY_2_LOGIC_1_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -6189,7 +6261,7 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_2_logic_1_read_answer(
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_relay_2_logic_1_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_relay_2_logic_1_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_relay_2_logic_1_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -6213,13 +6285,13 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_2_logic_1_write_answer
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_2_event_2_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_2_EVENT_2_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_2_EVENT_2_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_2_event_2_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_RELAY_2_EVENT_2_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -6228,7 +6300,7 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_2_event_2_read_answer(
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_relay_2_event_2_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_relay_2_event_2_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_relay_2_event_2_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -6252,13 +6324,13 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_2_event_2_write_answer
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_2_logic_2_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_2_LOGIC_2_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_2_LOGIC_2_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_2_logic_2_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_RELAY_2_LOGIC_2_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -6267,7 +6339,7 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_2_logic_2_read_answer(
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_relay_2_logic_2_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_relay_2_logic_2_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_relay_2_logic_2_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -6291,13 +6363,13 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_2_logic_2_write_answer
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_2_event_3_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_2_EVENT_3_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_2_EVENT_3_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_2_event_3_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_RELAY_2_EVENT_3_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -6306,7 +6378,7 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_2_event_3_read_answer(
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_relay_2_event_3_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_relay_2_event_3_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_relay_2_event_3_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -6330,13 +6402,13 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_2_event_3_write_answer
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_2_logic_3_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_2_LOGIC_3_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_2_LOGIC_3_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_2_logic_3_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_RELAY_2_LOGIC_3_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -6345,7 +6417,7 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_2_logic_3_read_answer(
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_relay_2_logic_3_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_relay_2_logic_3_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_relay_2_logic_3_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -6369,13 +6441,13 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_2_logic_3_write_answer
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_3_event_1_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_3_EVENT_1_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_3_EVENT_1_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_3_event_1_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_RELAY_3_EVENT_1_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -6384,7 +6456,7 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_3_event_1_read_answer(
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_relay_3_event_1_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_relay_3_event_1_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_relay_3_event_1_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -6408,13 +6480,13 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_3_event_1_write_answer
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_3_logic_1_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_3_LOGIC_1_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_3_LOGIC_1_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_3_logic_1_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_RELAY_3_LOGIC_1_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -6423,7 +6495,7 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_3_logic_1_read_answer(
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_relay_3_logic_1_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_relay_3_logic_1_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_relay_3_logic_1_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -6447,13 +6519,13 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_3_logic_1_write_answer
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_3_event_2_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_3_EVENT_2_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_3_EVENT_2_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_3_event_2_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_RELAY_3_EVENT_2_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -6462,7 +6534,7 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_3_event_2_read_answer(
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_relay_3_event_2_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_relay_3_event_2_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_relay_3_event_2_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -6486,13 +6558,13 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_3_event_2_write_answer
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_3_logic_2_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_3_LOGIC_2_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_3_LOGIC_2_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_3_logic_2_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_RELAY_3_LOGIC_2_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -6501,7 +6573,7 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_3_logic_2_read_answer(
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_relay_3_logic_2_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_relay_3_logic_2_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_relay_3_logic_2_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -6525,13 +6597,13 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_3_logic_2_write_answer
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_3_event_3_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_3_EVENT_3_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_3_EVENT_3_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_3_event_3_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_RELAY_3_EVENT_3_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -6540,7 +6612,7 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_3_event_3_read_answer(
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_relay_3_event_3_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_relay_3_event_3_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_relay_3_event_3_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -6564,13 +6636,13 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_3_event_3_write_answer
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_3_logic_3_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_3_LOGIC_3_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_3_LOGIC_3_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_3_logic_3_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_RELAY_3_LOGIC_3_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -6579,7 +6651,7 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_3_logic_3_read_answer(
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_relay_3_logic_3_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_relay_3_logic_3_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_relay_3_logic_3_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -6603,13 +6675,13 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_3_logic_3_write_answer
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_4_event_1_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_4_EVENT_1_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_4_EVENT_1_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_4_event_1_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_RELAY_4_EVENT_1_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -6618,7 +6690,7 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_4_event_1_read_answer(
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_relay_4_event_1_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_relay_4_event_1_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_relay_4_event_1_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -6642,13 +6714,13 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_4_event_1_write_answer
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_4_logic_1_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_4_LOGIC_1_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_4_LOGIC_1_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_4_logic_1_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_RELAY_4_LOGIC_1_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -6657,7 +6729,7 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_4_logic_1_read_answer(
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_relay_4_logic_1_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_relay_4_logic_1_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_relay_4_logic_1_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -6681,13 +6753,13 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_4_logic_1_write_answer
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_4_event_2_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_4_EVENT_2_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_4_EVENT_2_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_4_event_2_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_RELAY_4_EVENT_2_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -6696,7 +6768,7 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_4_event_2_read_answer(
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_relay_4_event_2_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_relay_4_event_2_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_relay_4_event_2_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -6720,13 +6792,13 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_4_event_2_write_answer
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_4_logic_2_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_4_LOGIC_2_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_4_LOGIC_2_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_4_logic_2_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_RELAY_4_LOGIC_2_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -6735,7 +6807,7 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_4_logic_2_read_answer(
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_relay_4_logic_2_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_relay_4_logic_2_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_relay_4_logic_2_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -6759,13 +6831,13 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_4_logic_2_write_answer
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_4_event_3_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_4_EVENT_3_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_4_EVENT_3_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_4_event_3_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_RELAY_4_EVENT_3_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -6774,7 +6846,7 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_4_event_3_read_answer(
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_relay_4_event_3_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_relay_4_event_3_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_relay_4_event_3_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -6798,13 +6870,13 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_4_event_3_write_answer
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_4_logic_3_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_4_LOGIC_3_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_4_LOGIC_3_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_4_logic_3_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_RELAY_4_LOGIC_3_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -6813,7 +6885,7 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_4_logic_3_read_answer(
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_relay_4_logic_3_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_relay_4_logic_3_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_relay_4_logic_3_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -6837,13 +6909,13 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_4_logic_3_write_answer
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_5_event_1_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_5_EVENT_1_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_5_EVENT_1_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_5_event_1_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_RELAY_5_EVENT_1_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -6852,7 +6924,7 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_5_event_1_read_answer(
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_relay_5_event_1_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_relay_5_event_1_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_relay_5_event_1_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -6876,13 +6948,13 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_5_event_1_write_answer
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_5_logic_1_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_5_LOGIC_1_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_5_LOGIC_1_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_5_logic_1_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_RELAY_5_LOGIC_1_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -6891,7 +6963,7 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_5_logic_1_read_answer(
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_relay_5_logic_1_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_relay_5_logic_1_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_relay_5_logic_1_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -6915,13 +6987,13 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_5_logic_1_write_answer
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_5_event_2_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_5_EVENT_2_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_5_EVENT_2_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_5_event_2_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_RELAY_5_EVENT_2_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -6930,7 +7002,7 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_5_event_2_read_answer(
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_relay_5_event_2_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_relay_5_event_2_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_relay_5_event_2_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -6954,13 +7026,13 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_5_event_2_write_answer
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_5_logic_2_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_5_LOGIC_2_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_5_LOGIC_2_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_5_logic_2_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_RELAY_5_LOGIC_2_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -6969,7 +7041,7 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_5_logic_2_read_answer(
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_relay_5_logic_2_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_relay_5_logic_2_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_relay_5_logic_2_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -6993,13 +7065,13 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_5_logic_2_write_answer
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_5_event_3_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_5_EVENT_3_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_5_EVENT_3_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_5_event_3_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_RELAY_5_EVENT_3_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -7008,7 +7080,7 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_5_event_3_read_answer(
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_relay_5_event_3_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_relay_5_event_3_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_relay_5_event_3_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -7032,13 +7104,13 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_5_event_3_write_answer
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_5_logic_3_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_5_LOGIC_3_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_5_LOGIC_3_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_5_logic_3_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_RELAY_5_LOGIC_3_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -7047,7 +7119,7 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_5_logic_3_read_answer(
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_relay_5_logic_3_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_relay_5_logic_3_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_relay_5_logic_3_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -7071,13 +7143,13 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_5_logic_3_write_answer
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_6_event_1_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_6_EVENT_1_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_6_EVENT_1_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_6_event_1_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_RELAY_6_EVENT_1_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -7086,7 +7158,7 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_6_event_1_read_answer(
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_relay_6_event_1_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_relay_6_event_1_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_relay_6_event_1_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -7110,13 +7182,13 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_6_event_1_write_answer
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_6_logic_1_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_6_LOGIC_1_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_6_LOGIC_1_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_6_logic_1_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_RELAY_6_LOGIC_1_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -7125,7 +7197,7 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_6_logic_1_read_answer(
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_relay_6_logic_1_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_relay_6_logic_1_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_relay_6_logic_1_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -7149,13 +7221,13 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_6_logic_1_write_answer
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_6_event_2_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_6_EVENT_2_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_6_EVENT_2_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_6_event_2_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_RELAY_6_EVENT_2_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -7164,7 +7236,7 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_6_event_2_read_answer(
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_relay_6_event_2_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_relay_6_event_2_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_relay_6_event_2_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -7188,13 +7260,13 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_6_event_2_write_answer
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_6_logic_2_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_6_LOGIC_2_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_6_LOGIC_2_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_6_logic_2_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_RELAY_6_LOGIC_2_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -7203,7 +7275,7 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_6_logic_2_read_answer(
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_relay_6_logic_2_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_relay_6_logic_2_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_relay_6_logic_2_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -7227,13 +7299,13 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_6_logic_2_write_answer
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_6_event_3_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_6_EVENT_3_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_6_EVENT_3_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_6_event_3_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_RELAY_6_EVENT_3_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -7242,7 +7314,7 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_6_event_3_read_answer(
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_relay_6_event_3_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_relay_6_event_3_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_relay_6_event_3_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -7266,13 +7338,13 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_6_event_3_write_answer
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_6_logic_3_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_6_LOGIC_3_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_6_LOGIC_3_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_6_logic_3_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_RELAY_6_LOGIC_3_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -7281,7 +7353,7 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_6_logic_3_read_answer(
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_relay_6_logic_3_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_relay_6_logic_3_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_relay_6_logic_3_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -7305,13 +7377,13 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_6_logic_3_write_answer
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_7_event_1_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_7_EVENT_1_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_7_EVENT_1_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_7_event_1_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_RELAY_7_EVENT_1_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -7320,7 +7392,7 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_7_event_1_read_answer(
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_relay_7_event_1_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_relay_7_event_1_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_relay_7_event_1_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -7344,13 +7416,13 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_7_event_1_write_answer
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_7_logic_1_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_7_LOGIC_1_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_7_LOGIC_1_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_7_logic_1_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_RELAY_7_LOGIC_1_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -7359,7 +7431,7 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_7_logic_1_read_answer(
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_relay_7_logic_1_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_relay_7_logic_1_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_relay_7_logic_1_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -7383,13 +7455,13 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_7_logic_1_write_answer
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_7_event_2_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_7_EVENT_2_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_7_EVENT_2_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_7_event_2_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_RELAY_7_EVENT_2_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -7398,7 +7470,7 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_7_event_2_read_answer(
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_relay_7_event_2_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_relay_7_event_2_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_relay_7_event_2_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -7422,13 +7494,13 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_7_event_2_write_answer
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_7_logic_2_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_7_LOGIC_2_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_7_LOGIC_2_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_7_logic_2_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_RELAY_7_LOGIC_2_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -7437,7 +7509,7 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_7_logic_2_read_answer(
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_relay_7_logic_2_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_relay_7_logic_2_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_relay_7_logic_2_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -7461,13 +7533,13 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_7_logic_2_write_answer
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_7_event_3_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_7_EVENT_3_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_7_EVENT_3_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_7_event_3_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_RELAY_7_EVENT_3_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -7476,7 +7548,7 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_7_event_3_read_answer(
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_relay_7_event_3_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_relay_7_event_3_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_relay_7_event_3_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -7500,13 +7572,13 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_7_event_3_write_answer
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_7_logic_3_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_7_LOGIC_3_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_RELAY_7_LOGIC_3_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_relay_7_logic_3_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint8_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_RELAY_7_LOGIC_3_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -7515,7 +7587,7 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_7_logic_3_read_answer(
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_relay_7_logic_3_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_relay_7_logic_3_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_relay_7_logic_3_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -7539,13 +7611,13 @@ static inline fieldscribe_can_status woodward_mpu2s_relay_7_logic_3_write_answer
 
 static inline fieldscribe_can_status woodward_mpu2s_automatic_idle_control_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_AUTOMATIC_IDLE_CONTROL_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_AUTOMATIC_IDLE_CONTROL_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_automatic_idle_control_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, bool *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_AUTOMATIC_IDLE_CONTROL_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -7554,7 +7626,7 @@ static inline fieldscribe_can_status woodward_mpu2s_automatic_idle_control_read_
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_automatic_idle_control_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_automatic_idle_control_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_automatic_idle_control_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -7578,13 +7650,13 @@ static inline fieldscribe_can_status woodward_mpu2s_automatic_idle_control_write
 
 static inline fieldscribe_can_status woodward_mpu2s_shutdown_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_SHUTDOWN_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_SHUTDOWN_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_shutdown_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, bool *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_SHUTDOWN_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -7593,7 +7665,7 @@ static inline fieldscribe_can_status woodward_mpu2s_shutdown_read_answer(
     return status;
 }
 
-/* The whole word of the same answer, for woodward_mpu2s_shutdown_write_request. */
+/* The whole word of the same answer, for woodward_mpu2s_shutdown_write_request; 0 unless the result is OK. */
 static inline fieldscribe_can_status woodward_mpu2s_shutdown_read_word(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *word)
 {
@@ -7617,13 +7689,13 @@ static inline fieldscribe_can_status woodward_mpu2s_shutdown_write_answer(
 
 static inline fieldscribe_can_status woodward_mpu2s_engine_monitoring_delay_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_ENGINE_MONITORING_DELAY_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_ENGINE_MONITORING_DELAY_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_engine_monitoring_delay_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_ENGINE_MONITORING_DELAY_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {
@@ -7648,13 +7720,13 @@ static inline fieldscribe_can_status woodward_mpu2s_engine_monitoring_delay_writ
 
 static inline fieldscribe_can_status woodward_mpu2s_monitoring_start_frequency_read_request(uint8_t unit, fieldscribe_can_frame *frame)
 {
-    return fieldscribe_can_build(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_MONITORING_START_FREQUENCY_ADDRESS, 0U, frame);
+    return fieldscribe_can_ask(&woodward_mpu2s_can_profile, &woodward_mpu2s_message_read_request, unit, WOODWARD_MPU2S_MONITORING_START_FREQUENCY_ADDRESS, frame);
 }
 
 static inline fieldscribe_can_status woodward_mpu2s_monitoring_start_frequency_read_answer(
     uint8_t unit, const fieldscribe_can_frame *frame, uint16_t *raw)
 {
-    uint16_t word = 0U;
+    uint16_t word;
     const fieldscribe_can_status status =
         fieldscribe_can_answer(&woodward_mpu2s_message_read_answer, unit, WOODWARD_MPU2S_MONITORING_START_FREQUENCY_ADDRESS, frame, &word);
     if (status == FIELDSCRIBE_CAN_OK) {

@@ -223,11 +223,11 @@ class Point:
     `name` is unique but for variants: points of one name differ in `variant` ("axis=value"). `places` is empty when the
     manual prints no address. `scale` is None where the raw number is the value. `decimals` k fixes the unit of the
     integer path, 10^-k units; it is None where no 64-bit integer holds the counts, and there are none then.
-    `encodes_values` is False where raw numbers exceed 53 bits: values are decoded only. `most_raw` is how large a raw
-    number may be for a scale that other points decide, where the type goes beyond: larger ones overflow. `specials` are
-    never computed with; `specials_of` names what gives those that are not the point's own to many points (a type, a
-    group, a format). `steps` gives (from raw, step in raw). `generated` is False for what is only documented; `reason`
-    says why.
+    `encodes_values` is False where raw numbers, or what a scale multiplies them to, exceed 53 bits: values are decoded
+    only. `most_raw` is how large a raw number may be for a scale that other points decide, where the type goes beyond:
+    larger ones overflow. `specials` are never computed with; `specials_of` names what gives those that are not the
+    point's own to many points (a type, a group, a format). `steps` gives (from raw, step in raw). `generated` is False
+    for what is only documented; `reason` says why.
     """
 
     name: str

@@ -152,6 +152,8 @@ class Point:
         if "range" in self.row:
             return [self._interval(one, settings, points) for one in _parts(self.row["range"])]
         if "range_in_units" in self.row:
+            for name, raw in settings.items():
+                _found(points, name).expect(raw)
             slope, start = self.line(settings, points)
             ends = [
                 [nearest(slope * Fraction(end) + start) for end in one.split("..")]
@@ -172,11 +174,15 @@ class Point:
             raw = settings[point.row["name"]]
             if raw in point.special:
                 raise UnknownError("a limit that does not apply")
-            if point.outermost and not point.outermost[0] <= raw <= point.outermost[1]:
-                raise UnknownError("a limit by a number that is none")
+            point.expect(raw)
             return _of_point(point, part, settings, points)
 
         return number(text) if is_number(text) else nearest(evaluate(text, named))
+
+    def expect(self, raw: int) -> None:
+        """Raises UnknownError if the point never holds that number: what follows then is no fact of the YAML."""
+        if self.outermost and not self.outermost[0] <= raw <= self.outermost[1]:
+            raise UnknownError("a limit by a number that is none")
 
     @cached_property
     def outermost(self) -> tuple[int, int] | None:

@@ -52,7 +52,7 @@ def _code(language: str, seed: str, count: int) -> Table:
     """The mutants of one language."""
     work = CACHE / language
     base = _generated(work / "base")
-    runner = [ROOT / "tests/conformance.py", *sorted(ROOT.glob("tests/vector*.py"))]
+    runner = [ROOT / "tests/conformance", *sorted(ROOT.glob("tests/vector*.py"))]
     state = _digest([base / language, base / "vectors", *runner, HERE / "judges.py"])
     results = Results(CACHE / f"{language}-{seed}-{state}.jsonl")
     judge: list[object] = []

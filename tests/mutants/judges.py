@@ -192,7 +192,7 @@ class OfPython(Judge):
         """Run it; a package that cannot be imported tells nothing."""
         del build
         folder = self.work / "python"
-        done = self.run(sys.executable, "-B", ROOT / "tests/conformance.py", folder, device, self.vectors[device])
+        done = self.run(sys.executable, "-B", ROOT / "tests/conformance", folder, device, self.vectors[device])
         if done.returncode and not done.stdout.strip():
             program = f"import sys; sys.path.insert(0, {str(folder)!r}); import {device}"
             if self.run(sys.executable, "-B", "-c", program).returncode:

@@ -84,7 +84,7 @@ def _is_for_people(node: ast.stmt) -> bool:
     if isinstance(node, ast.If):
         return isinstance(node.test, ast.Name) and node.test.id == "TYPE_CHECKING"
     if isinstance(node, ast.Assign):
-        return _is_literal_type(node.value) or _only_typed(node.targets[0])
+        return _is_literal_type(node.value) or _is_type_variable(node.value) or _only_typed(node.targets[0])
     return isinstance(node, ast.Import | ast.ImportFrom)
 
 
@@ -94,6 +94,10 @@ def _only_typed(target: ast.expr) -> bool:
 
 def _is_literal_type(value: ast.expr) -> bool:
     return isinstance(value, ast.Subscript) and isinstance(value.value, ast.Name) and value.value.id == "Literal"
+
+
+def _is_type_variable(value: ast.expr) -> bool:
+    return isinstance(value, ast.Call) and isinstance(value.func, ast.Name) and value.func.id == "TypeVar"
 
 
 def span(node: ast.expr | ast.stmt, starts: list[int], lines: list[bytes]) -> tuple[int, int]:

@@ -76,6 +76,12 @@ void prove_carries(uint8_t kind)
     (void)fieldscribe_can_carries(&message, kind);
 }
 
+void prove_ask(uint8_t unit, uint16_t address)
+{
+    hear(0U, 1U);
+    (void)fieldscribe_can_ask(&profile, &message, unit, address, &frame);
+}
+
 void prove_answer(uint8_t unit, uint16_t address)
 {
     hear(0U, 1U);

@@ -5,7 +5,7 @@ use fieldscribe_runtime::modbus::{crc, BuildError, Framing, Function, Profile, R
 use fieldscribe_runtime::{Error, Text};
 use rare::{points, Encodable, Point, Whole};
 
-static PROFILE: Profile = Profile::new(&[Function::new(3, 125), Function::new(16, 123)], &[Framing::Rtu], (1, 9), None, false);
+static PROFILE: Profile = Profile::new(&[Function::new(3, 125), Function::new(16, 123)], &[Framing::Rtu], (1, 9), None);
 
 /// Registers from 100 on.
 struct Registers([u16; 8]);

@@ -3033,15 +3033,15 @@ static const char *const telegrams[] = {
 };
 
 static const fieldscribe_blocks blocks[] = {
-    {"coils", hitachi_l200_coils_blocks, HITACHI_L200_COILS_BLOCKS_COUNT},
-    {"status", hitachi_l200_status_blocks, HITACHI_L200_STATUS_BLOCKS_COUNT},
-    {"monitor_d", hitachi_l200_monitor_d_blocks, HITACHI_L200_MONITOR_D_BLOCKS_COUNT},
-    {"basic_f", hitachi_l200_basic_f_blocks, HITACHI_L200_BASIC_F_BLOCKS_COUNT},
-    {"standard_a", hitachi_l200_standard_a_blocks, HITACHI_L200_STANDARD_A_BLOCKS_COUNT},
-    {"fine_tuning_b", hitachi_l200_fine_tuning_b_blocks, HITACHI_L200_FINE_TUNING_B_BLOCKS_COUNT},
-    {"control_c", hitachi_l200_control_c_blocks, HITACHI_L200_CONTROL_C_BLOCKS_COUNT},
-    {"motor_h", hitachi_l200_motor_h_blocks, HITACHI_L200_MOTOR_H_BLOCKS_COUNT},
-    {NULL, NULL, 0U}
+    {"coils", hitachi_l200_coils_blocks, HITACHI_L200_COILS_BLOCKS_COUNT, sizeof hitachi_l200_coils_blocks / sizeof hitachi_l200_coils_blocks[0]},
+    {"status", hitachi_l200_status_blocks, HITACHI_L200_STATUS_BLOCKS_COUNT, sizeof hitachi_l200_status_blocks / sizeof hitachi_l200_status_blocks[0]},
+    {"monitor_d", hitachi_l200_monitor_d_blocks, HITACHI_L200_MONITOR_D_BLOCKS_COUNT, sizeof hitachi_l200_monitor_d_blocks / sizeof hitachi_l200_monitor_d_blocks[0]},
+    {"basic_f", hitachi_l200_basic_f_blocks, HITACHI_L200_BASIC_F_BLOCKS_COUNT, sizeof hitachi_l200_basic_f_blocks / sizeof hitachi_l200_basic_f_blocks[0]},
+    {"standard_a", hitachi_l200_standard_a_blocks, HITACHI_L200_STANDARD_A_BLOCKS_COUNT, sizeof hitachi_l200_standard_a_blocks / sizeof hitachi_l200_standard_a_blocks[0]},
+    {"fine_tuning_b", hitachi_l200_fine_tuning_b_blocks, HITACHI_L200_FINE_TUNING_B_BLOCKS_COUNT, sizeof hitachi_l200_fine_tuning_b_blocks / sizeof hitachi_l200_fine_tuning_b_blocks[0]},
+    {"control_c", hitachi_l200_control_c_blocks, HITACHI_L200_CONTROL_C_BLOCKS_COUNT, sizeof hitachi_l200_control_c_blocks / sizeof hitachi_l200_control_c_blocks[0]},
+    {"motor_h", hitachi_l200_motor_h_blocks, HITACHI_L200_MOTOR_H_BLOCKS_COUNT, sizeof hitachi_l200_motor_h_blocks / sizeof hitachi_l200_motor_h_blocks[0]},
+    {NULL, NULL, 0U, 0U}
 };
 
 static void run_code(fieldscribe_vector *v)
@@ -3051,7 +3051,8 @@ static void run_code(fieldscribe_vector *v)
     FIELDSCRIBE_CODE_NUMBER("exception", "data_format_wrong", HITACHI_L200_EXCEPTION_DATA_FORMAT_WRONG)
     FIELDSCRIBE_CODE_NUMBER("exception", "value_out_of_range", HITACHI_L200_EXCEPTION_VALUE_OUT_OF_RANGE)
     FIELDSCRIBE_CODE_NUMBER("exception", "not_available", HITACHI_L200_EXCEPTION_NOT_AVAILABLE)
-    FIELDSCRIBE_DOCUMENTED("scaled_output_frequency", HITACHI_L200_SCALED_OUTPUT_FREQUENCY)
+    FIELDSCRIBE_DOCUMENTED_CODE("scaled_output_frequency", HITACHI_L200_SCALED_OUTPUT_FREQUENCY)
+    FIELDSCRIBE_DOCUMENTED("scaled_output_frequency", HITACHI_L200_SCALED_OUTPUT_FREQUENCY, )
     FIELDSCRIBE_COMMAND("enter", hitachi_l200_command_enter_request, HITACHI_L200_COMMAND_ENTER_VALUE)
     (void)v;
 }
@@ -3060,6 +3061,7 @@ int main(int argc, char **argv)
 {
     fieldscribe_suite suite;
     suite.device = "hitachi_l200";
+    suite.version = HITACHI_L200_DESCRIPTION_VERSION;
     suite.digest = HITACHI_L200_DESCRIPTION_DIGEST;
     suite.spaces = spaces;
     suite.statuses = statuses;

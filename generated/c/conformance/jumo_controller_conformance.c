@@ -337,10 +337,10 @@ static const char *const telegrams[] = {
 };
 
 static const fieldscribe_blocks blocks[] = {
-    {"process_data", jumo_controller_process_data_blocks, JUMO_CONTROLLER_PROCESS_DATA_BLOCKS_COUNT},
-    {"examples", jumo_controller_examples_blocks, JUMO_CONTROLLER_EXAMPLES_BLOCKS_COUNT},
-    {"command_words", jumo_controller_command_words_blocks, JUMO_CONTROLLER_COMMAND_WORDS_BLOCKS_COUNT},
-    {NULL, NULL, 0U}
+    {"process_data", jumo_controller_process_data_blocks, JUMO_CONTROLLER_PROCESS_DATA_BLOCKS_COUNT, sizeof jumo_controller_process_data_blocks / sizeof jumo_controller_process_data_blocks[0]},
+    {"examples", jumo_controller_examples_blocks, JUMO_CONTROLLER_EXAMPLES_BLOCKS_COUNT, sizeof jumo_controller_examples_blocks / sizeof jumo_controller_examples_blocks[0]},
+    {"command_words", jumo_controller_command_words_blocks, JUMO_CONTROLLER_COMMAND_WORDS_BLOCKS_COUNT, sizeof jumo_controller_command_words_blocks / sizeof jumo_controller_command_words_blocks[0]},
+    {NULL, NULL, 0U, 0U}
 };
 
 static void run_code(fieldscribe_vector *v)
@@ -355,6 +355,7 @@ int main(int argc, char **argv)
 {
     fieldscribe_suite suite;
     suite.device = "jumo_controller";
+    suite.version = JUMO_CONTROLLER_DESCRIPTION_VERSION;
     suite.digest = JUMO_CONTROLLER_DESCRIPTION_DIGEST;
     suite.spaces = spaces;
     suite.statuses = statuses;

@@ -19,7 +19,6 @@ class Command:
     def __init__(self, *, at: Place, value: int | None = None) -> None:
         self.at = at
         self.value = value
-        self.name = ""
 
     def __set_name__(self, owner: type, name: str) -> None:
         self.name = name

@@ -34,8 +34,8 @@ def _is_nan(value: float) -> bool:
 class Scaled(Form[float, float]):
     """A quantity: raw = value by a rule, or by the first of several cases that fits.
 
-    With `decimals` None no 64-bit integer holds its counts, and there are none. Unless it `encodes`, its raw numbers
-    have more bits than a float, and values are only decoded. Raw numbers beyond `most` in size overflow.
+    With `decimals` None no 64-bit integer holds its counts, and there are none. Unless it `encodes`, numbers of its
+    scale have more bits than a float, and values are only decoded. Raw numbers beyond `most` in size overflow.
     """
 
     def __init__(
@@ -72,7 +72,9 @@ class Scaled(Form[float, float]):
     def converted(self, value: float, raws: Raws) -> int | None:
         """Rounded to nearest, halves away from zero."""
         if not self.encodes:
-            raise WrongTypeError("raw numbers have more than 53 bits, so values are only decoded: use raw numbers")
+            raise WrongTypeError(
+                "numbers of this scale have more than 53 bits, so values are only decoded: use raw numbers"
+            )
         try:
             if _is_nan(value):
                 raise NotANumberError("the value is NaN")

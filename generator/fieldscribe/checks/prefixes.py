@@ -45,7 +45,7 @@ HEADER = frozenset(
         "quotient",
     }
     | {"raw_from_count", "count_from_raw", "times", "times_wide", "round", "round_wide", "copy", "f32_of_bits"}
-    | {"bits_of_f32", "f64_of_bits", "bits_of_f64", "is_nan", "raw_from_value", "value_from_raw"}
+    | {"bits_of_f32", "f64_of_bits", "bits_of_f64", "is_nan", "raw_from_value", "value_from_raw", "value_from_wide"}
     | {"f32_order", "f64_order"}
     | {"modbus_functions", "modbus_profile", "can_h", "can_bitrate", "can_profile", "uss_h", "uss_profile"}
     | {"split_f32", "twice_ratio", "shifted_ratio", "apply_shifted", "two_to"}

@@ -25,11 +25,13 @@ class Paths(NamedTuple):
     """The k of the point's counts (None where no 64-bit integer holds them), and whether values can be encoded.
 
     `most_raw` is the largest size of a raw number for which a scale with factors is exact, where the type goes beyond.
+    `raw_alone` says that the scale itself needs more than 64 bits: nothing is computed.
     """
 
     decimals: int | None
     encodes_values: bool = True
     most_raw: int | None = None
+    raw_alone: bool = False
 
 
 class _Needs(NamedTuple):
@@ -68,10 +70,17 @@ def paths_of(draft: Draft, cases: tuple[ScaleCase, ...] | None, bounds: Bounds) 
         return Paths(0)
     chosen = _is_chosen(cases)
     needs = [_needs(case.rule, _largest(draft, bounds), bounds, chosen=chosen) for case in cases]
+    widest = max(one.constant for one in needs)
+    if widest >= _WORD:
+        bits = widest.bit_length()
+        message = (
+            f"this scale needs integers of {bits} bits, and code computes with 63: the point has raw numbers alone"
+        )
+        report.warning("wide-scale", message, draft.span("scale"), _way_out(cases, bounds))
+        return Paths(None, encodes_values=False, raw_alone=True)
     encodes = all(one.encodes for one in needs)
-    if not _sound(needs):
-        report.error("float-path", _too_wide(needs), draft.span("scale"), _way_out(draft, cases, bounds))
-    return Paths(_decimals(draft, cases, bounds, needs), encodes, _most_raw(draft, cases, bounds))
+    decimals = _decimals(draft, cases, bounds, needs)
+    return Paths(decimals, encodes, _most_raw(draft, cases, bounds, _largest_numerator(decimals, encodes=encodes)))
 
 
 def _is_chosen(cases: tuple[ScaleCase, ...]) -> bool:
@@ -85,13 +94,20 @@ def _largest(draft: Draft, bounds: Bounds) -> int:
     return raw if raw < 1 << 33 else max(map(abs, bounds.own_hull(draft)))
 
 
-def _most_raw(draft: Draft, cases: tuple[ScaleCase, ...], bounds: Bounds) -> int | None:
+def _largest_numerator(decimals: int | None, *, encodes: bool) -> int | None:
+    """The largest numerator that all ways to compute a point take; None where a division of 128 bits takes any."""
+    counts = None if decimals is None else _INT64 // (2 * 10**decimals)
+    limits = [limit for limit in (_EXACT if encodes else None, counts) if limit is not None]
+    return min(limits, default=None)
+
+
+def _most_raw(draft: Draft, cases: tuple[ScaleCase, ...], bounds: Bounds, numerator: int | None) -> int | None:
     """How large raw numbers may be, whatever the factors are; None if that is as large as the type allows."""
-    if not _is_chosen(cases):
+    if not _is_chosen(cases) or numerator is None:
         return None
     least = _largest(draft, bounds)
     parts = [(case.rule.offset, _needs(case.rule, 0, bounds, chosen=True).down) for case in cases]
-    most = min((_EXACT // down - abs(offset.numerator)) // offset.denominator for offset, down in parts)
+    most = min((numerator // down - abs(offset.numerator)) // offset.denominator for offset, down in parts)
     return None if most >= max(map(abs, bounds.holds[draft])) else max(least, most)
 
 
@@ -115,46 +131,25 @@ def _decimals(draft: Draft, cases: tuple[ScaleCase, ...], bounds: Bounds, needs:
     return said if fits else None
 
 
-def _sound(needs: list[_Needs]) -> bool:
-    """Whether there is a way to compute: constants in 63 bits, and what points hold at run time in 53."""
-    return all(one.constant < _WORD and (one.fixed or one.encodes) for one in needs)
-
-
-def _too_wide(needs: list[_Needs]) -> str:
-    """What does not fit, and into what."""
-    widest = max(one.constant for one in needs).bit_length()
-    if all(one.fixed for one in needs):
-        return f"the constants of this scale have {widest} bits, and code computes with 63"
-    widest = max(widest, max(one.numerator for one in needs).bit_length())
-    return f"with what its points may hold this scale needs {widest} bits, and floating point is exact up to 53"
-
-
-def _way_out(draft: Draft, cases: tuple[ScaleCase, ...], bounds: Bounds) -> str:
-    """What to do where the steps of a scale do not fit: something that leads into no other fault."""
+def _way_out(cases: tuple[ScaleCase, ...], bounds: Bounds) -> str:
+    """What to do where the integers of a scale do not fit: something that leads into no other fault."""
     factors = [factor for case in cases for factor in case.rule.factors]
-    used = {bounds.scales.index.by_item(factor.point).name for factor in factors}
-    chosen = _is_chosen(cases)
-
-    def fits(most: int, raw: int) -> bool:
-        return _sound([_needs(case.rule, raw, bounds, chosen=chosen, limit=most) for case in cases])
-
-    if not used:
-        other = "take the unit with another prefix (kW, mm), which brings the factor nearer to 1; or leave `scale` out"
-        return f"give `{draft.name}` a narrower `range`" if chosen and fits(0, 1) else other
-
-    names = " and ".join(f"`{name}`" for name in sorted(used))
-    tens = [factor.ten_to for factor in factors]
-    tries = range(MOST_EXPONENT, 0, -1) if all(tens) else [(1 << bits) - 1 for bits in range(63, 0, -1)]
-    room = (
-        None if any(tens) and not all(tens) else next((one for one in tries if fits(one, _largest(draft, bounds))), 0)
+    names = " and ".join(
+        f"`{name}`" for name in sorted({bounds.scales.index.by_item(one.point).name for one in factors})
     )
-    if room is None or room > 1:
-        within = "" if room is None else f" within -{room}..{room}" if all(tens) else f" that ends at {room} at most"
-        return f"give {names} a narrower `range`{within}"
-    if fits(1, 1):
-        held = "what they hold at most, multiplied, has to stay below 2^53"
-        return f"give `{draft.name}` and {names} narrower ranges: {held}"
-    return "take the unit with another prefix (kW, mm), which brings the factor nearer to 1; or leave `scale` out"
+    tens = [factor.ten_to for factor in factors]
+
+    def fits(most: int) -> bool:
+        return all(_needs(case.rule, 0, bounds, chosen=True, limit=most).constant < _WORD for case in cases)
+
+    if any(tens) and not all(tens):
+        return f"for values give {names} a narrower `range`"
+    tries = range(MOST_EXPONENT, 0, -1) if any(tens) else [(1 << bits) - 1 for bits in range(63, 0, -1)]
+    room = next((one for one in tries if fits(one)), 0) if factors else 0
+    if room > 1:
+        within = f"within -{room}..{room}" if any(tens) else f"that ends at {room} at most"
+        return f"for values give {names} a narrower `range` {within}"
+    return "for values take the unit with another prefix (kW, mm), which brings the factor nearer to 1"
 
 
 def _fit(needs: list[_Needs], decimals: int) -> bool:

@@ -104,7 +104,7 @@ def _point(scope: Scope, draft: Draft, shape: Shape, places: Places, ranges: Ran
     paths = paths_of(draft, cases, ranges.bounds)
     access = places.access(draft, shape.space)
     writable = "w" in access
-    reason = _reason(draft, place is not None, access)
+    reason = _reason(draft, place is not None, access, raw_alone=paths.raw_alone)
     return Point(
         name=draft.name,
         variant=draft.variant,
@@ -168,7 +168,7 @@ def _cases(draft: Draft, bounds: Bounds) -> tuple[ScaleCase, ...] | None:
     return cases
 
 
-def _reason(draft: Draft, has_place: bool, access: str) -> str | None:
+def _reason(draft: Draft, has_place: bool, access: str, *, raw_alone: bool) -> str | None:
     if not has_place:
         return "the manual prints no address"
     if draft.get("reserved", False):
@@ -177,6 +177,8 @@ def _reason(draft: Draft, has_place: bool, access: str) -> str | None:
         return "no type says its encoding" if draft.untyped else "the manual does not settle its type"
     if draft.layer("scale") is not None and draft.get("scale") is None:
         return "the manual does not settle its scale"
+    if raw_alone:
+        return "its scale needs integers of more than 63 bits"
     return "not reachable over the bus" if access == "none" else None
 
 

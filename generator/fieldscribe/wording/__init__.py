@@ -116,10 +116,10 @@ def resolution_text(point: Point) -> str:
 
 def width_texts(point: Point) -> tuple[str, ...]:
     """What a scaled point does not have because its numbers are too wide: sentences without a stop."""
-    if point.form != "scaled":
+    if point.form != "scaled" or not point.generated:
         return ()
     counts = ("no integer path: its counts need more than 64 bits",) if point.decimals is None else ()
-    values = () if point.encodes_values else ("values are only decoded: raw numbers have more than 53 bits",)
+    values = () if point.encodes_values else ("values are only decoded: its numbers have more than 53 bits",)
     return counts + values
 
 

@@ -1,5 +1,5 @@
 // error: E0277
-// Raw numbers with more than 53 bits have no values that could be encoded.
+// Scales with numbers of more than 53 bits have no values that could be encoded.
 
 use kitchen_sink::{points::EnergyTotal, Encodable};
 

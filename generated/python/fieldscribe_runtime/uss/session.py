@@ -70,7 +70,7 @@ class UssSession(Session):
             return divmod(reply.value, 0x10000) if reply.width == 2 else (reply.value,)
         if self._is_sent(place):
             return self._chosen(self._words(self._sent), place)
-        self._chosen((0,) * self.link.pzd, place)  # raises if the link does not carry them
+        self._chosen(self._words({}), place)  # raises if the link does not carry them
         reply = yield from self._exchange_steps(Request(self.unit), self._sent)
         return self._chosen(reply.words, place)
 
@@ -101,7 +101,7 @@ class UssSession(Session):
             raise RequestError("bad_space", f"the words of {place.telegram} come from the device")
         if len(values) != len(place.addresses):
             raise RequestError("bad_value", f"{len(values)} words do not fill {len(place.addresses)}")
-        self._chosen((0,) * self.link.pzd, place)  # raises if the link does not carry them
+        self._chosen(self._words({}), place)  # raises if the link does not carry them
         sent = {**self._sent, **dict(zip(sorted(place.addresses), values, strict=True))}
         request = Request(self.unit, words=self._words(sent))
         check_request(request, self.PROFILE, self.link)  # what raises here was not sent: the old words still hold
@@ -130,8 +130,9 @@ class UssSession(Session):
             if mask[0] >> at + 1 & 1 and chosen[at] & fixed != bits:
                 text = f"word {at + 1} is {chosen[at]:04X}h and has not {bits:04X}h in {fixed:04X}h"
                 raise RequestError("bad_value", text)
-        if missing := self._constants.get(0, (0, 0))[1] & ~mask[1]:
-            raise RequestError("bad_value", f"the mask leaves out {missing:04X}h of the first word, which has to count")
+            if at == 0 and (missing := bits & ~mask[1]):
+                text = f"the mask leaves out {missing:04X}h of the first word, which has to count"
+                raise RequestError("bad_value", text)
         self._sent = {}
         try:
             yield request

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: 0BSD
 //! What a point is. Each point of a device is a type that implements [`Point`] and what its access allows.
 
-use crate::arithmetic::insert;
+use crate::arithmetic::{extract, extract_signed, insert};
 use crate::{Error, Raw, Rule};
 
 /// Where the words of a point are that is documented only: nothing says what they mean.
@@ -143,6 +143,20 @@ pub trait BitGroup: Point<Raw: Raw<Words = [u16; 1]>> {
     }
 }
 
+/// The bits of the group in `word`, right-aligned.
+#[must_use]
+#[inline]
+pub fn group<P: BitGroup>(word: u16) -> u16 {
+    extract(word, P::SHIFT, P::MASK)
+}
+
+/// The bits of the group in `word` as a number in two's complement, right-aligned, the sign in all upper bits.
+#[must_use]
+#[inline]
+pub fn signed_group<P: BitGroup>(word: u16) -> u16 {
+    extract_signed(word, P::SHIFT, P::MASK)
+}
+
 /// A word whose decimal digits each mean something.
 pub trait Digits: Point {
     /// The numbers that each digit may be.
@@ -231,7 +245,7 @@ pub trait Writable: Point {
     }
 }
 
-/// A point whose values can be encoded: all that are written, but for raw numbers of more than 53 bits with a scale.
+/// A point whose values can be encoded: all that are written, but for scales with numbers of more than 53 bits.
 pub trait Encodable: Writable {
     /// The raw number of a value: nearest, halves away from zero, then checked.
     ///
@@ -277,7 +291,7 @@ pub trait CountWritable: Writable {
     /// The raw number of a count: nearest, halves away from zero, then checked.
     ///
     /// # Errors
-    /// As [`Writable::encode_with`].
+    /// As [`Encodable::encode_with`].
     fn encode_count_with(count: Self::Count, with: Self::With) -> Result<Self::Raw, Error>;
 
     /// As [`CountWritable::encode_count_with`], for a point that needs no other.

@@ -32,7 +32,7 @@ pub const VERSION: &str = "1.0.0";
 pub const DIGEST: &str = "2ca9292486a7a265c8ee6cc24746f983f869766d4aec317483fcd4bcbb02171e";
 
 /// What the frames need to know of the device.
-pub static PROFILE: Profile = Profile::new(FUNCTIONS, FRAMINGS, (1, 32), Some(0), true);
+pub static PROFILE: Profile = Profile::new(FUNCTIONS, FRAMINGS, (1, 32), Some(0)).padding_coils();
 
 const FRAMINGS: &[Framing] = &[Framing::Rtu];
 

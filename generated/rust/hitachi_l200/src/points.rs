@@ -1375,7 +1375,7 @@ impl runtime::CountWritable for NetworkFrequencySetpoint {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -1524,7 +1524,7 @@ impl runtime::CountWritable for NetworkProcessValue {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 1000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -2950,7 +2950,7 @@ impl runtime::CountWritable for AccelerationTime {
     fn encode_count_with(count: i64, (): ()) -> Result<u32, runtime::Error> {
         let count = arithmetic::within(count, 1, 300_000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -3031,7 +3031,7 @@ impl runtime::CountWritable for AccelerationTimeSet2 {
     fn encode_count_with(count: i64, (): ()) -> Result<u32, runtime::Error> {
         let count = arithmetic::within(count, 1, 300_000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -3112,7 +3112,7 @@ impl runtime::CountWritable for DecelerationTime {
     fn encode_count_with(count: i64, (): ()) -> Result<u32, runtime::Error> {
         let count = arithmetic::within(count, 1, 300_000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -3193,7 +3193,7 @@ impl runtime::CountWritable for DecelerationTimeSet2 {
     fn encode_count_with(count: i64, (): ()) -> Result<u32, runtime::Error> {
         let count = arithmetic::within(count, 1, 300_000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -4047,7 +4047,7 @@ impl runtime::CountWritable for InputOMinimumFrequency {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -4123,7 +4123,7 @@ impl runtime::CountWritable for InputOMaximumFrequency {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -4498,7 +4498,7 @@ impl runtime::CountWritable for BaseFrequency {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -4574,7 +4574,7 @@ impl runtime::CountWritable for BaseFrequencySet2 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -4652,7 +4652,7 @@ impl runtime::CountWritable for FixedFrequency1 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -4728,7 +4728,7 @@ impl runtime::CountWritable for FixedFrequency2 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -4804,7 +4804,7 @@ impl runtime::CountWritable for FixedFrequency3 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -4880,7 +4880,7 @@ impl runtime::CountWritable for FixedFrequency4 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -4958,7 +4958,7 @@ impl runtime::CountWritable for FixedFrequency5 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -5034,7 +5034,7 @@ impl runtime::CountWritable for FixedFrequency6 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -5110,7 +5110,7 @@ impl runtime::CountWritable for FixedFrequency7 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -5186,7 +5186,7 @@ impl runtime::CountWritable for FixedFrequency8 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -5262,7 +5262,7 @@ impl runtime::CountWritable for FixedFrequency9 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -5338,7 +5338,7 @@ impl runtime::CountWritable for FixedFrequency10 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -5416,7 +5416,7 @@ impl runtime::CountWritable for FixedFrequency11 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -5492,7 +5492,7 @@ impl runtime::CountWritable for FixedFrequency12 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -5568,7 +5568,7 @@ impl runtime::CountWritable for FixedFrequency13 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -5644,7 +5644,7 @@ impl runtime::CountWritable for FixedFrequency14 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -5720,7 +5720,7 @@ impl runtime::CountWritable for FixedFrequency15 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -5796,7 +5796,7 @@ impl runtime::CountWritable for JogFrequency {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 999)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -6093,7 +6093,7 @@ impl runtime::CountWritable for ManualBoost {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 200)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -6169,7 +6169,7 @@ impl runtime::CountWritable for ManualBoostSet2 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 200)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -6245,7 +6245,7 @@ impl runtime::CountWritable for ManualBoostFrequency {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 500)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -6321,7 +6321,7 @@ impl runtime::CountWritable for ManualBoostFrequencySet2 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 500)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -6853,7 +6853,7 @@ impl runtime::CountWritable for DcBrakeDelay {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 50)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -7003,7 +7003,7 @@ impl runtime::CountWritable for DcBrakeTime {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 600)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -7654,7 +7654,7 @@ impl runtime::CountWritable for JumpFrequency1 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -7730,7 +7730,7 @@ impl runtime::CountWritable for JumpFrequency1Width {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 100)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -7806,7 +7806,7 @@ impl runtime::CountWritable for JumpFrequency2 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -7882,7 +7882,7 @@ impl runtime::CountWritable for JumpFrequency2Width {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 100)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -7958,7 +7958,7 @@ impl runtime::CountWritable for JumpFrequency3 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -8034,7 +8034,7 @@ impl runtime::CountWritable for JumpFrequency3Width {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 100)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -8183,7 +8183,7 @@ impl runtime::CountWritable for PidProportionalGain {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 2, 50)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -8259,7 +8259,7 @@ impl runtime::CountWritable for PidIntegralTime {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 1500)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -8335,7 +8335,7 @@ impl runtime::CountWritable for PidDerivativeTime {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 1000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -8411,7 +8411,7 @@ impl runtime::CountWritable for PidDisplayFactor {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 1, 9999)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -8635,7 +8635,7 @@ impl runtime::CountWritable for PidOutputLimit {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 1000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -8864,7 +8864,7 @@ impl runtime::CountWritable for AccelerationTime2 {
     fn encode_count_with(count: i64, (): ()) -> Result<u32, runtime::Error> {
         let count = arithmetic::within(count, 1, 300_000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -8945,7 +8945,7 @@ impl runtime::CountWritable for DecelerationTime2 {
     fn encode_count_with(count: i64, (): ()) -> Result<u32, runtime::Error> {
         let count = arithmetic::within(count, 1, 300_000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -9026,7 +9026,7 @@ impl runtime::CountWritable for DecelerationTime2Set2 {
     fn encode_count_with(count: i64, (): ()) -> Result<u32, runtime::Error> {
         let count = arithmetic::within(count, 1, 300_000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -9252,7 +9252,7 @@ impl runtime::CountWritable for AccelerationChangeFrequency {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -9328,7 +9328,7 @@ impl runtime::CountWritable for AccelerationChangeFrequencySet2 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -9404,7 +9404,7 @@ impl runtime::CountWritable for DecelerationChangeFrequency {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -9480,7 +9480,7 @@ impl runtime::CountWritable for DecelerationChangeFrequencySet2 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -9704,7 +9704,7 @@ impl runtime::CountWritable for InputOiMinimumFrequency {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -9780,7 +9780,7 @@ impl runtime::CountWritable for InputOiMaximumFrequency {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -10304,7 +10304,7 @@ impl runtime::CountWritable for FrequencyOffset {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -10455,7 +10455,7 @@ impl runtime::CountWritable for PotentiometerMinimumFrequency {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -10531,7 +10531,7 @@ impl runtime::CountWritable for PotentiometerMaximumFrequency {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -10906,7 +10906,7 @@ impl runtime::CountWritable for AllowedPowerFailureTime {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 3, 250)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -10983,7 +10983,7 @@ impl runtime::CountWritable for RestartDelay {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 3, 1000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -11208,7 +11208,7 @@ impl runtime::CountWritable for MotorProtectionLevel {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 2000, 12_000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -11285,7 +11285,7 @@ impl runtime::CountWritable for MotorProtectionLevelSet2 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 2000, 12_000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -11660,7 +11660,7 @@ impl runtime::CountWritable for CurrentLimitLevel {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 1000, 15_000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -11739,7 +11739,7 @@ impl runtime::CountWritable for CurrentLimitLevelSet2 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 1000, 15_000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -11818,7 +11818,7 @@ impl runtime::CountWritable for CurrentLimitTime {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 1, 300)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -11897,7 +11897,7 @@ impl runtime::CountWritable for CurrentLimitTimeSet2 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 1, 300)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -12268,7 +12268,7 @@ impl runtime::CountWritable for StartFrequency {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 5, 99)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -12347,7 +12347,7 @@ impl runtime::CountWritable for CarrierFrequency {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 20, 140)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -12496,7 +12496,7 @@ impl runtime::CountWritable for FrequencyDisplayFactor {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 1, 999)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -14736,7 +14736,7 @@ impl runtime::CountWritable for OverloadAlarmLevel {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 20_000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -14814,7 +14814,7 @@ impl runtime::CountWritable for OverloadAlarmLevelSet2 {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 20_000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -14892,7 +14892,7 @@ impl runtime::CountWritable for ArrivalFrequencyAcceleration {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -14968,7 +14968,7 @@ impl runtime::CountWritable for ArrivalFrequencyDeceleration {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 4000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -15044,7 +15044,7 @@ impl runtime::CountWritable for PidDeviationLevel {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 1000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -15120,7 +15120,7 @@ impl runtime::CountWritable for PidProcessValueUpperLimit {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 1000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -15196,7 +15196,7 @@ impl runtime::CountWritable for PidProcessValueLowerLimit {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 1000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -15272,7 +15272,7 @@ impl runtime::CountWritable for InputOCalibration {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 2000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -15348,7 +15348,7 @@ impl runtime::CountWritable for InputOiCalibration {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 2000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -15424,7 +15424,7 @@ impl runtime::CountWritable for ThermistorInputCalibration {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 2000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -15500,7 +15500,7 @@ impl runtime::CountWritable for AnalogOutputOffset {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 100)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -15945,7 +15945,7 @@ impl runtime::CountWritable for DigitalOutput11OnDelay {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 1000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -16021,7 +16021,7 @@ impl runtime::CountWritable for DigitalOutput11OffDelay {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 1000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -16097,7 +16097,7 @@ impl runtime::CountWritable for DigitalOutput12OnDelay {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 1000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -16173,7 +16173,7 @@ impl runtime::CountWritable for DigitalOutput12OffDelay {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 1000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -16249,7 +16249,7 @@ impl runtime::CountWritable for RelayOutputOnDelay {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 1000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -16325,7 +16325,7 @@ impl runtime::CountWritable for RelayOutputOffDelay {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 1000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 

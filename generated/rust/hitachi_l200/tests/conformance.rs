@@ -963,14 +963,14 @@ table! { special_name special_name {
 } }
 
 table! { flag flag {
-    "digital_inputs input_1" DigitalInputs (on u16 input_1 with_input_1);
-    "digital_inputs input_2" DigitalInputs (on u16 input_2 with_input_2);
-    "digital_inputs input_3" DigitalInputs (on u16 input_3 with_input_3);
-    "digital_inputs input_4" DigitalInputs (on u16 input_4 with_input_4);
-    "digital_inputs input_5" DigitalInputs (on u16 input_5 with_input_5);
-    "digital_outputs output_11" DigitalOutputs (on u16 output_11 with_output_11);
-    "digital_outputs output_12" DigitalOutputs (on u16 output_12 with_output_12);
-    "digital_outputs relay_al" DigitalOutputs (on u16 relay_al with_relay_al);
+    "digital_inputs input_1" DigitalInputs (flag u16 input_1 with_input_1);
+    "digital_inputs input_2" DigitalInputs (flag u16 input_2 with_input_2);
+    "digital_inputs input_3" DigitalInputs (flag u16 input_3 with_input_3);
+    "digital_inputs input_4" DigitalInputs (flag u16 input_4 with_input_4);
+    "digital_inputs input_5" DigitalInputs (flag u16 input_5 with_input_5);
+    "digital_outputs output_11" DigitalOutputs (flag u16 output_11 with_output_11);
+    "digital_outputs output_12" DigitalOutputs (flag u16 output_12 with_output_12);
+    "digital_outputs relay_al" DigitalOutputs (flag u16 relay_al with_relay_al);
 } }
 
 table! { flag_name flag_name {
@@ -1235,6 +1235,130 @@ table! { address address {
     "motor_poles_set_2" MotorPolesSet2 (at MODICON "modicon" REFERENCE "reference");
     "stabilization_constant" StabilizationConstant (at MODICON "modicon" REFERENCE "reference");
     "stabilization_constant_set_2" StabilizationConstantSet2 (at MODICON "modicon" REFERENCE "reference");
+} }
+
+table! { symbol symbol {
+    "network_frequency_setpoint" NetworkFrequencySetpoint (alone);
+    "network_process_value" NetworkProcessValue (alone);
+    "output_frequency" OutputFrequency (alone);
+    "motor_current" MotorCurrent (alone);
+    "scaled_process_value" ScaledProcessValue (alone);
+    "output_voltage" OutputVoltage (alone);
+    "run_time" RunTime (alone);
+    "power_on_time" PowerOnTime (alone);
+    "trip_1_output_frequency" Trip1OutputFrequency (alone);
+    "trip_1_motor_current" Trip1MotorCurrent (alone);
+    "trip_1_dc_bus_voltage" Trip1DcBusVoltage (alone);
+    "trip_1_run_time" Trip1RunTime (alone);
+    "trip_1_power_on_time" Trip1PowerOnTime (alone);
+    "trip_2_output_frequency" Trip2OutputFrequency (alone);
+    "trip_2_motor_current" Trip2MotorCurrent (alone);
+    "trip_2_dc_bus_voltage" Trip2DcBusVoltage (alone);
+    "trip_2_run_time" Trip2RunTime (alone);
+    "trip_2_power_on_time" Trip2PowerOnTime (alone);
+    "trip_3_output_frequency" Trip3OutputFrequency (alone);
+    "trip_3_motor_current" Trip3MotorCurrent (alone);
+    "trip_3_dc_bus_voltage" Trip3DcBusVoltage (alone);
+    "trip_3_run_time" Trip3RunTime (alone);
+    "trip_3_power_on_time" Trip3PowerOnTime (alone);
+    "acceleration_time" AccelerationTime (alone);
+    "acceleration_time_set_2" AccelerationTimeSet2 (alone);
+    "deceleration_time" DecelerationTime (alone);
+    "deceleration_time_set_2" DecelerationTimeSet2 (alone);
+    "motor_rated_frequency" MotorRatedFrequency (alone);
+    "motor_rated_frequency_set_2" MotorRatedFrequencySet2 (alone);
+    "maximum_frequency" MaximumFrequency (alone);
+    "maximum_frequency_set_2" MaximumFrequencySet2 (alone);
+    "input_o_minimum_frequency" InputOMinimumFrequency (alone);
+    "input_o_maximum_frequency" InputOMaximumFrequency (alone);
+    "input_o_minimum_setpoint" InputOMinimumSetpoint (alone);
+    "input_o_maximum_setpoint" InputOMaximumSetpoint (alone);
+    "base_frequency" BaseFrequency (alone);
+    "base_frequency_set_2" BaseFrequencySet2 (alone);
+    "fixed_frequency_1" FixedFrequency1 (alone);
+    "fixed_frequency_2" FixedFrequency2 (alone);
+    "fixed_frequency_3" FixedFrequency3 (alone);
+    "fixed_frequency_4" FixedFrequency4 (alone);
+    "fixed_frequency_5" FixedFrequency5 (alone);
+    "fixed_frequency_6" FixedFrequency6 (alone);
+    "fixed_frequency_7" FixedFrequency7 (alone);
+    "fixed_frequency_8" FixedFrequency8 (alone);
+    "fixed_frequency_9" FixedFrequency9 (alone);
+    "fixed_frequency_10" FixedFrequency10 (alone);
+    "fixed_frequency_11" FixedFrequency11 (alone);
+    "fixed_frequency_12" FixedFrequency12 (alone);
+    "fixed_frequency_13" FixedFrequency13 (alone);
+    "fixed_frequency_14" FixedFrequency14 (alone);
+    "fixed_frequency_15" FixedFrequency15 (alone);
+    "jog_frequency" JogFrequency (alone);
+    "manual_boost" ManualBoost (alone);
+    "manual_boost_set_2" ManualBoostSet2 (alone);
+    "manual_boost_frequency" ManualBoostFrequency (alone);
+    "manual_boost_frequency_set_2" ManualBoostFrequencySet2 (alone);
+    "output_voltage_setting" OutputVoltageSetting (alone);
+    "output_voltage_setting_set_2" OutputVoltageSettingSet2 (alone);
+    "dc_brake_frequency" DcBrakeFrequency (alone);
+    "dc_brake_delay" DcBrakeDelay (alone);
+    "dc_brake_torque" DcBrakeTorque (alone);
+    "dc_brake_time" DcBrakeTime (alone);
+    "upper_frequency_limit" UpperFrequencyLimit (alone);
+    "upper_frequency_limit_set_2" UpperFrequencyLimitSet2 (alone);
+    "lower_frequency_limit" LowerFrequencyLimit (alone);
+    "lower_frequency_limit_set_2" LowerFrequencyLimitSet2 (alone);
+    "jump_frequency_1" JumpFrequency1 (alone);
+    "jump_frequency_1_width" JumpFrequency1Width (alone);
+    "jump_frequency_2" JumpFrequency2 (alone);
+    "jump_frequency_2_width" JumpFrequency2Width (alone);
+    "jump_frequency_3" JumpFrequency3 (alone);
+    "jump_frequency_3_width" JumpFrequency3Width (alone);
+    "pid_integral_time" PidIntegralTime (alone);
+    "pid_derivative_time" PidDerivativeTime (alone);
+    "pid_output_limit" PidOutputLimit (alone);
+    "acceleration_time_2" AccelerationTime2 (alone);
+    "deceleration_time_2" DecelerationTime2 (alone);
+    "deceleration_time_2_set_2" DecelerationTime2Set2 (alone);
+    "acceleration_change_frequency" AccelerationChangeFrequency (alone);
+    "acceleration_change_frequency_set_2" AccelerationChangeFrequencySet2 (alone);
+    "deceleration_change_frequency" DecelerationChangeFrequency (alone);
+    "deceleration_change_frequency_set_2" DecelerationChangeFrequencySet2 (alone);
+    "input_oi_minimum_frequency" InputOiMinimumFrequency (alone);
+    "input_oi_maximum_frequency" InputOiMaximumFrequency (alone);
+    "input_oi_minimum_setpoint" InputOiMinimumSetpoint (alone);
+    "input_oi_maximum_setpoint" InputOiMaximumSetpoint (alone);
+    "frequency_offset" FrequencyOffset (alone);
+    "potentiometer_minimum_frequency" PotentiometerMinimumFrequency (alone);
+    "potentiometer_maximum_frequency" PotentiometerMaximumFrequency (alone);
+    "potentiometer_minimum_setpoint" PotentiometerMinimumSetpoint (alone);
+    "potentiometer_maximum_setpoint" PotentiometerMaximumSetpoint (alone);
+    "allowed_power_failure_time" AllowedPowerFailureTime (alone);
+    "restart_delay" RestartDelay (alone);
+    "motor_protection_level" MotorProtectionLevel (alone);
+    "motor_protection_level_set_2" MotorProtectionLevelSet2 (alone);
+    "current_limit_level" CurrentLimitLevel (alone);
+    "current_limit_level_set_2" CurrentLimitLevelSet2 (alone);
+    "current_limit_time" CurrentLimitTime (alone);
+    "current_limit_time_set_2" CurrentLimitTimeSet2 (alone);
+    "start_frequency" StartFrequency (alone);
+    "carrier_frequency" CarrierFrequency (alone);
+    "overvoltage_deceleration_level_200v" OvervoltageDecelerationLevel200v (alone);
+    "overvoltage_deceleration_level_400v" OvervoltageDecelerationLevel400v (alone);
+    "overload_alarm_level" OverloadAlarmLevel (alone);
+    "overload_alarm_level_set_2" OverloadAlarmLevelSet2 (alone);
+    "arrival_frequency_acceleration" ArrivalFrequencyAcceleration (alone);
+    "arrival_frequency_deceleration" ArrivalFrequencyDeceleration (alone);
+    "pid_deviation_level" PidDeviationLevel (alone);
+    "pid_process_value_upper_limit" PidProcessValueUpperLimit (alone);
+    "pid_process_value_lower_limit" PidProcessValueLowerLimit (alone);
+    "input_o_calibration" InputOCalibration (alone);
+    "input_oi_calibration" InputOiCalibration (alone);
+    "thermistor_input_calibration" ThermistorInputCalibration (alone);
+    "analog_output_offset" AnalogOutputOffset (alone);
+    "digital_output_11_on_delay" DigitalOutput11OnDelay (alone);
+    "digital_output_11_off_delay" DigitalOutput11OffDelay (alone);
+    "digital_output_12_on_delay" DigitalOutput12OnDelay (alone);
+    "digital_output_12_off_delay" DigitalOutput12OffDelay (alone);
+    "relay_output_on_delay" RelayOutputOnDelay (alone);
+    "relay_output_off_delay" RelayOutputOffDelay (alone);
 } }
 
 table! { read_by_read read {
@@ -1709,6 +1833,7 @@ fn run(kind: &str, vector: &runner::Vector) -> Option<runner::Outcome> {
         "bits" => bits(vector),
         "words" => words(vector),
         "address" => address(vector),
+        "symbol" => symbol(vector),
         "code" => code(vector),
         "command" => command(vector),
         "documented" => documented(vector),
@@ -1724,5 +1849,6 @@ fn run(kind: &str, vector: &runner::Vector) -> Option<runner::Outcome> {
 fn main() -> std::process::ExitCode {
     let folder = env!("CARGO_MANIFEST_DIR");
     let default = format!("{folder}/../../vectors/{}.txt", device::DEVICE);
-    runner::main(&default, run)
+    let device = [device::DEVICE, device::VERSION, device::DIGEST];
+    runner::main(&default, device, run)
 }

@@ -32,7 +32,7 @@ pub const VERSION: &str = "1.0.0";
 pub const DIGEST: &str = "c28edf3c3b77b3a050faf3eaaac31aa6f00afa37f3f452d1d1cd9b4d0ad474dd";
 
 /// What the frames need to know of the device.
-pub static PROFILE: Profile = Profile::new(FUNCTIONS, FRAMINGS, (1, 254), Some(0), false);
+pub static PROFILE: Profile = Profile::new(FUNCTIONS, FRAMINGS, (1, 254), Some(0));
 
 const FRAMINGS: &[Framing] = &[Framing::Rtu];
 

@@ -661,7 +661,7 @@ impl runtime::Writable for Setpoint1 {
     #[inline]
     fn check_with(raw: u32, (): ()) -> Result<(), runtime::Error> {
         let number = arithmetic::f32_number(raw)?;
-        let holds = (-3.402_823_466_385_288_6e38..=3.402_823_466_385_288_6e38).contains(&number);
+        let holds = number.is_finite();
         runtime::allowed(holds)
     }
 }
@@ -722,7 +722,7 @@ impl runtime::Writable for Setpoint2 {
     #[inline]
     fn check_with(raw: u32, (): ()) -> Result<(), runtime::Error> {
         let number = arithmetic::f32_number(raw)?;
-        let holds = (-3.402_823_466_385_288_6e38..=3.402_823_466_385_288_6e38).contains(&number);
+        let holds = number.is_finite();
         runtime::allowed(holds)
     }
 }
@@ -785,7 +785,7 @@ impl runtime::Writable for ProportionalBand1Set2 {
     #[inline]
     fn check_with(raw: u32, (): ()) -> Result<(), runtime::Error> {
         let number = arithmetic::f32_number(raw)?;
-        let holds = (-3.402_823_466_385_288_6e38..=3.402_823_466_385_288_6e38).contains(&number);
+        let holds = number.is_finite();
         runtime::allowed(holds)
     }
 }
@@ -836,7 +836,7 @@ impl runtime::Writable for Value0077 {
     #[inline]
     fn check_with(raw: u32, (): ()) -> Result<(), runtime::Error> {
         let number = arithmetic::f32_number(raw)?;
-        let holds = (-3.402_823_466_385_288_6e38..=3.402_823_466_385_288_6e38).contains(&number);
+        let holds = number.is_finite();
         runtime::allowed(holds)
     }
 }

@@ -95,67 +95,67 @@ table! { special_name special_name {
 } }
 
 table! { flag flag {
-    "program_status program_hold" ProgramStatus (on u16 program_hold with_program_hold);
-    "program_status basic_position" ProgramStatus (on u16 basic_position with_basic_position);
-    "program_status automatic_mode" ProgramStatus (on u16 automatic_mode with_automatic_mode);
-    "program_status program_end_signal" ProgramStatus (on u16 program_end_signal with_program_end_signal);
-    "program_status tolerance_band_signal" ProgramStatus (on u16 tolerance_band_signal with_tolerance_band_signal);
-    "binary_outputs binary_output_1" BinaryOutputs (on u16 binary_output_1 with_binary_output_1);
-    "binary_outputs binary_output_2" BinaryOutputs (on u16 binary_output_2 with_binary_output_2);
-    "binary_outputs binary_output_3" BinaryOutputs (on u16 binary_output_3 with_binary_output_3);
-    "binary_outputs binary_output_4" BinaryOutputs (on u16 binary_output_4 with_binary_output_4);
-    "binary_outputs binary_output_5" BinaryOutputs (on u16 binary_output_5 with_binary_output_5);
-    "binary_outputs binary_output_6" BinaryOutputs (on u16 binary_output_6 with_binary_output_6);
-    "binary_outputs binary_output_7" BinaryOutputs (on u16 binary_output_7 with_binary_output_7);
-    "binary_outputs binary_output_8" BinaryOutputs (on u16 binary_output_8 with_binary_output_8);
-    "binary_outputs binary_output_9" BinaryOutputs (on u16 binary_output_9 with_binary_output_9);
-    "binary_outputs binary_output_10" BinaryOutputs (on u16 binary_output_10 with_binary_output_10);
-    "binary_inputs binary_input_1" BinaryInputs (on u16 binary_input_1 with_binary_input_1);
-    "binary_inputs binary_input_2" BinaryInputs (on u16 binary_input_2 with_binary_input_2);
-    "binary_inputs binary_input_3" BinaryInputs (on u16 binary_input_3 with_binary_input_3);
-    "binary_inputs binary_input_4" BinaryInputs (on u16 binary_input_4 with_binary_input_4);
-    "binary_inputs binary_input_6" BinaryInputs (on u16 binary_input_6 with_binary_input_6);
-    "binary_inputs binary_input_5" BinaryInputs (on u16 binary_input_5 with_binary_input_5);
-    "binary_inputs binary_input_8" BinaryInputs (on u16 binary_input_8 with_binary_input_8);
-    "binary_inputs binary_input_7" BinaryInputs (on u16 binary_input_7 with_binary_input_7);
-    "control_contacts control_contact_1" ControlContacts (on u16 control_contact_1 with_control_contact_1);
-    "control_contacts control_contact_2" ControlContacts (on u16 control_contact_2 with_control_contact_2);
-    "control_contacts control_contact_3" ControlContacts (on u16 control_contact_3 with_control_contact_3);
-    "control_contacts control_contact_4" ControlContacts (on u16 control_contact_4 with_control_contact_4);
-    "binary_signals control_contact_1" BinarySignals (on u16 control_contact_1 with_control_contact_1);
-    "binary_signals control_contact_2" BinarySignals (on u16 control_contact_2 with_control_contact_2);
-    "binary_signals control_contact_3" BinarySignals (on u16 control_contact_3 with_control_contact_3);
-    "binary_signals control_contact_4" BinarySignals (on u16 control_contact_4 with_control_contact_4);
-    "binary_signals timer_1" BinarySignals (on u16 timer_1 with_timer_1);
-    "binary_signals timer_2" BinarySignals (on u16 timer_2 with_timer_2);
-    "binary_output_control output_1" BinaryOutputControl (on u16 output_1 with_output_1);
-    "binary_output_control output_2" BinaryOutputControl (on u16 output_2 with_output_2);
-    "binary_output_control output_3" BinaryOutputControl (on u16 output_3 with_output_3);
-    "binary_output_control output_4" BinaryOutputControl (on u16 output_4 with_output_4);
-    "binary_output_control output_5" BinaryOutputControl (on u16 output_5 with_output_5);
-    "binary_output_control output_6" BinaryOutputControl (on u16 output_6 with_output_6);
-    "binary_output_control output_7" BinaryOutputControl (on u16 output_7 with_output_7);
-    "binary_output_control output_8" BinaryOutputControl (on u16 output_8 with_output_8);
-    "binary_output_control output_9" BinaryOutputControl (on u16 output_9 with_output_9);
-    "binary_output_control output_10" BinaryOutputControl (on u16 output_10 with_output_10);
-    "program_controller_commands hold_program" ProgramControllerCommands (on u16 hold_program with_hold_program);
-    "program_controller_commands abort_program" ProgramControllerCommands (on u16 abort_program with_abort_program);
-    "program_controller_commands start_program" ProgramControllerCommands (on u16 start_program with_start_program);
-    "program_controller_commands change_section" ProgramControllerCommands (on u16 change_section with_change_section);
-    "controller_commands hold_ramp" ControllerCommands (on u16 hold_ramp with_hold_ramp);
-    "controller_commands abort_ramp" ControllerCommands (on u16 abort_ramp with_abort_ramp);
-    "controller_commands activate_manual_mode" ControllerCommands (on u16 activate_manual_mode with_activate_manual_mode);
-    "controller_commands automatic_mode" ControllerCommands (on u16 automatic_mode with_automatic_mode);
-    "controller_commands controller_off" ControllerCommands (on u16 controller_off with_controller_off);
-    "controller_commands start_self_optimisation" ControllerCommands (on u16 start_self_optimisation with_start_self_optimisation);
-    "controller_commands abort_self_optimisation" ControllerCommands (on u16 abort_self_optimisation with_abort_self_optimisation);
-    "operation_commands displays_off" OperationCommands (on u16 displays_off with_displays_off);
-    "operation_commands acknowledge_limit_comparators" OperationCommands (on u16 acknowledge_limit_comparators with_acknowledge_limit_comparators);
-    "operation_commands text_display" OperationCommands (on u16 text_display with_text_display);
-    "timer_commands hold_timer_1" TimerCommands (on u16 hold_timer_1 with_hold_timer_1);
-    "timer_commands abort_timer_1" TimerCommands (on u16 abort_timer_1 with_abort_timer_1);
-    "timer_commands start_timer_1" TimerCommands (on u16 start_timer_1 with_start_timer_1);
-    "timer_commands hold_timer_2" TimerCommands (on u16 hold_timer_2 with_hold_timer_2);
+    "program_status program_hold" ProgramStatus (flag u16 program_hold with_program_hold);
+    "program_status basic_position" ProgramStatus (flag u16 basic_position with_basic_position);
+    "program_status automatic_mode" ProgramStatus (flag u16 automatic_mode with_automatic_mode);
+    "program_status program_end_signal" ProgramStatus (flag u16 program_end_signal with_program_end_signal);
+    "program_status tolerance_band_signal" ProgramStatus (flag u16 tolerance_band_signal with_tolerance_band_signal);
+    "binary_outputs binary_output_1" BinaryOutputs (flag u16 binary_output_1 with_binary_output_1);
+    "binary_outputs binary_output_2" BinaryOutputs (flag u16 binary_output_2 with_binary_output_2);
+    "binary_outputs binary_output_3" BinaryOutputs (flag u16 binary_output_3 with_binary_output_3);
+    "binary_outputs binary_output_4" BinaryOutputs (flag u16 binary_output_4 with_binary_output_4);
+    "binary_outputs binary_output_5" BinaryOutputs (flag u16 binary_output_5 with_binary_output_5);
+    "binary_outputs binary_output_6" BinaryOutputs (flag u16 binary_output_6 with_binary_output_6);
+    "binary_outputs binary_output_7" BinaryOutputs (flag u16 binary_output_7 with_binary_output_7);
+    "binary_outputs binary_output_8" BinaryOutputs (flag u16 binary_output_8 with_binary_output_8);
+    "binary_outputs binary_output_9" BinaryOutputs (flag u16 binary_output_9 with_binary_output_9);
+    "binary_outputs binary_output_10" BinaryOutputs (flag u16 binary_output_10 with_binary_output_10);
+    "binary_inputs binary_input_1" BinaryInputs (flag u16 binary_input_1 with_binary_input_1);
+    "binary_inputs binary_input_2" BinaryInputs (flag u16 binary_input_2 with_binary_input_2);
+    "binary_inputs binary_input_3" BinaryInputs (flag u16 binary_input_3 with_binary_input_3);
+    "binary_inputs binary_input_4" BinaryInputs (flag u16 binary_input_4 with_binary_input_4);
+    "binary_inputs binary_input_6" BinaryInputs (flag u16 binary_input_6 with_binary_input_6);
+    "binary_inputs binary_input_5" BinaryInputs (flag u16 binary_input_5 with_binary_input_5);
+    "binary_inputs binary_input_8" BinaryInputs (flag u16 binary_input_8 with_binary_input_8);
+    "binary_inputs binary_input_7" BinaryInputs (flag u16 binary_input_7 with_binary_input_7);
+    "control_contacts control_contact_1" ControlContacts (flag u16 control_contact_1 with_control_contact_1);
+    "control_contacts control_contact_2" ControlContacts (flag u16 control_contact_2 with_control_contact_2);
+    "control_contacts control_contact_3" ControlContacts (flag u16 control_contact_3 with_control_contact_3);
+    "control_contacts control_contact_4" ControlContacts (flag u16 control_contact_4 with_control_contact_4);
+    "binary_signals control_contact_1" BinarySignals (flag u16 control_contact_1 with_control_contact_1);
+    "binary_signals control_contact_2" BinarySignals (flag u16 control_contact_2 with_control_contact_2);
+    "binary_signals control_contact_3" BinarySignals (flag u16 control_contact_3 with_control_contact_3);
+    "binary_signals control_contact_4" BinarySignals (flag u16 control_contact_4 with_control_contact_4);
+    "binary_signals timer_1" BinarySignals (flag u16 timer_1 with_timer_1);
+    "binary_signals timer_2" BinarySignals (flag u16 timer_2 with_timer_2);
+    "binary_output_control output_1" BinaryOutputControl (flag u16 output_1 with_output_1);
+    "binary_output_control output_2" BinaryOutputControl (flag u16 output_2 with_output_2);
+    "binary_output_control output_3" BinaryOutputControl (flag u16 output_3 with_output_3);
+    "binary_output_control output_4" BinaryOutputControl (flag u16 output_4 with_output_4);
+    "binary_output_control output_5" BinaryOutputControl (flag u16 output_5 with_output_5);
+    "binary_output_control output_6" BinaryOutputControl (flag u16 output_6 with_output_6);
+    "binary_output_control output_7" BinaryOutputControl (flag u16 output_7 with_output_7);
+    "binary_output_control output_8" BinaryOutputControl (flag u16 output_8 with_output_8);
+    "binary_output_control output_9" BinaryOutputControl (flag u16 output_9 with_output_9);
+    "binary_output_control output_10" BinaryOutputControl (flag u16 output_10 with_output_10);
+    "program_controller_commands hold_program" ProgramControllerCommands (flag u16 hold_program with_hold_program);
+    "program_controller_commands abort_program" ProgramControllerCommands (flag u16 abort_program with_abort_program);
+    "program_controller_commands start_program" ProgramControllerCommands (flag u16 start_program with_start_program);
+    "program_controller_commands change_section" ProgramControllerCommands (flag u16 change_section with_change_section);
+    "controller_commands hold_ramp" ControllerCommands (flag u16 hold_ramp with_hold_ramp);
+    "controller_commands abort_ramp" ControllerCommands (flag u16 abort_ramp with_abort_ramp);
+    "controller_commands activate_manual_mode" ControllerCommands (flag u16 activate_manual_mode with_activate_manual_mode);
+    "controller_commands automatic_mode" ControllerCommands (flag u16 automatic_mode with_automatic_mode);
+    "controller_commands controller_off" ControllerCommands (flag u16 controller_off with_controller_off);
+    "controller_commands start_self_optimisation" ControllerCommands (flag u16 start_self_optimisation with_start_self_optimisation);
+    "controller_commands abort_self_optimisation" ControllerCommands (flag u16 abort_self_optimisation with_abort_self_optimisation);
+    "operation_commands displays_off" OperationCommands (flag u16 displays_off with_displays_off);
+    "operation_commands acknowledge_limit_comparators" OperationCommands (flag u16 acknowledge_limit_comparators with_acknowledge_limit_comparators);
+    "operation_commands text_display" OperationCommands (flag u16 text_display with_text_display);
+    "timer_commands hold_timer_1" TimerCommands (flag u16 hold_timer_1 with_hold_timer_1);
+    "timer_commands abort_timer_1" TimerCommands (flag u16 abort_timer_1 with_abort_timer_1);
+    "timer_commands start_timer_1" TimerCommands (flag u16 start_timer_1 with_start_timer_1);
+    "timer_commands hold_timer_2" TimerCommands (flag u16 hold_timer_2 with_hold_timer_2);
 } }
 
 table! { flag_name flag_name {
@@ -205,6 +205,11 @@ table! { address address {
     "controller_commands" ControllerCommands (at);
     "operation_commands" OperationCommands (at);
     "timer_commands" TimerCommands (at);
+} }
+
+table! { symbol symbol {
+    "program_run_time" ProgramRunTime (alone);
+    "program_remaining_time" ProgramRemainingTime (alone);
 } }
 
 table! { fixed fixed {
@@ -279,6 +284,7 @@ fn run(kind: &str, vector: &runner::Vector) -> Option<runner::Outcome> {
         "bits" => bits(vector),
         "words" => words(vector),
         "address" => address(vector),
+        "symbol" => symbol(vector),
         "fixed" => fixed(vector),
         "code" => code(vector),
         "read" => read_by_read(vector),
@@ -293,5 +299,6 @@ fn run(kind: &str, vector: &runner::Vector) -> Option<runner::Outcome> {
 fn main() -> std::process::ExitCode {
     let folder = env!("CARGO_MANIFEST_DIR");
     let default = format!("{folder}/../../vectors/{}.txt", device::DEVICE);
-    runner::main(&default, run)
+    let device = [device::DEVICE, device::VERSION, device::DIGEST];
+    runner::main(&default, device, run)
 }

@@ -32,7 +32,7 @@ pub const VERSION: &str = "1.0.0";
 pub const DIGEST: &str = "5d3a3cb5286274b02a4f6026d3f72cd91dc601dbd68267fa01c9a81067a6115f";
 
 /// What the frames need to know of the device.
-pub static PROFILE: Profile = Profile::new(FUNCTIONS, FRAMINGS, (1, 247), None, false);
+pub static PROFILE: Profile = Profile::new(FUNCTIONS, FRAMINGS, (1, 247), None);
 
 const FRAMINGS: &[Framing] = &[Framing::Rtu];
 

@@ -78,36 +78,36 @@ table! { special_name special_name {
 } }
 
 table! { flag flag {
-    "control_word ready_to_run" ControlWord (on u16 ready_to_run with_ready_to_run);
-    "control_word inhibit_voltage" ControlWord (off u16 inhibit_voltage with_inhibit_voltage);
-    "control_word quick_stop" ControlWord (off u16 quick_stop with_quick_stop);
-    "control_word enable_operation" ControlWord (on u16 enable_operation with_enable_operation);
-    "control_word enable_pulses" ControlWord (on u16 enable_pulses with_enable_pulses);
-    "control_word enable_ramp" ControlWord (on u16 enable_ramp with_enable_ramp);
-    "control_word enable_setpoint" ControlWord (on u16 enable_setpoint with_enable_setpoint);
-    "control_word acknowledge_fault" ControlWord (on u16 acknowledge_fault with_acknowledge_fault);
-    "control_word start_function_480_11" ControlWord (on u16 start_function_480_11 with_start_function_480_11);
-    "control_word start_function_480_12" ControlWord (on u16 start_function_480_12 with_start_function_480_12);
-    "control_word control_data_valid" ControlWord (on u16 control_data_valid with_control_data_valid);
-    "control_word clockwise" ControlWord (on u16 clockwise with_clockwise);
-    "control_word counter_clockwise" ControlWord (on u16 counter_clockwise with_counter_clockwise);
-    "control_word reserved" ControlWord (on u16 reserved with_reserved);
-    "control_word parameter_set" ControlWord (bits u16 parameter_set with_parameter_set);
-    "status_word ready_to_switch_on" StatusWord (on u16 ready_to_switch_on with_ready_to_switch_on);
-    "status_word ready_to_run" StatusWord (on u16 ready_to_run with_ready_to_run);
-    "status_word operation_enabled" StatusWord (on u16 operation_enabled with_operation_enabled);
-    "status_word fault" StatusWord (on u16 fault with_fault);
-    "status_word voltage_enabled" StatusWord (on u16 voltage_enabled with_voltage_enabled);
-    "status_word quick_stop" StatusWord (off u16 quick_stop with_quick_stop);
-    "status_word switch_on_inhibit" StatusWord (on u16 switch_on_inhibit with_switch_on_inhibit);
-    "status_word warning" StatusWord (on u16 warning with_warning);
-    "status_word setpoint_reached" StatusWord (on u16 setpoint_reached with_setpoint_reached);
-    "status_word bus_control" StatusWord (on u16 bus_control with_bus_control);
-    "status_word function_481_9" StatusWord (on u16 function_481_9 with_function_481_9);
-    "status_word clockwise" StatusWord (on u16 clockwise with_clockwise);
-    "status_word counter_clockwise" StatusWord (on u16 counter_clockwise with_counter_clockwise);
-    "status_word function_481_10" StatusWord (on u16 function_481_10 with_function_481_10);
-    "status_word parameter_set" StatusWord (bits u16 parameter_set with_parameter_set);
+    "control_word ready_to_run" ControlWord (flag u16 ready_to_run with_ready_to_run);
+    "control_word inhibit_voltage" ControlWord (flag u16 inhibit_voltage with_inhibit_voltage);
+    "control_word quick_stop" ControlWord (flag u16 quick_stop with_quick_stop);
+    "control_word enable_operation" ControlWord (flag u16 enable_operation with_enable_operation);
+    "control_word enable_pulses" ControlWord (flag u16 enable_pulses with_enable_pulses);
+    "control_word enable_ramp" ControlWord (flag u16 enable_ramp with_enable_ramp);
+    "control_word enable_setpoint" ControlWord (flag u16 enable_setpoint with_enable_setpoint);
+    "control_word acknowledge_fault" ControlWord (flag u16 acknowledge_fault with_acknowledge_fault);
+    "control_word start_function_480_11" ControlWord (flag u16 start_function_480_11 with_start_function_480_11);
+    "control_word start_function_480_12" ControlWord (flag u16 start_function_480_12 with_start_function_480_12);
+    "control_word control_data_valid" ControlWord (flag u16 control_data_valid with_control_data_valid);
+    "control_word clockwise" ControlWord (flag u16 clockwise with_clockwise);
+    "control_word counter_clockwise" ControlWord (flag u16 counter_clockwise with_counter_clockwise);
+    "control_word reserved" ControlWord (flag u16 reserved with_reserved);
+    "control_word parameter_set" ControlWord (flag u16 parameter_set with_parameter_set);
+    "status_word ready_to_switch_on" StatusWord (flag u16 ready_to_switch_on with_ready_to_switch_on);
+    "status_word ready_to_run" StatusWord (flag u16 ready_to_run with_ready_to_run);
+    "status_word operation_enabled" StatusWord (flag u16 operation_enabled with_operation_enabled);
+    "status_word fault" StatusWord (flag u16 fault with_fault);
+    "status_word voltage_enabled" StatusWord (flag u16 voltage_enabled with_voltage_enabled);
+    "status_word quick_stop" StatusWord (flag u16 quick_stop with_quick_stop);
+    "status_word switch_on_inhibit" StatusWord (flag u16 switch_on_inhibit with_switch_on_inhibit);
+    "status_word warning" StatusWord (flag u16 warning with_warning);
+    "status_word setpoint_reached" StatusWord (flag u16 setpoint_reached with_setpoint_reached);
+    "status_word bus_control" StatusWord (flag u16 bus_control with_bus_control);
+    "status_word function_481_9" StatusWord (flag u16 function_481_9 with_function_481_9);
+    "status_word clockwise" StatusWord (flag u16 clockwise with_clockwise);
+    "status_word counter_clockwise" StatusWord (flag u16 counter_clockwise with_counter_clockwise);
+    "status_word function_481_10" StatusWord (flag u16 function_481_10 with_function_481_10);
+    "status_word parameter_set" StatusWord (flag u16 parameter_set with_parameter_set);
 } }
 
 table! { flag_name flag_name {
@@ -140,6 +140,9 @@ table! { address address {
     "actual_value_3" ActualValue3 (at);
     "actual_value_4" ActualValue4 (at);
     "actual_value_5" ActualValue5 (at);
+} }
+
+table! { symbol symbol {
 } }
 
 table! { place place {
@@ -245,6 +248,7 @@ fn run(kind: &str, vector: &runner::Vector) -> Option<runner::Outcome> {
         "bits" => bits(vector),
         "words" => words(vector),
         "address" => address(vector),
+        "symbol" => symbol(vector),
         "place" => place(vector),
         "command" => command(vector),
         "documented" => documented(vector),
@@ -260,5 +264,6 @@ fn run(kind: &str, vector: &runner::Vector) -> Option<runner::Outcome> {
 fn main() -> std::process::ExitCode {
     let folder = env!("CARGO_MANIFEST_DIR");
     let default = format!("{folder}/../../vectors/{}.txt", device::DEVICE);
-    runner::main(&default, run)
+    let device = [device::DEVICE, device::VERSION, device::DIGEST];
+    runner::main(&default, device, run)
 }

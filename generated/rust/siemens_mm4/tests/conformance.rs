@@ -183,82 +183,82 @@ table! { special_name special_name {
 } }
 
 table! { flag flag {
-    "inverter_status_word ready_to_switch_on" InverterStatusWord (on u16 ready_to_switch_on with_ready_to_switch_on);
-    "inverter_status_word ready_to_run" InverterStatusWord (on u16 ready_to_run with_ready_to_run);
-    "inverter_status_word operation_enabled" InverterStatusWord (on u16 operation_enabled with_operation_enabled);
-    "inverter_status_word fault" InverterStatusWord (on u16 fault with_fault);
-    "inverter_status_word off2_pending" InverterStatusWord (off u16 off2_pending with_off2_pending);
-    "inverter_status_word off3_pending" InverterStatusWord (off u16 off3_pending with_off3_pending);
-    "inverter_status_word switch_on_inhibit" InverterStatusWord (on u16 switch_on_inhibit with_switch_on_inhibit);
-    "inverter_status_word warning" InverterStatusWord (on u16 warning with_warning);
-    "inverter_status_word deviation" InverterStatusWord (off u16 deviation with_deviation);
-    "inverter_status_word control_requested" InverterStatusWord (on u16 control_requested with_control_requested);
-    "inverter_status_word frequency_reached" InverterStatusWord (on u16 frequency_reached with_frequency_reached);
-    "inverter_status_word current_limit_warning" InverterStatusWord (off u16 current_limit_warning with_current_limit_warning);
-    "inverter_status_word holding_brake_active" InverterStatusWord (off u16 holding_brake_active with_holding_brake_active);
-    "inverter_status_word motor_overload" InverterStatusWord (off u16 motor_overload with_motor_overload);
-    "inverter_status_word clockwise" InverterStatusWord (on u16 clockwise with_clockwise);
-    "inverter_status_word inverter_overload" InverterStatusWord (off u16 inverter_overload with_inverter_overload);
-    "p0731_source source_parameter" P0731Source (bits u32 source_parameter with_source_parameter);
-    "p0731_source source_bit" P0731Source (bits u32 source_bit with_source_bit);
-    "jog_time_selection_source source_parameter" JogTimeSelectionSource (bits u32 source_parameter with_source_parameter);
-    "jog_time_selection_source source_bit" JogTimeSelectionSource (bits u32 source_bit with_source_bit);
-    "dc_braking_source source_parameter" DcBrakingSource (bits u32 source_parameter with_source_parameter);
-    "dc_braking_source source_bit" DcBrakingSource (bits u32 source_bit with_source_bit);
-    "uss_rs232_answer_source_index_0 source_parameter" UssRs232AnswerSourceIndex0 (bits u32 source_parameter with_source_parameter);
-    "uss_rs232_answer_source_index_0 source_bit" UssRs232AnswerSourceIndex0 (bits u32 source_bit with_source_bit);
-    "uss_rs232_answer_source_index_1 source_parameter" UssRs232AnswerSourceIndex1 (bits u32 source_parameter with_source_parameter);
-    "uss_rs232_answer_source_index_1 source_bit" UssRs232AnswerSourceIndex1 (bits u32 source_bit with_source_bit);
-    "uss_rs232_answer_source_index_2 source_parameter" UssRs232AnswerSourceIndex2 (bits u32 source_parameter with_source_parameter);
-    "uss_rs232_answer_source_index_2 source_bit" UssRs232AnswerSourceIndex2 (bits u32 source_bit with_source_bit);
-    "uss_rs232_answer_source_index_3 source_parameter" UssRs232AnswerSourceIndex3 (bits u32 source_parameter with_source_parameter);
-    "uss_rs232_answer_source_index_3 source_bit" UssRs232AnswerSourceIndex3 (bits u32 source_bit with_source_bit);
-    "uss_rs485_answer_source_index_0 source_parameter" UssRs485AnswerSourceIndex0 (bits u32 source_parameter with_source_parameter);
-    "uss_rs485_answer_source_index_0 source_bit" UssRs485AnswerSourceIndex0 (bits u32 source_bit with_source_bit);
-    "uss_rs485_answer_source_index_1 source_parameter" UssRs485AnswerSourceIndex1 (bits u32 source_parameter with_source_parameter);
-    "uss_rs485_answer_source_index_1 source_bit" UssRs485AnswerSourceIndex1 (bits u32 source_bit with_source_bit);
-    "uss_rs485_answer_source_index_2 source_parameter" UssRs485AnswerSourceIndex2 (bits u32 source_parameter with_source_parameter);
-    "uss_rs485_answer_source_index_2 source_bit" UssRs485AnswerSourceIndex2 (bits u32 source_bit with_source_bit);
-    "uss_rs485_answer_source_index_3 source_parameter" UssRs485AnswerSourceIndex3 (bits u32 source_parameter with_source_parameter);
-    "uss_rs485_answer_source_index_3 source_bit" UssRs485AnswerSourceIndex3 (bits u32 source_bit with_source_bit);
-    "control_word on" ControlWord (on u16 on with_on);
-    "control_word off2" ControlWord (off u16 off2 with_off2);
-    "control_word off3" ControlWord (off u16 off3 with_off3);
-    "control_word enable_operation" ControlWord (on u16 enable_operation with_enable_operation);
-    "control_word ramp_generator_operating" ControlWord (on u16 ramp_generator_operating with_ramp_generator_operating);
-    "control_word enable_ramp_generator" ControlWord (on u16 enable_ramp_generator with_enable_ramp_generator);
-    "control_word enable_setpoint" ControlWord (on u16 enable_setpoint with_enable_setpoint);
-    "control_word acknowledge_fault" ControlWord (on u16 acknowledge_fault with_acknowledge_fault);
-    "control_word jog_clockwise" ControlWord (on u16 jog_clockwise with_jog_clockwise);
-    "control_word jog_counter_clockwise" ControlWord (on u16 jog_counter_clockwise with_jog_counter_clockwise);
-    "control_word setpoints_valid" ControlWord (on u16 setpoints_valid with_setpoints_valid);
-    "control_word invert_setpoint" ControlWord (on u16 invert_setpoint with_invert_setpoint);
-    "control_word free" ControlWord (on u16 free with_free);
-    "control_word motor_potentiometer_up" ControlWord (on u16 motor_potentiometer_up with_motor_potentiometer_up);
-    "control_word motor_potentiometer_down" ControlWord (on u16 motor_potentiometer_down with_motor_potentiometer_down);
-    "control_word local_control" ControlWord (on u16 local_control with_local_control);
-    "second_control_word fixed_frequency_bit_0" SecondControlWord (on u16 fixed_frequency_bit_0 with_fixed_frequency_bit_0);
-    "second_control_word fixed_frequency_bit_1" SecondControlWord (on u16 fixed_frequency_bit_1 with_fixed_frequency_bit_1);
-    "second_control_word fixed_frequency_bit_2" SecondControlWord (on u16 fixed_frequency_bit_2 with_fixed_frequency_bit_2);
-    "second_control_word pid_enable" SecondControlWord (on u16 pid_enable with_pid_enable);
-    "second_control_word dc_braking_enable" SecondControlWord (on u16 dc_braking_enable with_dc_braking_enable);
-    "second_control_word external_fault" SecondControlWord (on u16 external_fault with_external_fault);
-    "status_word ready_to_switch_on" StatusWord (on u16 ready_to_switch_on with_ready_to_switch_on);
-    "status_word ready_to_run" StatusWord (on u16 ready_to_run with_ready_to_run);
-    "status_word operation_enabled" StatusWord (on u16 operation_enabled with_operation_enabled);
-    "status_word fault" StatusWord (on u16 fault with_fault);
-    "status_word off2_pending" StatusWord (off u16 off2_pending with_off2_pending);
-    "status_word off3_pending" StatusWord (off u16 off3_pending with_off3_pending);
-    "status_word switch_on_inhibit" StatusWord (on u16 switch_on_inhibit with_switch_on_inhibit);
-    "status_word warning" StatusWord (on u16 warning with_warning);
-    "status_word deviation" StatusWord (off u16 deviation with_deviation);
-    "status_word control_requested" StatusWord (on u16 control_requested with_control_requested);
-    "status_word frequency_reached" StatusWord (on u16 frequency_reached with_frequency_reached);
-    "status_word current_limit_warning" StatusWord (off u16 current_limit_warning with_current_limit_warning);
-    "status_word holding_brake_active" StatusWord (off u16 holding_brake_active with_holding_brake_active);
-    "status_word motor_overload" StatusWord (off u16 motor_overload with_motor_overload);
-    "status_word clockwise" StatusWord (on u16 clockwise with_clockwise);
-    "status_word inverter_overload" StatusWord (off u16 inverter_overload with_inverter_overload);
+    "inverter_status_word ready_to_switch_on" InverterStatusWord (flag u16 ready_to_switch_on with_ready_to_switch_on);
+    "inverter_status_word ready_to_run" InverterStatusWord (flag u16 ready_to_run with_ready_to_run);
+    "inverter_status_word operation_enabled" InverterStatusWord (flag u16 operation_enabled with_operation_enabled);
+    "inverter_status_word fault" InverterStatusWord (flag u16 fault with_fault);
+    "inverter_status_word off2_pending" InverterStatusWord (flag u16 off2_pending with_off2_pending);
+    "inverter_status_word off3_pending" InverterStatusWord (flag u16 off3_pending with_off3_pending);
+    "inverter_status_word switch_on_inhibit" InverterStatusWord (flag u16 switch_on_inhibit with_switch_on_inhibit);
+    "inverter_status_word warning" InverterStatusWord (flag u16 warning with_warning);
+    "inverter_status_word deviation" InverterStatusWord (flag u16 deviation with_deviation);
+    "inverter_status_word control_requested" InverterStatusWord (flag u16 control_requested with_control_requested);
+    "inverter_status_word frequency_reached" InverterStatusWord (flag u16 frequency_reached with_frequency_reached);
+    "inverter_status_word current_limit_warning" InverterStatusWord (flag u16 current_limit_warning with_current_limit_warning);
+    "inverter_status_word holding_brake_active" InverterStatusWord (flag u16 holding_brake_active with_holding_brake_active);
+    "inverter_status_word motor_overload" InverterStatusWord (flag u16 motor_overload with_motor_overload);
+    "inverter_status_word clockwise" InverterStatusWord (flag u16 clockwise with_clockwise);
+    "inverter_status_word inverter_overload" InverterStatusWord (flag u16 inverter_overload with_inverter_overload);
+    "p0731_source source_parameter" P0731Source (flag u32 source_parameter with_source_parameter);
+    "p0731_source source_bit" P0731Source (flag u32 source_bit with_source_bit);
+    "jog_time_selection_source source_parameter" JogTimeSelectionSource (flag u32 source_parameter with_source_parameter);
+    "jog_time_selection_source source_bit" JogTimeSelectionSource (flag u32 source_bit with_source_bit);
+    "dc_braking_source source_parameter" DcBrakingSource (flag u32 source_parameter with_source_parameter);
+    "dc_braking_source source_bit" DcBrakingSource (flag u32 source_bit with_source_bit);
+    "uss_rs232_answer_source_index_0 source_parameter" UssRs232AnswerSourceIndex0 (flag u32 source_parameter with_source_parameter);
+    "uss_rs232_answer_source_index_0 source_bit" UssRs232AnswerSourceIndex0 (flag u32 source_bit with_source_bit);
+    "uss_rs232_answer_source_index_1 source_parameter" UssRs232AnswerSourceIndex1 (flag u32 source_parameter with_source_parameter);
+    "uss_rs232_answer_source_index_1 source_bit" UssRs232AnswerSourceIndex1 (flag u32 source_bit with_source_bit);
+    "uss_rs232_answer_source_index_2 source_parameter" UssRs232AnswerSourceIndex2 (flag u32 source_parameter with_source_parameter);
+    "uss_rs232_answer_source_index_2 source_bit" UssRs232AnswerSourceIndex2 (flag u32 source_bit with_source_bit);
+    "uss_rs232_answer_source_index_3 source_parameter" UssRs232AnswerSourceIndex3 (flag u32 source_parameter with_source_parameter);
+    "uss_rs232_answer_source_index_3 source_bit" UssRs232AnswerSourceIndex3 (flag u32 source_bit with_source_bit);
+    "uss_rs485_answer_source_index_0 source_parameter" UssRs485AnswerSourceIndex0 (flag u32 source_parameter with_source_parameter);
+    "uss_rs485_answer_source_index_0 source_bit" UssRs485AnswerSourceIndex0 (flag u32 source_bit with_source_bit);
+    "uss_rs485_answer_source_index_1 source_parameter" UssRs485AnswerSourceIndex1 (flag u32 source_parameter with_source_parameter);
+    "uss_rs485_answer_source_index_1 source_bit" UssRs485AnswerSourceIndex1 (flag u32 source_bit with_source_bit);
+    "uss_rs485_answer_source_index_2 source_parameter" UssRs485AnswerSourceIndex2 (flag u32 source_parameter with_source_parameter);
+    "uss_rs485_answer_source_index_2 source_bit" UssRs485AnswerSourceIndex2 (flag u32 source_bit with_source_bit);
+    "uss_rs485_answer_source_index_3 source_parameter" UssRs485AnswerSourceIndex3 (flag u32 source_parameter with_source_parameter);
+    "uss_rs485_answer_source_index_3 source_bit" UssRs485AnswerSourceIndex3 (flag u32 source_bit with_source_bit);
+    "control_word on" ControlWord (flag u16 on with_on);
+    "control_word off2" ControlWord (flag u16 off2 with_off2);
+    "control_word off3" ControlWord (flag u16 off3 with_off3);
+    "control_word enable_operation" ControlWord (flag u16 enable_operation with_enable_operation);
+    "control_word ramp_generator_operating" ControlWord (flag u16 ramp_generator_operating with_ramp_generator_operating);
+    "control_word enable_ramp_generator" ControlWord (flag u16 enable_ramp_generator with_enable_ramp_generator);
+    "control_word enable_setpoint" ControlWord (flag u16 enable_setpoint with_enable_setpoint);
+    "control_word acknowledge_fault" ControlWord (flag u16 acknowledge_fault with_acknowledge_fault);
+    "control_word jog_clockwise" ControlWord (flag u16 jog_clockwise with_jog_clockwise);
+    "control_word jog_counter_clockwise" ControlWord (flag u16 jog_counter_clockwise with_jog_counter_clockwise);
+    "control_word setpoints_valid" ControlWord (flag u16 setpoints_valid with_setpoints_valid);
+    "control_word invert_setpoint" ControlWord (flag u16 invert_setpoint with_invert_setpoint);
+    "control_word free" ControlWord (flag u16 free with_free);
+    "control_word motor_potentiometer_up" ControlWord (flag u16 motor_potentiometer_up with_motor_potentiometer_up);
+    "control_word motor_potentiometer_down" ControlWord (flag u16 motor_potentiometer_down with_motor_potentiometer_down);
+    "control_word local_control" ControlWord (flag u16 local_control with_local_control);
+    "second_control_word fixed_frequency_bit_0" SecondControlWord (flag u16 fixed_frequency_bit_0 with_fixed_frequency_bit_0);
+    "second_control_word fixed_frequency_bit_1" SecondControlWord (flag u16 fixed_frequency_bit_1 with_fixed_frequency_bit_1);
+    "second_control_word fixed_frequency_bit_2" SecondControlWord (flag u16 fixed_frequency_bit_2 with_fixed_frequency_bit_2);
+    "second_control_word pid_enable" SecondControlWord (flag u16 pid_enable with_pid_enable);
+    "second_control_word dc_braking_enable" SecondControlWord (flag u16 dc_braking_enable with_dc_braking_enable);
+    "second_control_word external_fault" SecondControlWord (flag u16 external_fault with_external_fault);
+    "status_word ready_to_switch_on" StatusWord (flag u16 ready_to_switch_on with_ready_to_switch_on);
+    "status_word ready_to_run" StatusWord (flag u16 ready_to_run with_ready_to_run);
+    "status_word operation_enabled" StatusWord (flag u16 operation_enabled with_operation_enabled);
+    "status_word fault" StatusWord (flag u16 fault with_fault);
+    "status_word off2_pending" StatusWord (flag u16 off2_pending with_off2_pending);
+    "status_word off3_pending" StatusWord (flag u16 off3_pending with_off3_pending);
+    "status_word switch_on_inhibit" StatusWord (flag u16 switch_on_inhibit with_switch_on_inhibit);
+    "status_word warning" StatusWord (flag u16 warning with_warning);
+    "status_word deviation" StatusWord (flag u16 deviation with_deviation);
+    "status_word control_requested" StatusWord (flag u16 control_requested with_control_requested);
+    "status_word frequency_reached" StatusWord (flag u16 frequency_reached with_frequency_reached);
+    "status_word current_limit_warning" StatusWord (flag u16 current_limit_warning with_current_limit_warning);
+    "status_word holding_brake_active" StatusWord (flag u16 holding_brake_active with_holding_brake_active);
+    "status_word motor_overload" StatusWord (flag u16 motor_overload with_motor_overload);
+    "status_word clockwise" StatusWord (flag u16 clockwise with_clockwise);
+    "status_word inverter_overload" StatusWord (flag u16 inverter_overload with_inverter_overload);
 } }
 
 table! { flag_name flag_name {
@@ -326,6 +326,15 @@ table! { address address {
     "status_word" StatusWord (at PZD "pzd");
     "main_actual_value" MainActualValue (at PZD "pzd");
     "second_status_word" SecondStatusWord (at PZD "pzd");
+} }
+
+table! { symbol symbol {
+    "maximum_frequency" MaximumFrequency (alone);
+    "reference_frequency" ReferenceFrequency (alone);
+    "uss_telegram_off_time_index_0" UssTelegramOffTimeIndex0 (alone);
+    "uss_telegram_off_time_index_1" UssTelegramOffTimeIndex1 (alone);
+    "main_setpoint" MainSetpoint (alone);
+    "main_actual_value" MainActualValue (alone);
 } }
 
 table! { place place {
@@ -588,6 +597,7 @@ fn run(kind: &str, vector: &runner::Vector) -> Option<runner::Outcome> {
         "bits" => bits(vector),
         "words" => words(vector),
         "address" => address(vector),
+        "symbol" => symbol(vector),
         "place" => place(vector),
         "fixed" => fixed(vector),
         "code" => code(vector),
@@ -606,5 +616,6 @@ fn run(kind: &str, vector: &runner::Vector) -> Option<runner::Outcome> {
 fn main() -> std::process::ExitCode {
     let folder = env!("CARGO_MANIFEST_DIR");
     let default = format!("{folder}/../../vectors/{}.txt", device::DEVICE);
-    runner::main(&default, run)
+    let device = [device::DEVICE, device::VERSION, device::DIGEST];
+    runner::main(&default, device, run)
 }

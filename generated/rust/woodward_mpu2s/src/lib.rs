@@ -156,7 +156,6 @@ pub mod telegrams {
 
     impl can::Telegram for Visualisation {
         const NAME: &'static str = "visualisation";
-        const WORDS: u16 = 69;
         const MESSAGE: &'static can::Message = &messages::VISUALISATION;
         const PROFILE: &'static can::Profile = &super::PROFILE;
         type Slots = [can::Slot; 23];

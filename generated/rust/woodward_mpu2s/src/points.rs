@@ -315,7 +315,7 @@ impl runtime::Point for GeneratorPowerExponent {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> i8 {
-        runtime::Raw::from_words([arithmetic::extract_signed(word, 8, 0xFF00)])
+        runtime::Raw::from_words([runtime::signed_group::<Self>(word)])
     }
 }
 
@@ -378,7 +378,7 @@ impl runtime::Point for GeneratorVoltageExponent {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> i8 {
-        runtime::Raw::from_words([arithmetic::extract_signed(word, 0, 0x00FF)])
+        runtime::Raw::from_words([runtime::signed_group::<Self>(word)])
     }
 }
 
@@ -1653,7 +1653,7 @@ impl runtime::Point for MainsState {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 8, 0xFF00)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -1712,7 +1712,7 @@ impl runtime::Point for GeneratorState {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 0, 0x00FF)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -1775,7 +1775,7 @@ impl runtime::Point for GeneratorCurrentExponent {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> i8 {
-        runtime::Raw::from_words([arithmetic::extract_signed(word, 8, 0xFF00)])
+        runtime::Raw::from_words([runtime::signed_group::<Self>(word)])
     }
 }
 
@@ -1887,7 +1887,7 @@ impl runtime::Point for BusbarState {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 8, 0xFF00)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -2338,7 +2338,7 @@ impl runtime::Point for MainsVoltageExponent {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> i8 {
-        runtime::Raw::from_words([arithmetic::extract_signed(word, 0, 0x00FF)])
+        runtime::Raw::from_words([runtime::signed_group::<Self>(word)])
     }
 }
 
@@ -2401,7 +2401,7 @@ impl runtime::Point for BusbarVoltageExponent {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> i8 {
-        runtime::Raw::from_words([arithmetic::extract_signed(word, 0, 0x00FF)])
+        runtime::Raw::from_words([runtime::signed_group::<Self>(word)])
     }
 }
 
@@ -3240,7 +3240,7 @@ impl runtime::CountWritable for GeneratorFrequencySetpoint {
         let count = arithmetic::within(count, 39_999, 70_001)?;
         let scaled = count * 32;
         let raw = arithmetic::div_round_i32::<125>(scaled);
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -3314,7 +3314,7 @@ impl runtime::CountWritable for GeneratorRatedFrequency {
         let count = arithmetic::within(count, 49_999, 60_001)?;
         let scaled = count * 32;
         let raw = arithmetic::div_round_i32::<125>(scaled);
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -4443,7 +4443,7 @@ impl runtime::Point for PowerMeasurementPhases {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 11, 0x0800)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -4792,7 +4792,7 @@ impl runtime::Point for FrequencyController {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 14, 0xC000)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -4917,7 +4917,7 @@ impl runtime::CountWritable for FrequencyControllerStartFrequency {
         let count = arithmetic::within(count, -1, 70_001)?;
         let scaled = count * 32;
         let raw = arithmetic::div_round_i32::<125>(scaled);
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -4987,7 +4987,7 @@ impl runtime::CountWritable for FrequencyControllerStartDelay {
         let count = arithmetic::within(count, 0, 99_900)?;
         let scaled = count;
         let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -5059,7 +5059,7 @@ impl runtime::CountWritable for FrequencyControllerDeadBand {
         let count = arithmetic::within(count, 18, 1001)?;
         let scaled = count * 32;
         let raw = arithmetic::div_round_i32::<125>(scaled);
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -5129,7 +5129,7 @@ impl runtime::CountWritable for FrequencyControllerPulseTime {
         let count = arithmetic::within(count, 9, 250)?;
         let scaled = count;
         let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -5198,7 +5198,7 @@ impl runtime::CountWritable for FrequencyControllerProportionalGain {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 1, 999)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -5218,7 +5218,7 @@ impl runtime::Point for VoltageController {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 10, 0x0C00)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -5344,7 +5344,7 @@ impl runtime::CountWritable for VoltageControllerDeadBand {
         let count = arithmetic::within(count, 9, 1501)?;
         let scaled = count * 2;
         let raw = arithmetic::div_round_i32::<5>(scaled);
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -5414,7 +5414,7 @@ impl runtime::CountWritable for VoltageControllerPulseTime {
         let count = arithmetic::within(count, 19, 250)?;
         let scaled = count;
         let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -5483,7 +5483,7 @@ impl runtime::CountWritable for VoltageControllerProportionalGain {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 1, 999)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -5503,7 +5503,7 @@ impl runtime::Point for CosPhiController {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 8, 0x0300)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -5698,7 +5698,7 @@ impl runtime::CountWritable for CosPhiControllerDeadBand {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 5, 250)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -5767,7 +5767,7 @@ impl runtime::CountWritable for CosPhiControllerProportionalGain {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 1, 999)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -5789,7 +5789,7 @@ impl runtime::Point for ActivePowerController {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 12, 0x3000)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -5980,7 +5980,7 @@ impl runtime::CountWritable for ActivePowerControllerMaximum {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 100, 1200)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -6049,7 +6049,7 @@ impl runtime::CountWritable for ActivePowerControllerMinimum {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 500)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -6119,7 +6119,7 @@ impl runtime::CountWritable for ActivePowerControllerDeadBand {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 1, 250)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -6188,7 +6188,7 @@ impl runtime::CountWritable for ActivePowerControllerProportionalGain {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 1, 999)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -6257,7 +6257,7 @@ impl runtime::CountWritable for ActivePowerControllerSensitivityReduction {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 10, 99)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -6327,7 +6327,7 @@ impl runtime::CountWritable for PartLoadLeadSetpoint {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 50, 1100)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -6397,7 +6397,7 @@ impl runtime::CountWritable for PartLoadLeadTime {
         let count = arithmetic::within(count, 0, 60_000)?;
         let scaled = count;
         let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -6419,7 +6419,7 @@ impl runtime::Point for ControlByInterfaceX1X5 {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 6, 0x00C0)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -6493,7 +6493,7 @@ impl runtime::Point for BreakerLogic {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 8, 0x0F00)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -6617,7 +6617,7 @@ impl runtime::CountWritable for LoadRampMaximumTime {
         let count = arithmetic::within(count, 0, 99_900)?;
         let scaled = count;
         let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -6637,7 +6637,7 @@ impl runtime::Point for GeneratorBreakerSignalLogic {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 3, 0x0008)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -6711,7 +6711,7 @@ impl runtime::Point for GeneratorBreakerOpenRelayLogic {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 2, 0x0004)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -6837,7 +6837,7 @@ impl runtime::CountWritable for SynchronisationFrequencyDifferenceMaximum {
         let count = arithmetic::within(count, 18, 490)?;
         let scaled = count * 32;
         let raw = arithmetic::div_round_i32::<125>(scaled);
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -6910,7 +6910,7 @@ impl runtime::CountWritable for SynchronisationFrequencyDifferenceMinimum {
         let count = arithmetic::within(count, -1, 490)?;
         let scaled = count * 32;
         let raw = arithmetic::div_round_i32::<125>(scaled);
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -6982,7 +6982,7 @@ impl runtime::CountWritable for SynchronisationVoltageDifferenceMaximum {
         let count = arithmetic::within(count, 9, 1501)?;
         let scaled = count * 2;
         let raw = arithmetic::div_round_i32::<5>(scaled);
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -7056,7 +7056,7 @@ impl runtime::CountWritable for SynchronisationVoltageDifferenceMinimum {
         let count = arithmetic::within(count, 9, 1501)?;
         let scaled = count * 2;
         let raw = arithmetic::div_round_i32::<5>(scaled);
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -7127,7 +7127,7 @@ impl runtime::CountWritable for SynchronisationPulseTime {
         let count = arithmetic::within(count, 1, 26)?;
         let scaled = count;
         let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -7217,7 +7217,7 @@ impl runtime::Point for SynchronisationTimeMonitoring {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 0, 0x0001)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -7359,7 +7359,7 @@ impl runtime::Point for DeadBusStart {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 4, 0x0030)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -7485,7 +7485,7 @@ impl runtime::CountWritable for DeadBusStartFrequencyDifferenceMaximum {
         let count = arithmetic::within(count, 49, 5001)?;
         let scaled = count * 32;
         let raw = arithmetic::div_round_i32::<125>(scaled);
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -7557,7 +7557,7 @@ impl runtime::CountWritable for DeadBusStartVoltageDifferenceMaximum {
         let count = arithmetic::within(count, 9, 2001)?;
         let scaled = count * 2;
         let raw = arithmetic::div_round_i32::<5>(scaled);
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -7644,7 +7644,7 @@ impl runtime::Point for GeneratorBreakerMonitoring {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 12, 0x1000)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -7718,7 +7718,7 @@ impl runtime::Point for AutomaticBreakerUnlocking {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 1, 0x0002)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -7792,7 +7792,7 @@ impl runtime::Point for GeneratorOverloadMonitoring {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 11, 0x0800)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -7916,7 +7916,7 @@ impl runtime::CountWritable for OverloadThresholdParallelOperation {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 800, 1500)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -7986,7 +7986,7 @@ impl runtime::CountWritable for OverloadDelayParallelOperation {
         let count = arithmetic::within(count, 0, 9900)?;
         let scaled = count;
         let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -8056,7 +8056,7 @@ impl runtime::CountWritable for OverloadThresholdIsolatedOperation {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 800, 1500)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -8126,7 +8126,7 @@ impl runtime::CountWritable for OverloadDelayIsolatedOperation {
         let count = arithmetic::within(count, 0, 9900)?;
         let scaled = count;
         let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -8146,7 +8146,7 @@ impl runtime::Point for GeneratorReversePowerMonitoring {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 5, 0x0020)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -8272,7 +8272,7 @@ impl runtime::CountWritable for ReversePowerThreshold {
     fn encode_count_with(count: i32, (): ()) -> Result<i16, runtime::Error> {
         let count = arithmetic::within(count, -990, 990)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -8342,7 +8342,7 @@ impl runtime::CountWritable for ReversePowerDelay {
         let count = arithmetic::within(count, 0, 9990)?;
         let scaled = count;
         let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -8362,7 +8362,7 @@ impl runtime::Point for GeneratorUnbalancedLoadMonitoring {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 10, 0x0400)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -8485,7 +8485,7 @@ impl runtime::CountWritable for UnbalancedLoadThreshold {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 1000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -8556,7 +8556,7 @@ impl runtime::CountWritable for UnbalancedLoadDelay {
         let count = arithmetic::within(count, 1, 9998)?;
         let scaled = count;
         let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -8576,7 +8576,7 @@ impl runtime::Point for GeneratorOvercurrentMonitoring {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 4, 0x0010)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -8701,7 +8701,7 @@ impl runtime::CountWritable for Overcurrent1Threshold {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 3000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -8772,7 +8772,7 @@ impl runtime::CountWritable for Overcurrent1Delay {
         let count = arithmetic::within(count, 1, 9998)?;
         let scaled = count;
         let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -8841,7 +8841,7 @@ impl runtime::CountWritable for Overcurrent2Threshold {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 0, 3000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -8912,7 +8912,7 @@ impl runtime::CountWritable for Overcurrent2Delay {
         let count = arithmetic::within(count, 1, 9998)?;
         let scaled = count;
         let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -8932,7 +8932,7 @@ impl runtime::Point for InverseTimeOvercurrent {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 10, 0x0400)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -9006,7 +9006,7 @@ impl runtime::Point for InverseTimeOvercurrentCharacteristic {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 0, 0x0003)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -9130,7 +9130,7 @@ impl runtime::CountWritable for InverseTimeOvercurrentTp {
         let count = arithmetic::within(count, 0, 198)?;
         let scaled = count;
         let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -9199,7 +9199,7 @@ impl runtime::CountWritable for InverseTimeOvercurrentIp {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 100, 3000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -9268,7 +9268,7 @@ impl runtime::CountWritable for InverseTimeOvercurrentIstart {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 1000, 3000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -9288,7 +9288,7 @@ impl runtime::Point for InverseTimeOvercurrentVoltageDependence {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 11, 0x0800)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -9432,7 +9432,7 @@ impl runtime::Point for GeneratorOverfrequencyMonitoring {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 12, 0x1000)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -9558,7 +9558,7 @@ impl runtime::CountWritable for GeneratorOverfrequency1Threshold {
         let count = arithmetic::within(count, 39_999, 85_001)?;
         let scaled = count * 32;
         let raw = arithmetic::div_round_i32::<125>(scaled);
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -9629,7 +9629,7 @@ impl runtime::CountWritable for GeneratorOverfrequency1Delay {
         let count = arithmetic::within(count, 1, 998)?;
         let scaled = count;
         let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -9701,7 +9701,7 @@ impl runtime::CountWritable for GeneratorOverfrequency2Threshold {
         let count = arithmetic::within(count, 39_999, 85_001)?;
         let scaled = count * 32;
         let raw = arithmetic::div_round_i32::<125>(scaled);
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -9772,7 +9772,7 @@ impl runtime::CountWritable for GeneratorOverfrequency2Delay {
         let count = arithmetic::within(count, 1, 998)?;
         let scaled = count;
         let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -9794,7 +9794,7 @@ impl runtime::Point for GeneratorUnderfrequencyMonitoring {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 3, 0x0008)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -9920,7 +9920,7 @@ impl runtime::CountWritable for GeneratorUnderfrequency1Threshold {
         let count = arithmetic::within(count, 39_999, 85_001)?;
         let scaled = count * 32;
         let raw = arithmetic::div_round_i32::<125>(scaled);
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -9991,7 +9991,7 @@ impl runtime::CountWritable for GeneratorUnderfrequency1Delay {
         let count = arithmetic::within(count, 1, 998)?;
         let scaled = count;
         let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -10063,7 +10063,7 @@ impl runtime::CountWritable for GeneratorUnderfrequency2Threshold {
         let count = arithmetic::within(count, 39_999, 85_001)?;
         let scaled = count * 32;
         let raw = arithmetic::div_round_i32::<125>(scaled);
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -10134,7 +10134,7 @@ impl runtime::CountWritable for GeneratorUnderfrequency2Delay {
         let count = arithmetic::within(count, 1, 998)?;
         let scaled = count;
         let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -10156,7 +10156,7 @@ impl runtime::Point for GeneratorOvervoltageMonitoring {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 1, 0x0002)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -10472,7 +10472,7 @@ impl runtime::CountWritable for GeneratorOvervoltage1Delay {
         let count = arithmetic::within(count, 1, 998)?;
         let scaled = count;
         let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -10734,7 +10734,7 @@ impl runtime::CountWritable for GeneratorOvervoltage2Delay {
         let count = arithmetic::within(count, 1, 998)?;
         let scaled = count;
         let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -10756,7 +10756,7 @@ impl runtime::Point for GeneratorUndervoltageMonitoring {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 0, 0x0001)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -11072,7 +11072,7 @@ impl runtime::CountWritable for GeneratorUndervoltage1Delay {
         let count = arithmetic::within(count, 1, 998)?;
         let scaled = count;
         let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -11334,7 +11334,7 @@ impl runtime::CountWritable for GeneratorUndervoltage2Delay {
         let count = arithmetic::within(count, 1, 998)?;
         let scaled = count;
         let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -11354,7 +11354,7 @@ impl runtime::Point for MainsFrequencyMonitoring {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 14, 0x4000)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -11480,7 +11480,7 @@ impl runtime::CountWritable for MainsOverfrequencyThreshold {
         let count = arithmetic::within(count, 39_999, 70_001)?;
         let scaled = count * 32;
         let raw = arithmetic::div_round_i32::<125>(scaled);
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -11551,7 +11551,7 @@ impl runtime::CountWritable for MainsOverfrequencyDelay {
         let count = arithmetic::within(count, 1, 998)?;
         let scaled = count;
         let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -11623,7 +11623,7 @@ impl runtime::CountWritable for MainsUnderfrequencyThreshold {
         let count = arithmetic::within(count, 39_999, 70_001)?;
         let scaled = count * 32;
         let raw = arithmetic::div_round_i32::<125>(scaled);
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -11694,7 +11694,7 @@ impl runtime::CountWritable for MainsUnderfrequencyDelay {
         let count = arithmetic::within(count, 1, 998)?;
         let scaled = count;
         let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -11714,7 +11714,7 @@ impl runtime::Point for MainsVoltageMonitoring {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 15, 0x8000)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -12071,7 +12071,7 @@ impl runtime::CountWritable for MainsOvervoltageDelay {
         let count = arithmetic::within(count, 1, 998)?;
         let scaled = count;
         let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -12333,7 +12333,7 @@ impl runtime::CountWritable for MainsUndervoltageDelay {
         let count = arithmetic::within(count, 1, 998)?;
         let scaled = count;
         let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -12353,7 +12353,7 @@ impl runtime::Point for PhaseShiftMonitoring {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 1, 0x0002)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -12427,7 +12427,7 @@ impl runtime::Point for PhaseShiftMonitoringPhases {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 13, 0x2000)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -12637,7 +12637,7 @@ impl runtime::Point for ReactivePowerMonitoring {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 12, 0x1000)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -12761,7 +12761,7 @@ impl runtime::CountWritable for ReactivePowerThresholdInductive {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 50, 1000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -12833,7 +12833,7 @@ impl runtime::CountWritable for ReactivePowerDelayInductive {
         let count = arithmetic::within(count, 0, 99_900)?;
         let scaled = count;
         let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -12903,7 +12903,7 @@ impl runtime::CountWritable for ReactivePowerThresholdCapacitive {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 50, 1000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -12975,7 +12975,7 @@ impl runtime::CountWritable for ReactivePowerDelayCapacitive {
         let count = arithmetic::within(count, 0, 99_900)?;
         let scaled = count;
         let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -12995,7 +12995,7 @@ impl runtime::Point for EarthFaultMonitoring {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 9, 0x0200)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -13119,7 +13119,7 @@ impl runtime::CountWritable for EarthFaultThreshold {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 50, 1000)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -13190,7 +13190,7 @@ impl runtime::CountWritable for EarthFaultDelay {
         let count = arithmetic::within(count, 1, 9998)?;
         let scaled = count;
         let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -13260,7 +13260,7 @@ impl runtime::CountWritable for BatteryUndervoltageThreshold {
     fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
         let count = arithmetic::within(count, 95, 300)?;
         let raw = count;
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -13333,7 +13333,7 @@ impl runtime::CountWritable for BatteryUndervoltageDelay {
         let count = arithmetic::within(count, 1, 9900)?;
         let scaled = count;
         let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }
 
@@ -13355,7 +13355,7 @@ impl runtime::Point for DigitalInputs1To4Logic {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 8, 0x0F00)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -13482,7 +13482,7 @@ impl runtime::Point for DigitalInputs1To4EngineDelay {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 8, 0x0F00)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -13609,7 +13609,7 @@ impl runtime::Point for DigitalInputs5To8Logic {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 4, 0x00F0)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -13736,7 +13736,7 @@ impl runtime::Point for DigitalInputs5To8EngineDelay {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 4, 0x00F0)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -13863,7 +13863,7 @@ impl runtime::Point for DigitalInputs9To12Logic {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 0, 0x000F)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -13990,7 +13990,7 @@ impl runtime::Point for DigitalInputs9To12EngineDelay {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 0, 0x000F)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -14927,7 +14927,7 @@ impl runtime::Point for AnalogOutput1CurrentRange {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 1, 0x0002)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -15375,7 +15375,7 @@ impl runtime::Point for AnalogOutput2CurrentRange {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 3, 0x0008)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -15758,7 +15758,7 @@ impl runtime::Point for Relay1Event1 {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 8, 0xFF00)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -15834,7 +15834,7 @@ impl runtime::Point for Relay1Logic1 {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 0, 0x0007)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -15911,7 +15911,7 @@ impl runtime::Point for Relay1Event2 {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 8, 0xFF00)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -15987,7 +15987,7 @@ impl runtime::Point for Relay1Logic2 {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 0, 0x0007)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -16064,7 +16064,7 @@ impl runtime::Point for Relay1Event3 {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 8, 0xFF00)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -16142,7 +16142,7 @@ impl runtime::Point for Relay1Logic3 {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 0, 0x0007)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -16219,7 +16219,7 @@ impl runtime::Point for Relay2Event1 {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 8, 0xFF00)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -16295,7 +16295,7 @@ impl runtime::Point for Relay2Logic1 {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 0, 0x0007)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -16372,7 +16372,7 @@ impl runtime::Point for Relay2Event2 {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 8, 0xFF00)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -16448,7 +16448,7 @@ impl runtime::Point for Relay2Logic2 {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 0, 0x0007)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -16525,7 +16525,7 @@ impl runtime::Point for Relay2Event3 {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 8, 0xFF00)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -16603,7 +16603,7 @@ impl runtime::Point for Relay2Logic3 {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 0, 0x0007)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -16680,7 +16680,7 @@ impl runtime::Point for Relay3Event1 {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 8, 0xFF00)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -16756,7 +16756,7 @@ impl runtime::Point for Relay3Logic1 {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 0, 0x0007)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -16833,7 +16833,7 @@ impl runtime::Point for Relay3Event2 {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 8, 0xFF00)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -16909,7 +16909,7 @@ impl runtime::Point for Relay3Logic2 {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 0, 0x0007)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -16986,7 +16986,7 @@ impl runtime::Point for Relay3Event3 {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 8, 0xFF00)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -17064,7 +17064,7 @@ impl runtime::Point for Relay3Logic3 {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 0, 0x0007)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -17141,7 +17141,7 @@ impl runtime::Point for Relay4Event1 {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 8, 0xFF00)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -17217,7 +17217,7 @@ impl runtime::Point for Relay4Logic1 {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 0, 0x0007)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -17294,7 +17294,7 @@ impl runtime::Point for Relay4Event2 {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 8, 0xFF00)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -17370,7 +17370,7 @@ impl runtime::Point for Relay4Logic2 {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 0, 0x0007)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -17447,7 +17447,7 @@ impl runtime::Point for Relay4Event3 {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 8, 0xFF00)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -17525,7 +17525,7 @@ impl runtime::Point for Relay4Logic3 {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 0, 0x0007)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -17602,7 +17602,7 @@ impl runtime::Point for Relay5Event1 {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 8, 0xFF00)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -17678,7 +17678,7 @@ impl runtime::Point for Relay5Logic1 {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 0, 0x0007)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -17755,7 +17755,7 @@ impl runtime::Point for Relay5Event2 {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 8, 0xFF00)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -17831,7 +17831,7 @@ impl runtime::Point for Relay5Logic2 {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 0, 0x0007)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -17908,7 +17908,7 @@ impl runtime::Point for Relay5Event3 {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 8, 0xFF00)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -17986,7 +17986,7 @@ impl runtime::Point for Relay5Logic3 {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 0, 0x0007)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -18063,7 +18063,7 @@ impl runtime::Point for Relay6Event1 {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 8, 0xFF00)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -18139,7 +18139,7 @@ impl runtime::Point for Relay6Logic1 {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 0, 0x0007)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -18216,7 +18216,7 @@ impl runtime::Point for Relay6Event2 {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 8, 0xFF00)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -18292,7 +18292,7 @@ impl runtime::Point for Relay6Logic2 {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 0, 0x0007)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -18369,7 +18369,7 @@ impl runtime::Point for Relay6Event3 {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 8, 0xFF00)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -18447,7 +18447,7 @@ impl runtime::Point for Relay6Logic3 {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 0, 0x0007)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -18524,7 +18524,7 @@ impl runtime::Point for Relay7Event1 {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 8, 0xFF00)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -18600,7 +18600,7 @@ impl runtime::Point for Relay7Logic1 {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 0, 0x0007)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -18677,7 +18677,7 @@ impl runtime::Point for Relay7Event2 {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 8, 0xFF00)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -18753,7 +18753,7 @@ impl runtime::Point for Relay7Logic2 {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 0, 0x0007)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -18830,7 +18830,7 @@ impl runtime::Point for Relay7Event3 {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 8, 0xFF00)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -18908,7 +18908,7 @@ impl runtime::Point for Relay7Logic3 {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 0, 0x0007)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -18982,7 +18982,7 @@ impl runtime::Point for AutomaticIdleControl {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 0, 0x0001)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -19058,7 +19058,7 @@ impl runtime::Point for Shutdown {
 
     #[inline]
     fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([arithmetic::extract(word, 11, 0x0800)])
+        runtime::Raw::from_words([runtime::group::<Self>(word)])
     }
 }
 
@@ -19252,6 +19252,6 @@ impl runtime::CountWritable for MonitoringStartFrequency {
         let count = arithmetic::within(count, 14_999, 70_001)?;
         let scaled = count * 32;
         let raw = arithmetic::div_round_i32::<125>(scaled);
-        arithmetic::held::<Self>(raw, runtime::Error::OutOfRange)
+        arithmetic::fitted::<Self>(raw)
     }
 }

@@ -168,7 +168,9 @@ def identifiers(bus: BusView, view: DeviceView) -> Iterator[tuple[str, Owner]]:
 def adapters(bus: BusView) -> Iterator[tuple[str, str]]:
     """How points of telegrams, and parameters, answer conformance vectors."""
     for heard in bus.cyclic:
-        if not heard.text:
+        if heard.text:
+            yield heard.function, f"RECEIVED_TEXT({heard.function}, {heard.macro})"
+        else:
             yield heard.function, f"RECEIVED({heard.function}, {heard.raw_type})"
     for one in bus.parameters:
         read = one.read and bus.read_request and bus.read_answer

@@ -39,8 +39,8 @@ class SuiteView:
     names: tuple[str, ...]
     """The kinds of codes that a function names."""
     commands: tuple[tuple[str, str, str], ...]
-    documented: tuple[tuple[str, str], ...]
-    """Points whose words alone are known, and what their macros begin with."""
+    documented: tuple[tuple[str, str, bool, bool], ...]
+    """Points whose words alone are known, what their macros begin with, and whether they have an index and a code."""
     telegrams: tuple[str, ...]
 
 
@@ -67,7 +67,7 @@ def conformance_view(device: Device, view: DeviceView, scope: Scope, more: Itera
         groups=tuple(groups),
         codes=tuple(_codes(device, scope)),
         documented=tuple(
-            (one.item, f"{scope.upper}_{upper(one.item)}")
+            (one.item, f"{scope.upper}_{upper(one.item)}", one.index is not None, one.code is not None)
             for one in device.points
             if one.raw_only and one.address is not None
         ),
@@ -106,9 +106,11 @@ def _adapter(point: Point, view: PointView, scope: Scope, extra: Mapping[str, li
 def _parts(point: Point, view: PointView) -> Iterator[str]:
     """What goes by the name of a part: flags, the named numbers of wide ones, special codes."""
     for flag in point.flags:
-        truth = _truth(point, view, flag.name) if flag.width == 1 else ""
-        kind = "TRUTH" if truth else "FLAG"
-        yield f'{kind}("{flag.name}", {_flag(point, view, flag.name, flag.width)}{truth})'
+        number = _flag(view, flag.name, flag.width)
+        if flag.width == 1:
+            yield f'TRUTH("{flag.name}", {number}{_truth(point, view, flag.name)})'
+        else:
+            yield f'WIDE_FLAG("{flag.name}", {number}, {view.macro}_{upper(flag.name)})'
         for entry in flag.values if flag.width > 1 else ():
             constant = f"{view.macro}_{upper(flag.name)}_{upper(entry.name)}"
             yield f'FLAG_NAME("{flag.name}", "{entry.name}", {constant})'
@@ -137,7 +139,7 @@ def _cases(point: Point, view: PointView, scope: Scope) -> list[str]:
     if point.text is not None:
         return cases
     if view.bits is not None:
-        cases.append(f"BITS({function}, {kind})")
+        cases.append(f"BITS({function}, {kind}, {view.macro})")
     elif view.words is not None:
         cases.append(f"WORDS({function}, {kind}, {point.words}U)")
     else:
@@ -239,7 +241,7 @@ def _truth(point: Point, view: PointView, name: str) -> str:
     return f", ((({raw}){turned}) & {view.macro}_{upper(name)}_MASK) != 0U"
 
 
-def _flag(point: Point, view: PointView, name: str, width: int) -> str:
+def _flag(view: PointView, name: str, width: int) -> str:
     raw = f'(({view.raw_type})fieldscribe_bits(v, "raw"))'
     if width > 1:
         return f"{view.function}_{name}{raw}"

@@ -10,10 +10,12 @@ from fieldscribe.targets.c.defines import place_defines
 from fieldscribe.targets.c.points import comment_lines, point_view
 from fieldscribe.targets.c.scope import Scope, scope_of
 from fieldscribe.targets.c.special_codes import FUNCTIONS
-from fieldscribe.targets.c.views import DeviceView, GroupView, Needs, PointView, RemarkView, TelegramView
+from fieldscribe.targets.c.views import AliasView, DeviceView, GroupView, Needs, PointView, RemarkView, TelegramView
 from fieldscribe.text import c_comment
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from fieldscribe.model import Device, Point
 
 _FLOATS = {"round", "round_wide", "times", "times_wide", "real", "f32", "f64", "rules", "quotient"}
@@ -23,7 +25,7 @@ def device_view(device: Device, *, names_only: bool = False) -> tuple[DeviceView
     """The header's view, and the scope it was built in; with `names_only` all of its names, and no bodies."""
     scope = scope_of(device, names_only=names_only)
     by_group: dict[str, list[tuple[PointView | None, RemarkView]]] = {group.name: [] for group in device.groups}
-    aliases: list[tuple[str, str]] = []
+    aliases: list[AliasView] = []
     spaces: dict[str, None] = {}
     for point in device.points:
         if not point.generated:
@@ -36,7 +38,8 @@ def device_view(device: Device, *, names_only: bool = False) -> tuple[DeviceView
         spaces.setdefault(point.space)
         for old in point.was:
             item = old + point.item[len(point.name) :]  # a variant keeps its suffix
-            aliases += _aliases(one, f"{scope.prefix}_{item}", f"{scope.upper}_{upper(item)}")
+            of_item = _aliases(one, f"{scope.prefix}_{item}", f"{scope.upper}_{upper(item)}")
+            aliases += [AliasView(item, one.item, *alias) for alias in of_item]
     titles = {group.name: group.title["en"] for group in device.groups}
     groups = tuple(
         GroupView(c_comment(titles.get(name, name)), tuple(entries)) for name, entries in by_group.items() if entries
@@ -51,7 +54,7 @@ def device_view(device: Device, *, names_only: bool = False) -> tuple[DeviceView
         version=device.version,
         digest=device.digest[:16],
         telegrams=tuple(
-            TelegramView(name, number, f"{name}_WORDS", one.words)
+            TelegramView(one.name, name, number, f"{name}_WORDS", one.words)
             for number, one in enumerate(device.telegrams)
             for name in (f"{scope.upper}_TELEGRAM_{upper(one.name)}",)
         ),
@@ -95,10 +98,14 @@ def function_names(view: PointView) -> list[str]:
     return [*(view.function + tail for tail in tails), *(flag.function for flag in view.flags), *codes]
 
 
-def _aliases(view: PointView, function: str, macro: str) -> list[tuple[str, str]]:
-    """Old names of everything that a renamed point has."""
-    renamed = [(function + name[len(view.function) :], name) for name in function_names(view)]
-    return [*((macro + name[len(view.macro) :], name) for name, _ in view.defines), *renamed]
+def _aliases(view: PointView, function: str, macro: str) -> Iterator[tuple[str, str, str]]:
+    """Old and new names of everything that a renamed point has, and what each is."""
+    for name, literal in view.defines:
+        yield macro + name[len(view.macro) :], name, "text" if literal.startswith('"') else "number"
+    for name in function_names(view):
+        tail = name[len(view.function) :]
+        floats = view.shape not in ("plain", "text", "digits") and tail in ("_encode", "_decode")
+        yield function + tail, name, "floating function" if floats else "function"
 
 
 def _remark(point: Point, scope: Scope) -> RemarkView:
@@ -131,6 +138,10 @@ def _needs(scope: Scope) -> Needs:
         f32_order="f32_order" in used,
         f64_order="f64_order" in used,
         rules=rules,
+        tens="times_ten_to" in used,
+        f32_encodes="bits_of_f32" in used,
+        f64_encodes="bits_of_f64" in used,
+        rules_wide="rules_wide" in used,
         shifts=rules and scope.shifts,
         lifts=rules and scope.lifts,
         floats=bool(used & _FLOATS),

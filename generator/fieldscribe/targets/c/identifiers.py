@@ -48,6 +48,7 @@ _HELPERS = (
     "f64_order",
     "raw_from_value",
     "value_from_raw",
+    "value_from_wide",
     "modbus_functions",
     "modbus_profile",
     "split_f32",
@@ -89,9 +90,8 @@ def identifiers(device: Device) -> Iterator[Identifier]:
     for name, owner in _of_points(view):
         owners[name] = owner
         yield Identifier("C", name, owner)
-    yield from (
-        Identifier("C", alias, owners[name]._replace(part=f"old name of {name}")) for alias, name in view.aliases
-    )
+    for alias in view.aliases:
+        yield Identifier("C", alias.old, owners[alias.new]._replace(part=f"old name of {alias.new}"))
     family = FAMILIES[device.family]
     yield from (
         Identifier("C", name, owner) for name, owner in family.identifiers(family.view(device, view, scope), view)

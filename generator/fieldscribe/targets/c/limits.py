@@ -42,10 +42,21 @@ def _limits_check(point: Point, macro: str, scope: Scope, arguments: tuple[str, 
         return _moving(point, scope, refused)
     intervals = point.allowed.intervals
     if len(intervals) == 1:
-        return CheckView((), "", _named_test("raw", macro, (intervals[0].low, intervals[0].high), bounds), refused)
+        limits = intervals[0].low, intervals[0].high
+        return CheckView((), "", _named_test("raw", macro, limits, _bounds_without_codes(point)), refused)
     literal = bare if point.info.signed else unsigned
     tests = [interval_test("raw", one.low, one.high, bounds, literal) for one in intervals]
     return CheckView((), "", any_of(tests), refused)
+
+
+def _bounds_without_codes(point: Point) -> tuple[int, int]:
+    """The ends of the raw numbers that are left when the special codes, which are answered first, are gone."""
+    low, high = raw_bounds(point)
+    for code in sorted(point.specials, key=lambda code: code.low):
+        low = code.high + 1 if code.low <= low <= code.high else low
+    for code in sorted(point.specials, key=lambda code: -code.high):
+        high = code.low - 1 if code.low <= high <= code.high else high
+    return low, high
 
 
 def _named_test(name: str, macro: str, limits: tuple[Bound, Bound], bounds: tuple[int, int]) -> str:
@@ -73,7 +84,12 @@ def _moving(point: Point, scope: Scope, refused: str) -> CheckView:
             else:
                 ends.append(bound)
         tests.append(interval_test("number", ends[0], ends[1], raw_bounds(point), bare))
-    return CheckView(tuple(limits), "int64_t" if wide else "int32_t", any_of(tests), refused)
+    return CheckView(tuple(limits), "int64_t" if wide else "int32_t", any_of(tests), refused, _number(point))
+
+
+def _number(point: Point) -> str:
+    """The raw number as the signed type that limits have: what lies beyond that is beyond all of them."""
+    return "raw > (uint64_t)INT64_MAX ? INT64_MAX : (int64_t)raw" if point.type == "u64" else "raw"
 
 
 def _is_fixed(interval: Interval) -> bool:

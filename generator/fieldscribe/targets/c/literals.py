@@ -41,6 +41,13 @@ def raw_bounds(point: Point) -> tuple[int, int]:
     return (-(1 << (info.bits - 1)), (1 << (info.bits - 1)) - 1) if info.signed else (0, (1 << info.bits) - 1)
 
 
+def sign_and_size(point: Point) -> tuple[str, str]:
+    """Whether the variable `raw` of a point is negative, and its magnitude."""
+    if not point.info.signed:
+        return "false", "raw"
+    return "raw < 0", "(raw < 0 ? (uint64_t)(-(raw + 1)) + 1U : (uint64_t)raw)"
+
+
 @lru_cache(maxsize=65536)
 def signed(number: int) -> str:
     """A number as a signed constant where one can hold it, ready for any expression or `#define`."""

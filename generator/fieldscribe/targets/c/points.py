@@ -193,7 +193,7 @@ def _float_view(point: Point, scope: Scope) -> FloatView:
     bits = point.info.bits
     scope.used.update((f"f{bits}", "double") if bits == 64 else (f"f{bits}",))
     if point.writable:
-        scope.used.add(f"f{bits}_order")
+        scope.used.update((f"f{bits}_order", f"bits_of_f{bits}"))
     infinity = 0x7F80_0000 if bits == 32 else 0x7FF0 << 48
     spans = [(float_order(float(low), bits), float_order(float(high), bits)) for low, high in point.allowed.units]
     tests = [f"order >= {bare(low)} && order <= {bare(high)}" for low, high in spans or [(1 - infinity, infinity - 1)]]

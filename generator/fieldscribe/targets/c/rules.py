@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from math import prod
 from typing import TYPE_CHECKING
 
-from fieldscribe.targets.c.literals import INT32, INT64, bare, raw_bounds, signed
+from fieldscribe.targets.c.literals import INT32, INT64, bare, raw_bounds, sign_and_size, signed
 from fieldscribe.targets.c.views import LimitView, RuleCase, RuledView, Step
 
 if TYPE_CHECKING:
@@ -19,12 +20,16 @@ def ruled_view(point: Point, scope: Scope) -> RuledView:
     """The rule function of a point, case by case."""
     cases = tuple(_case(case, scope) for case in point.scale or ())
     scope.used.add("rules")
+    wide = point.readable and not point.encodes_values
+    if wide:
+        scope.used.update(("quotient", "rules_wide"))
     return RuledView(
         cases=cases,
         total=any(not case.test for case in cases),
         tens=signed(10 ** (point.decimals or 0)),
         pass_scale=scope.place(point.scale_arguments),
         beyond=_too_large(point),
+        parts=sign_and_size(point) if wide else None,
     )
 
 
@@ -45,9 +50,22 @@ def limit_view(limit: Limit, name: str, is_low: bool, scope: Scope) -> LimitView
         scope.used.add("rules")
         rule = _rule(limit.rule, scope, of_limit=True)
         return LimitView(name, signed(start), applies, (), "number_of_rule", clamp, rule)
-    if is_low and start <= 0 and _never_negative(limit.rule, scope):
+    if _stays_inside(limit, scope, is_low=is_low):
         clamp = ""
     return LimitView(name, signed(start), applies, simple[1], simple[0], clamp, None)
+
+
+def _stays_inside(limit: Limit, scope: Scope, *, is_low: bool) -> bool:
+    """Whether a computed limit is never beyond the outer one, whatever the arguments hold."""
+    rule = limit.rule
+    if not _never_negative(rule, scope):
+        return False
+    if is_low:
+        return limit.least <= 0
+    if any(factor.power < 0 for factor in rule.factors):
+        return False
+    most = rule.ratio * prod(_bounds(factor, scope)[1] for factor in rule.factors) + rule.offset
+    return 2 * most < 2 * limit.greatest + 1
 
 
 def _is_no_code(point: str, low: int, high: int, scope: Scope) -> str:
@@ -87,6 +105,7 @@ def _rule(rule: Linear, scope: Scope, test: str = "", *, of_limit: bool = False)
             continue
         if factor.ten_to:
             exponent = f"-{number}" if factor.power < 0 else number
+            scope.used.add("times_ten_to")
             tens.append(Step("ten", "rule", exponent, False, _beyond(factor, scope)))
             continue
         ends[factor.power] *= _reach_of(factor, scope)

@@ -5,7 +5,18 @@ from __future__ import annotations
 from math import gcd
 from typing import TYPE_CHECKING, NamedTuple
 
-from fieldscribe.targets.c.literals import EXACT_FLOAT, INT32, INT64, bare, raw_bounds, raw_type, real, signed, unsigned
+from fieldscribe.targets.c.literals import (
+    EXACT_FLOAT,
+    INT32,
+    INT64,
+    bare,
+    raw_bounds,
+    raw_type,
+    real,
+    sign_and_size,
+    signed,
+    unsigned,
+)
 from fieldscribe.targets.c.views import ScaledView
 
 if TYPE_CHECKING:
@@ -221,7 +232,7 @@ def _value_of_raw(plan: Plan, point: Point, scope: Scope, real_type: str) -> str
 
 def _quotient(plan: Plan, point: Point, scope: Scope) -> str:
     """(raw * a - b) / c to the nearest double, where a double does not hold the numerator."""
-    size = "(raw < 0 ? (uint64_t)(-(raw + 1)) + 1U : (uint64_t)raw)" if point.info.signed else "raw"
-    above, below = ("raw >= 0", "raw < 0") if point.info.signed else ("true", "false")
+    below, size = sign_and_size(point)
+    above = "raw >= 0" if point.info.signed else "true"
     numbers = [unsigned(abs(plan.a)), "true" if plan.b > 0 else "false", unsigned(abs(plan.b)), unsigned(plan.c)]
     return f"{scope.helper('quotient')}({above if plan.a < 0 else below}, {size}, {', '.join(numbers)})"

@@ -158,6 +158,10 @@ def adapters(bus: BusView) -> Iterator[tuple[str, str]]:
     for word in bus.words:
         if word.write and word.telegram in starts:
             yield word.function, f"SEND({word.function}, {word.raw_type}, {starts[word.telegram]}, {word.words_name})"
+        if word.write:
+            yield word.function, f"PUT({word.function}, {word.raw_type}, {word.macro}, {word.words_name})"
+        if word.read:
+            yield word.function, f"TAKE({word.function}, {word.macro}, {word.words_name})"
         if word.read and word.telegram not in starts:
             yield word.function, f"HEAR({word.function}, {word.words_name})"
 

@@ -78,6 +78,7 @@ class CheckView:
     number_type: str
     test: str
     refused: str
+    number: str = "raw"
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,13 +108,17 @@ class ScaledView:
 
 @dataclass(frozen=True, slots=True)
 class RuledView:
-    """A scale that other points decide at run time; `beyond` tests for raw numbers too large for it, or is empty."""
+    """A scale that other points decide at run time; `beyond` tests for raw numbers too large for it, or is empty.
+
+    `parts` are the sign and the size of a raw number that only a division of 128 bits decodes.
+    """
 
     cases: tuple[RuleCase, ...]
     total: bool
     tens: str
     pass_scale: str
     beyond: str
+    parts: tuple[str, str] | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -277,10 +282,14 @@ class Needs:
     round_wide: bool
     f32: bool
     f64: bool
+    f32_encodes: bool
+    f64_encodes: bool
     quotient: bool
+    rules_wide: bool
     f32_order: bool
     f64_order: bool
     rules: bool
+    tens: bool
     shifts: bool
     lifts: bool
     floats: bool
@@ -292,10 +301,22 @@ class Needs:
 class TelegramView:
     """A telegram: the enumerator that names it, its number, and the macro that says how many words it has."""
 
+    title: str
     name: str
     number: int
     words_name: str
     words: int
+
+
+@dataclass(frozen=True, slots=True)
+class AliasView:
+    """An old name of something that belongs to a renamed point; `sort` tells numbers, texts and functions apart."""
+
+    old_item: str
+    item: str
+    old: str
+    new: str
+    sort: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -313,5 +334,5 @@ class DeviceView:
     spaces: tuple[tuple[str, int], ...]
     telegrams: tuple[TelegramView, ...]
     groups: tuple[GroupView, ...]
-    aliases: tuple[tuple[str, str], ...]
+    aliases: tuple[AliasView, ...]
     needs: Needs

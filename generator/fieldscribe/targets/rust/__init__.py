@@ -68,7 +68,9 @@ def runtime(device: Device) -> Iterator[tuple[str, str]]:
     for name in _RUNTIME:
         yield f"rust/fieldscribe_runtime/{name}", f"rust/runtime/fieldscribe_runtime/{name}"
     yield f"rust/{device.id}/tests/runner/mod.rs", "rust/runtime/runner/mod.rs"
+    yield f"rust/{device.id}/tests/runner/runtime.rs", "rust/runtime/runner/runtime.rs"
     yield f"rust/{device.id}/tests/runner/frames.rs", f"rust/runtime/runner/{device.family}.rs"
+    yield f"rust/{device.id}/tests/runner/clients.rs", f"rust/runtime/runner/{device.family}_clients.rs"
 
 
 __all__ = ["identifiers", "outputs", "runtime"]

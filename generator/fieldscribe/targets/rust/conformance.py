@@ -63,6 +63,7 @@ def conformance_tables(scope: Scope, device: Device) -> tuple[Table, ...]:
         ("bits", "bits", tuple(_row(one, "alone") for one in scope.subjects if one.point.bits)),
         ("words", "words", tuple(_row(one, "alone") for one in scope.subjects if _has_words(one.point))),
         ("address", "address", tuple(_row(one, _references(one.point)) for one in scope.subjects)),
+        ("symbol", "symbol", tuple(_row(one, "alone") for one in scope.subjects if one.point.unit.symbol)),
         *_newer(scope, texts, digits),
         *_protocol(device),
     )
@@ -83,6 +84,7 @@ def _protocol(device: Device) -> Iterator[Table]:
     if heard:
         names = [f"{rust_string(one.name)} telegrams (telegram {type_name(one.name)})" for one in heard]
         yield "can_taken", "can_taken", tuple(names)
+        yield "can_carrier", "can_carrier", tuple(names)
     places = [one for one in device.points if one.raw_only and one.address is not None]
     if places:
         names = [f"{rust_string(one.item)} points (documented {one.item.upper()})" for one in places]
@@ -260,8 +262,7 @@ def _flags(subjects: Iterable[Subject]) -> Iterator[str]:
     for one in subjects:
         if one.form == "flags":
             for flag in one.point.flags:
-                how = ("on" if flag.active else "off") if flag.width == 1 else "bits"
-                calls = f"{how} {one.raw} {getter_name(flag.name)} with_{flag.name}"
+                calls = f"flag {one.raw} {getter_name(flag.name)} with_{flag.name}"
                 yield f"{rust_string(f'{one.point.item} {flag.name}')} {one.name} ({calls})"
 
 

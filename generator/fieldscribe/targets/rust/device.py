@@ -75,6 +75,6 @@ def device_context(device: Device, scope: Scope) -> dict[str, object]:
 def _computes(point: PointView) -> bool:
     """Whether the point's code calls the runtime's arithmetic."""
     factors = [factor for rule in point.rules for factor in rule.factors]
-    if point.write or point.bits or any(factor.bounds or factor.line for factor in factors):
+    if point.write or any(factor.bounds or factor.line for factor in factors):
         return True
     return point.read is not None and any("arithmetic::" in text for text in (point.read.value, point.read.count))

@@ -129,8 +129,8 @@ def _bits(point: Point) -> BitsView | None:
         return None
     high, low = point.bits
     bits = mask(((1 << (high - low + 1)) - 1) << low, "u16")
-    signed = "_signed" if point.info.signed else ""
-    return BitsView(low, bits, f"arithmetic::extract{signed}(word, {low}, {bits})")
+    signed = "signed_" if point.info.signed else ""
+    return BitsView(low, bits, f"runtime::{signed}group::<Self>(word)")
 
 
 def _digits(subject: Subject) -> Iterator[tuple[str, ...]]:

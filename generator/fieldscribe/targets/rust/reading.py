@@ -60,6 +60,7 @@ def read_view(subject: Subject, low: int, high: int) -> ReadView:
         count=count,
         function="" if function in (None, _FUNCTIONS.get(point.places[0].space)) else str(function),
         beyond=_beyond(subject),
+        by_rule="decode(runtime::Raw::to_i64(raw))" if point.encodes_values else "decode_wide(i128::from(raw))",
     )
 
 

@@ -65,7 +65,8 @@ class CheckView:
 class ReadView:
     """Decoding: types and expressions; `failing` if it can fail, `narrows` if a count has to become an `i64`.
 
-    `beyond` tests for raw numbers that are too large for a scale with factors, or is empty.
+    `beyond` tests for raw numbers that are too large for a scale with factors, or is empty; `by_rule` is the call that
+    decodes by such a scale.
     """
 
     factors: str
@@ -78,6 +79,7 @@ class ReadView:
     count: str
     function: str
     beyond: str
+    by_rule: str
 
 
 @dataclass(frozen=True, slots=True)

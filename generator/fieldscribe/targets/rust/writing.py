@@ -104,7 +104,9 @@ def _float_ranges(point: Point) -> tuple[str, ...]:
     """Conditions of which one holds if a number of the type is within the limits, as the type has those."""
     greatest = FLOAT_GREATEST[point.width]
     ends = [[nearest_float(float(end), point.width) for end in pair] for pair in point.allowed.units]
-    literals = [map(float_literal, pair) for pair in ends or [[-greatest, greatest]]]
+    if not ends or ends == [[-greatest, greatest]]:
+        return ("number.is_finite()",)
+    literals = [map(float_literal, pair) for pair in ends]
     return tuple(f"({low}..={high}).contains(&number)" for low, high in literals)
 
 

@@ -11,13 +11,15 @@ from fieldscribe.targets.vectors.can import CanWire, can
 from fieldscribe.targets.vectors.characters import digits, text
 from fieldscribe.targets.vectors.exchanges import Exchanges
 from fieldscribe.targets.vectors.floats import floats
+from fieldscribe.targets.vectors.limits import limits
 from fieldscribe.targets.vectors.lines import Lines
 from fieldscribe.targets.vectors.modbus import ModbusWire, modbus
 from fieldscribe.targets.vectors.oracle import Oracle
-from fieldscribe.targets.vectors.places import address, facts, words
+from fieldscribe.targets.vectors.places import address, aliases, facts, words
 from fieldscribe.targets.vectors.scaled import scaled
 from fieldscribe.targets.vectors.uss import UssWire, uss
 from fieldscribe.targets.vectors.whole import bits, fixed, flags, names, specials, whole
+from fieldscribe.text import line
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
@@ -53,22 +55,30 @@ def collect(device: Device) -> Lines:
     frames, wire = _FAMILIES[device.family]
     exchanges = Exchanges(lines, oracle, device, wire(device))
     exchanges.open()
+    for axis, choices in device.variants.items():
+        lines.add("variant", axis, choices)
+    limits(lines, device)
     for point in device.points:
         if point.generated:
-            _point(lines, oracle, point)
+            _point(lines, oracle, point, device.variants)
             exchanges.of(point)
             lines.gather()
     for point in device.points:
         if point.raw_only and point.address is not None:
             lines.add("documented", point.item, point.places[0].space, point.address, point.words, point.index)
+            if point.code is not None:
+                lines.add("documented_code", point.item, line(point.code))
+    if left_out := tuple(point.item for point in device.points if not point.generated):
+        lines.add("left_out", left_out)
     frames(lines, device)
     return lines
 
 
-def _point(lines: Lines, oracle: Oracle, point: Point) -> None:
+def _point(lines: Lines, oracle: Oracle, point: Point, variants: Mapping[str, tuple[str, ...]]) -> None:
     lines.set("point", point.item)
     address(lines, point)
-    facts(lines, point)
+    facts(lines, point, variants)
+    aliases(lines, point)
     if point.form == "scaled":
         scaled(lines, oracle, point)
     elif point.form == "float":

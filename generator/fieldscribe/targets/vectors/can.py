@@ -82,6 +82,7 @@ def can(lines: Lines, device: Device) -> None:
         if not any(role.kind == "word" for role in message.roles):
             _builds(lines, device.bus.units, message)
             _parses(lines, device.bus.units, message)
+    lines.add("can_bus", device.bus.identifier_bits or 11, device.bus.bitrate)
     codes(lines, "constant", "exception", device.bus.exceptions)
     for group in device.groups:
         members = (one for one in device.points if one.generated and one.readable and one.group == group.name)
@@ -140,11 +141,13 @@ def _telegram(lines: Lines, device: Device, telegram: Telegram) -> None:
     if message is None:
         return
     unit = device.bus.units[0]
-    points = [one for one in device.points if one.telegram == telegram.name and one.generated and one.form != "text"]
-    for point in points:
-        _heard(lines, telegram, message, point, unit)
+    for point in device.points:
+        if point.telegram == telegram.name and point.generated:
+            (_heard if point.form != "text" else _heard_text)(lines, telegram, message, point, unit)
     if message.words:
-        _misheard(lines, telegram, message, unit)
+        lines.add("size", "frames", telegram.name, -(-telegram.words // message.words))
+        for one in dict.fromkeys(device.bus.units):
+            _misheard(lines, telegram, message, one)
 
 
 def _misheard(lines: Lines, telegram: Telegram, message: Message, unit: int) -> None:
@@ -163,6 +166,7 @@ def _misheard(lines: Lines, telegram: Telegram, message: Message, unit: int) -> 
             frames.append(CanFrame(good.id, bytes((*data[:place], data[place] ^ 0x80, *data[place + 1 :]))))
     receiver = Receiver(telegram, message, unit)
     lines.set("telegram", telegram.name, unit)
+    lines.add("can_carrier", message.name)
     lines.add("can_taken", [(one.id, one.data) for one in frames], [int(receiver.take(one)) for one in frames])
 
 
@@ -187,6 +191,22 @@ def _heard(lines: Lines, telegram: Telegram, message: Message, point: Point, uni
         (l1, h1, l2, h1, l1), (h1, l1, h1, h1),
     ):  # fmt: skip
         ask.answer([ask.frame(*one) for one in order])
+
+
+def _heard_text(lines: Lines, telegram: Telegram, message: Message, point: Point, unit: int) -> None:
+    """A text of a telegram: none of it there, all but the last frame, all of it."""
+    ask = _Asking(lines, telegram, message, point, unit)
+    slots = dict.fromkeys(position // message.words for position in point.addresses)
+    frames = [ask.frame(slot, 0x2143 + slot) for slot in slots]
+    for count in dict.fromkeys((0, len(frames) - 1, len(frames))):
+        receiver = Receiver(telegram, message, unit)
+        taken = [int(receiver.take(frame)) for frame in frames[:count]]
+        found = [receiver.words((position,)) for position in point.addresses]
+        status = next((status for status, _ in found if status != "ok"), "ok")
+        words = [word for _, words in found for word in words] if status == "ok" else None
+        lines.set("point", point.item)
+        lines.set("telegram", telegram.name, unit)
+        lines.add("can_text", [(one.id, one.data) for one in frames[:count]], taken, status, words)
 
 
 class _Asking:

@@ -91,12 +91,24 @@ KINDS = _table(
         "write": _EXCHANGE,
         "store": _EXCHANGE,
         # what Python alone says of a point beside: C and Rust do so in comments, which no program can hold
-        "facts": "only:python group:word name:word symbol:text? default:real? changes:word? changes_with:names? "
-        "variant:text? write_space:word? write_addresses:ints?",
+        "facts": "only:python group:word name:word type:word symbol:text? default:real? changes:word? "
+        "changes_with:names? variant:text? only_for:names? write_space:word? write_addresses:ints?",
+        # what a point was called before
+        "alias": "only:c.python old:word new:word",
+        # the values of an axis of variants, and all that is documented only
+        "variant": "only:python axis:word choices:names",
+        "left_out": "only:python names:names",
+        # the symbol of the unit of a point that has one
+        "symbol": "only:rust symbol:text",
         # where the words of points are that are documented only
         "documented": "name:word space:word address:int words:int index:int?",
+        "documented_code": "only:c name:word code:text",
         # the words that bring a group where each is asked for by itself: Rust reads the points themselves
         "group": "only:c.python group:word addresses:ints",
+        # what tables of constants hold: the functions or tasks in their order, limits, and how long a table is
+        "function": "only:c index:int number:int most:int? broadcast:int? answers:int?",
+        "limit": "only:c what:word number:int",
+        "size": "only:c what:word of:text? number:int",
         # numbers of the protocol with names, and named writes
         "code": "what:word number:int name:text",
         "constant": "only:c.rust what:word number:int name:text",
@@ -111,7 +123,10 @@ KINDS = _table(
         "can_build": "unit:int address:int raw:int status:word id:int? bytes:bytes?",
         "can_parse": "unit:int id:int bytes:bytes? status:word address:int? raw:int?",
         "can_taken": "frames:frames taken:ints",
+        "can_bus": "only:rust identifier_bits:int bitrate:int?",
+        "can_carrier": "only:rust carrier:word",
         "can_telegram": "frames:frames? taken:ints? status:word raw:int?",
+        "can_text": "only:c frames:frames? taken:ints? status:word words:ints?",
         # telegrams of USS
         "uss_build": "status:word bytes:bytes?",
         "uss_broadcast": "mask:ints words:ints? status:word bytes:bytes?",

@@ -138,6 +138,11 @@ def builds(lines: Lines, bus: Bus) -> None:
             status, data = build(profile, framing, request)
             _ask(lines, framing, request)
             lines.add("build", status, data)
+    for framing in FRAMINGS:
+        if framing not in profile.framings:
+            request = next(_requests(profile, framing))
+            _ask(lines, framing, request)
+            lines.add("build", *build(profile, framing, request))
 
 
 def _framings(bus: Bus) -> tuple[str, ...]:

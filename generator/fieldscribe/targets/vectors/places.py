@@ -9,6 +9,8 @@ from fieldscribe.targets.vectors.oracle import outer_bounds
 from fieldscribe.text import line
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from fieldscribe.model import Point
     from fieldscribe.targets.vectors.lines import Lines
 
@@ -31,9 +33,11 @@ def address(lines: Lines, point: Point) -> None:
     )
     if point.index is not None or point.telegram is not None or point.text is not None:
         lines.add("place", point.addresses, point.index, point.telegram)
+    if point.unit.symbol:
+        lines.add("symbol", point.unit.symbol)
 
 
-def facts(lines: Lines, point: Point) -> None:
+def facts(lines: Lines, point: Point, variants: Mapping[str, tuple[str, ...]]) -> None:
     """What a point belongs to, and what it has beside its numbers."""
     other = next((place for place in point.places if place.purpose == "write"), None)
     apart = other is not None and other is not point.places[0]
@@ -41,14 +45,30 @@ def facts(lines: Lines, point: Point) -> None:
         "facts",
         point.group,
         point.name,
+        point.type,
         point.unit.symbol or None,
         None if point.default is None else float(point.default),
         None if point.changes == "always" else point.changes,
         point.changes_with,
         point.variant,
+        _only_for(point, variants),
         other.space if other is not None and apart else None,
         other.addresses if other is not None and apart else None,
     )
+
+
+def aliases(lines: Lines, point: Point) -> None:
+    """What the point was called before; a variant keeps its suffix."""
+    for old in point.was:
+        lines.add("alias", old + point.item.removeprefix(point.name), point.item)
+
+
+def _only_for(point: Point, variants: Mapping[str, tuple[str, ...]]) -> tuple[str, ...] | None:
+    """The values of one axis of variants for which the point exists, behind its name."""
+    if point.when is None or len(point.when.names) != 1 or point.when.names[0] not in variants:
+        return None
+    [axis] = point.when.names
+    return (axis, *(value for value in variants[axis] if point.when.holds({axis: value})))
 
 
 def words(lines: Lines, point: Point) -> None:

@@ -159,6 +159,8 @@ def _choices(oracle: Oracle, point: Point, name: str) -> list[int]:
         elif factor.slope and factor.intercept % factor.slope == 0:
             found.append(-factor.intercept // factor.slope)
     found += lifting
+    if source is not None and any(factor.point == name for limit in limits_of(point) for factor in limit.rule.factors):
+        found.append(max(source.least, 0) + 1)  # so small that the outer limits have to hold
     return [raw for raw in dict.fromkeys(found) if source is None or source.least <= raw <= source.greatest]
 
 

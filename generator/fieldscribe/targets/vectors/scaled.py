@@ -101,7 +101,7 @@ class _Sheet:
                 add("decode", raw, "special", None, code.name)
             elif _beyond(self.point, raw):
                 add("decode", raw, "overflow")
-            elif ratio.divides_exactly(raw) or not self.point.scale_arguments:
+            elif ratio.divides_exactly(raw) or not (self.point.scale_arguments and self.point.encodes_values):
                 add("decode", raw, "ok", ratio.numerator(raw) / under)
 
     def _decode_count(self, raws: list[int], decimals: int) -> None:

@@ -194,6 +194,8 @@ def _links(bus: Bus) -> Iterator[Link]:
     for pzd in dict.fromkeys((least, most, most + 1)):
         if pzd != usual:
             yield Link(bus.pkw[-1], pzd)
+    if 0 in bus.pkw and least == 0:
+        yield Link(0, 0)
     yield Link(5, usual)
 
 

@@ -19,7 +19,6 @@ from .errors import (
     FrameError,
     NoReplyError,
     RequestError,
-    TelegramError,
 )
 from .points import Decoding, Encoding, Point
 from .rules import NO_RAWS
@@ -44,7 +43,7 @@ def _about(point: Point) -> Iterator[None]:
     """What goes wrong on the bus meanwhile says which point was asked for."""
     try:
         yield
-    except (FrameError, RequestError, NoReplyError, TelegramError) as error:
+    except (FrameError, RequestError, NoReplyError) as error:
         error.point = error.point or point.label
         raise
 

@@ -31,7 +31,7 @@ class Text(Form[str, str]):
 
     def decode(self, raw: int, raws: Raws) -> str:
         """The characters without the spaces behind them; each byte is one, whatever it is."""
-        data = (raw & (1 << self.wire.bits) - 1).to_bytes(self.characters, "big")
+        data = raw.to_bytes(self.characters, "big")
         return data.rstrip(b" ").decode("latin-1")
 
     def converted(self, value: str, raws: Raws) -> int | None:

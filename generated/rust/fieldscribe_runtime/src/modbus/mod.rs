@@ -5,7 +5,7 @@
 //! use fieldscribe_runtime::modbus::{Framing, Function, Profile, Request};
 //!
 //! const FUNCTIONS: &[Function] = &[Function::new(3, 4)];
-//! static PROFILE: Profile = Profile::new(FUNCTIONS, &[Framing::Rtu], (1, 32), Some(0), false);
+//! static PROFILE: Profile = Profile::new(FUNCTIONS, &[Framing::Rtu], (1, 32), Some(0));
 //! let request = Request::new(1, 3, 0x1028, 1);
 //! let mut frame = [0; 256];
 //! assert_eq!(request.build(&PROFILE, &mut frame), Ok(8));

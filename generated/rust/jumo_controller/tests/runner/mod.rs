@@ -3,6 +3,10 @@
 
 #![allow(dead_code, reason = "not every device has points of every kind")]
 
+#[macro_use]
+mod runtime;
+
+mod clients;
 pub mod frames;
 
 use std::cell::Cell;
@@ -14,7 +18,7 @@ use std::task::{Context, Poll, Wake, Waker};
 
 use fieldscribe_runtime::{
     BitGroup, Code, Coded, CountReadable, CountWritable, Decoded, Documented, Encodable, Error,
-    Point, Raw, Readable, Reading, Text, Whole, Writable,
+    Flags, Point, Raw, Readable, Reading, Text, Whole, Writable,
 };
 
 /// Nothing, or what differs.
@@ -116,23 +120,11 @@ macro_rules! table {
         let value = device::enums::$enum::from(raw);
         runner::name($vector, value.name(), $raw::from(value) == raw)
     }};
-    ($run:ident $word:ident (on $raw:ident $get:ident $set:ident) $vector:ident) => {{
+    ($run:ident $word:ident (flag $raw:ident $get:ident $set:ident) $vector:ident) => {{
         let word = device::flags::$word::from($vector.raw::<$raw>("raw"));
-        let same = word.$set(word.$get()) == word && word.$set(!word.$get()).$get() != word.$get();
-        let truth = $vector.raw::<u8>("truth") == u8::from(word.$get());
-        runner::flag($vector, u64::from(word.$get()), same && truth)
-    }};
-    ($run:ident $word:ident (off $raw:ident $get:ident $set:ident) $vector:ident) => {{
-        let word = device::flags::$word::from($vector.raw::<$raw>("raw"));
-        let same = word.$set(word.$get()) == word && word.$set(!word.$get()).$get() != word.$get();
-        let truth = $vector.raw::<u8>("truth") == u8::from(word.$get());
-        runner::flag($vector, u64::from(!word.$get()), same && truth)
-    }};
-    ($run:ident $word:ident (bits $raw:ident $get:ident $set:ident) $vector:ident) => {{
-        let word = device::flags::$word::from($vector.raw::<$raw>("raw"));
-        let other = !word.$get();
-        let same = word.$set(word.$get()) == word && word.$set(other).$set(word.$get()) == word;
-        runner::flag($vector, u64::from(word.$get()), same && word.$set(other) != word)
+        let set = [word.$get(), !word.$get()].map(|state| word.$set(state));
+        runner::same($raw::from(word), $vector.raw("raw"))
+            .and_then(|()| runner::flag($vector, word, u64::from(word.$get()), set))
     }};
 }
 
@@ -255,7 +247,7 @@ impl<'a> Vector<'a> {
             "flag_name" => [self.text("flag"), self.text("name")].join(" "),
             "code" | "constant" => return [self.text("what"), self.text("name")].join(" "),
             "command" => return self.text("command"),
-            "can_taken" => return self.text("telegram"),
+            "can_taken" | "can_carrier" => return self.text("telegram"),
             "documented" => return self.text("name"),
             _ => return self.text("point"),
         };
@@ -603,10 +595,33 @@ pub fn code(vector: &Vector, number: u64, name: Option<&str>) -> Outcome {
     same(vector.said("name").as_deref(), name)
 }
 
-/// A flag's number as it is in the word, and that setting it does what getting it says.
-pub fn flag(vector: &Vector, found: u64, same_word: bool) -> Outcome {
-    same(vector.raw::<u64>("number"), found)?;
-    same(true, same_word)
+/// A flag of a word: what it is called and which bits it has, what getting it says of this word, and what setting it to
+/// that and to the opposite makes of the word.
+pub fn flag<F>(vector: &Vector, word: F, found: u64, set: [F; 2]) -> Outcome
+where
+    F: Flags + Default + std::fmt::Debug,
+{
+    let name = vector.text("flag");
+    let flag = F::FLAGS.iter().find(|flag| flag.name() == name);
+    let flag = flag.ok_or_else(|| "it is not in the table".to_owned())?;
+    let number = vector.raw::<u64>("number");
+    let truth = vector.number("truth").map(|truth| u64::from(truth == 1));
+    same(truth.unwrap_or(number), found)?;
+    same(found, flag.number(word.bits()))?;
+    same(
+        truth.is_some_and(|truth| truth != number),
+        flag.is_active_low(),
+    )?;
+    let mask = flag.mask();
+    same(number, (word.bits() & mask) >> mask.trailing_zeros())?;
+    same(set.map(F::bits), [word.bits(), word.bits() ^ mask])?;
+    let named = F::FLAGS.iter().fold(0, |named, flag| named | flag.mask());
+    let nothing = F::default().bits();
+    same((0, 0), (flag.number(nothing), nothing & !named))?;
+    same(
+        true,
+        format!("{word:?}").starts_with(&format!("{}(0x", F::NAME)),
+    )
 }
 
 /// The number that a name of a flag's numbers stands for.
@@ -635,6 +650,15 @@ where
     let raw: P::Raw = vector.raw("raw");
     let words: Vec<u16> = vector.numbers("words");
     same(words.as_slice(), P::to_words(raw).as_ref())?;
+    if P::ADDRESSES.len() > 1 {
+        let read = raw.into_words();
+        let mut parts: Vec<_> = P::ADDRESSES.iter().zip(read.as_ref()).collect();
+        parts.sort();
+        same(
+            words.clone(),
+            parts.into_iter().map(|(_, word)| *word).collect(),
+        )?;
+    }
     same(Ok(raw), P::from_received(words.iter().copied()))?;
     same(
         Err(Error::WrongLength),
@@ -654,6 +678,11 @@ where
     if vector.number("raw_min").is_some() {
         same(vector.raw("raw_min"), P::RAW_MIN)?;
         same(vector.raw("raw_max"), P::RAW_MAX)?;
+    }
+    if P::ADDRESSES.len() > 1 {
+        let mut addresses = P::ADDRESSES.to_vec();
+        addresses.sort_unstable();
+        same((P::ADDRESS..).take(P::WORDS.into()).collect(), addresses)?;
     }
     place_of::<P>(vector, references)
 }
@@ -679,6 +708,11 @@ pub fn place<P: Point>(vector: &Vector) -> Outcome {
     same(addresses.as_slice(), P::ADDRESSES)?;
     same(vector.number("index"), P::INDEX.map(i128::from))?;
     same(vector.said("telegram").as_deref(), P::TELEGRAM)
+}
+
+/// The symbol of a point's unit.
+pub fn symbol<P: Point>(vector: &Vector) -> Outcome {
+    same(vector.text("symbol").as_str(), P::UNIT)
 }
 
 /// The bits of a word that are always written as a constant.
@@ -862,7 +896,11 @@ pub fn exchanged<T, E>(
 }
 
 /// Runs all vectors of the file and reports one line per kind.
-pub fn main(default: &str, run: impl Fn(&str, &Vector) -> Option<Outcome>) -> ExitCode {
+pub fn main(
+    default: &str,
+    device: [&str; 3],
+    run: impl Fn(&str, &Vector) -> Option<Outcome>,
+) -> ExitCode {
     let path = std::env::var("FIELDSCRIBE_VECTORS").unwrap_or_else(|_| default.to_owned());
     let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"));
     let (mut kinds, mut sets): (Vec<Shape>, Vec<Shape>) = (Vec::new(), Vec::new());
@@ -870,7 +908,10 @@ pub fn main(default: &str, run: impl Fn(&str, &Vector) -> Option<Outcome>) -> Ex
     for line in text.lines() {
         let parts: Vec<&str> = line.split('\t').collect();
         match parts[0] {
-            "vectors" => assert_eq!(parts[1], "2", "{path} is of another format"),
+            "vectors" => {
+                assert_eq!(parts[1], "2", "{path} is of another format");
+                assert_eq!(parts[2..], device, "{path} is of another description");
+            }
             "set" => sets.push(Shape::new(&parts[1..], false)),
             "kind" => kinds.push(Shape::new(&parts[1..], true)),
             name => {
@@ -888,7 +929,10 @@ pub fn main(default: &str, run: impl Fn(&str, &Vector) -> Option<Outcome>) -> Ex
             }
         }
     }
-    report(&kinds)
+    let result = report(&kinds);
+    runtime::check();
+    clients::check();
+    result
 }
 
 /// The fields of a line by their names; those that are left out are absent.

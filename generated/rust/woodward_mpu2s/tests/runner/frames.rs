@@ -217,6 +217,18 @@ pub fn can_taken<T: Telegram>(vector: &Vector) -> Outcome {
     same(vector.numbers("taken"), taken)
 }
 
+/// What the line of a device is like.
+pub fn bus(vector: &Vector, profile: &Profile, bitrate: Option<u32>) -> Outcome {
+    same(vector.raw("identifier_bits"), profile.identifier_bits())?;
+    same(vector.number("bitrate"), bitrate.map(i128::from))
+}
+
+/// The name of the message whose frames carry a telegram.
+pub fn can_carrier<T: Telegram>(vector: &Vector) -> Outcome {
+    same(vector.text("telegram").as_str(), T::NAME)?;
+    same(vector.text("carrier").as_str(), T::MESSAGE.name())
+}
+
 /// Frames of a telegram, and a point of it.
 pub fn can_telegram<P>(vector: &Vector) -> Outcome
 where

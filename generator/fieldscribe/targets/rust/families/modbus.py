@@ -8,16 +8,19 @@ from fieldscribe.families.modbus import framings_of
 from fieldscribe.targets.rust.documentation import sentence
 from fieldscribe.targets.rust.families.numbers import code_names
 from fieldscribe.targets.rust.families.spaces import space
-from fieldscribe.targets.rust.layout import array
+from fieldscribe.targets.rust.layout import array, binding
 from fieldscribe.text import rust_string
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from fieldscribe.model import Code, Device
+    from fieldscribe.model import Bus, Code, Device
 
 _MOST = {1: 2000, 2: 2000, 3: 125, 4: 125, 5: 1, 6: 1, 8: 1, 15: 1968, 16: 123}
 """The functions that the frames know, with the protocol's own limits."""
+
+_COILS = 15
+"""The function that writes several coils, whose bytes a device may want padded."""
 
 
 def modbus_context(device: Device) -> dict[str, object]:
@@ -32,15 +35,20 @@ def modbus_context(device: Device) -> dict[str, object]:
         "framings": ", ".join(f"Framing::{one.capitalize()}" for one in framings_of(bus)),
         "exception_type": "u8",
         "exception_names": code_names(bus.exceptions),
-        "units": f"({bus.units[0]}, {bus.units[1]})",
-        "broadcast": "None" if bus.broadcast is None else f"Some({bus.broadcast})",
-        "pad": "true" if bus.pad_coil_bytes == "even" else "false",
+        "profile": tuple(binding(0, "pub static PROFILE: Profile", _profile(bus))),
         "exceptions": tuple((sentence(one.name), one.name.upper(), f"0x{one.number:02X}") for one in bus.exceptions),
         "blocks": tuple(_blocks(device)),
         "block_needs": "{Block, Space}" if any(device.blocks.values()) else "Block",
         "groups": array([f"({rust_string(group)}, blocks::{group.upper()})" for group in device.blocks]),
         "commands": tuple(_commands(device)),
     }
+
+
+def _profile(bus: Bus) -> str:
+    broadcast = "None" if bus.broadcast is None else f"Some({bus.broadcast})"
+    profile = f"Profile::new(FUNCTIONS, FRAMINGS, ({bus.units[0]}, {bus.units[1]}), {broadcast})"
+    pads = bus.pad_coil_bytes == "even" and any(code.number == _COILS for code in bus.functions)
+    return f"{profile}.padding_coils()" if pads else profile
 
 
 def _most(code: Code) -> int:

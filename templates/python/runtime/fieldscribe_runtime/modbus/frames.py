@@ -148,13 +148,19 @@ def reply_size(received: bytes, framing: str = RTU) -> int | None:
 
     Raises FrameError if the reply would be longer than any frame can be.
     """
-    if framing == TCP:
-        size, most = 6 + int.from_bytes(received[4:6], "big") if len(received) >= 6 else None, 260
-    else:
-        size, most = _rtu_size(received), 256
+    most = _LONGEST[framing]
+    size = _tcp_size(received) if framing == TCP else _rtu_size(received)
     if size is not None and size > most:
         raise FrameError("long_frame", f"the reply would have {size} bytes, and a frame has at most {most}")
     return size
+
+
+_LONGEST = {RTU: 256, TCP: 260}
+"""How many bytes a frame has at most."""
+
+
+def _tcp_size(received: bytes) -> int | None:
+    return 6 + int.from_bytes(received[4:6], "big") if len(received) >= 6 else None
 
 
 def _rtu_size(received: bytes) -> int | None:
@@ -175,6 +181,7 @@ def parse(
 
     Raises FrameError for everything that is no good answer; its subclass ExceptionReplyError carries the device's code.
     """
+    check_framing(framing, profile)
     pdu = _open_tcp(request, reply, transaction & 0xFFFF) if framing == TCP else _open_rtu(request, reply)
     if pdu[0] != request.function:
         raise ExceptionReplyError(pdu[1], profile.exceptions.get(pdu[1]))

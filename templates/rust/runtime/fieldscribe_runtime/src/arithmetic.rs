@@ -154,6 +154,15 @@ pub fn held<P: Point>(number: impl TryInto<P::Raw>, otherwise: Error) -> Result<
     number.try_into().map_err(|_| otherwise)
 }
 
+/// A number of the point's raw type, as one that is allowed always is.
+///
+/// # Errors
+/// [`Error::OutOfRange`] if the type cannot hold the number.
+#[inline]
+pub fn fitted<P: Point>(number: impl TryInto<P::Raw>) -> Result<P::Raw, Error> {
+    held::<P>(number, Error::OutOfRange)
+}
+
 /// A count as an `i64`.
 ///
 /// # Errors
@@ -179,7 +188,7 @@ pub fn checked<P: Writable>(raw: P::Raw, with: P::With) -> Result<P::Raw, Error>
 /// What [`Writable::check_with`] says; [`Error::OutOfRange`] if the type cannot hold the number.
 #[inline]
 pub fn store<P: Writable>(raw: impl TryInto<P::Raw>, with: P::With) -> Result<P::Raw, Error> {
-    checked::<P>(held::<P>(raw, Error::OutOfRange)?, with)
+    checked::<P>(fitted::<P>(raw)?, with)
 }
 
 /// The bits of the binary32 number nearest to `value`, ties to even.

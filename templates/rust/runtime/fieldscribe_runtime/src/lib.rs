@@ -27,8 +27,9 @@ pub mod uss;
 
 pub use flags::{Flag, Flags};
 pub use point::{
-    allowed, in_address_order, in_reading_order, listed, BitGroup, CountReadable, CountWritable,
-    Decoded, Digits, Documented, Encodable, Point, Readable, Scaled, Space, Whole, Writable,
+    allowed, group, in_address_order, in_reading_order, listed, signed_group, BitGroup,
+    CountReadable, CountWritable, Decoded, Digits, Documented, Encodable, Point, Readable, Scaled,
+    Space, Whole, Writable,
 };
 pub use raw::Raw;
 pub use rule::Rule;

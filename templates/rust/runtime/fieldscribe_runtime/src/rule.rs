@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: 0BSD
 //! Scales whose factors are read at run time.
 
-use crate::arithmetic::to_f64;
+use crate::arithmetic::{quotient, to_f64};
 use crate::pattern::{Magnitude, Quotient};
 use crate::Error;
 
@@ -167,6 +167,34 @@ impl Rule {
         Ok(to_f64(num) * self.over.to_f64() / (to_f64(den) * self.times.to_f64()))
     }
 
+    /// The same for numerators that no binary64 number holds, by one division of 128 bits.
+    ///
+    /// # Errors
+    /// [`Error::Overflow`]; [`Error::ZeroFactor`].
+    #[inline]
+    pub fn decode_wide(self, raw: i128) -> Result<f64, Error> {
+        let (value, exponent) = self.wide(raw).ok_or(Error::Overflow)?;
+        let power = Magnitude {
+            mantissa: 1,
+            exponent,
+        };
+        Ok(value * power.to_f64())
+    }
+
+    /// `(raw - offset) * den * over / (num * times)`, all in integers, and the power of two that is left.
+    fn wide(self, raw: i128) -> Option<(f64, i32)> {
+        let divisor = narrow([self.num, self.offset_den, 1], self.times)?;
+        let factor = narrow([self.den, self.offset_den, 1], self.over)?;
+        let lift = narrow([self.offset_num, self.den, 1], self.over)?;
+        let product = raw.checked_mul(i128::from(factor))?;
+        let lift = i128::from(lift).checked_mul(if self.offset_num < 0 { -1 } else { 1 })?;
+        let size = product.checked_sub(lift)?;
+        let turned = (self.num < 0) != (self.den < 0);
+        let dividend = if turned { size.checked_neg()? } else { size };
+        let exponent = self.over.exponent.checked_sub(self.times.exponent)?;
+        Some((quotient(dividend, divisor), exponent))
+    }
+
     /// The raw number of a count of `1 / PER_UNIT` units.
     ///
     /// # Errors
@@ -306,6 +334,12 @@ fn is_negative(factors: [i64; 3]) -> bool {
     factors
         .iter()
         .fold(false, |negative, factor| negative != (*factor < 0))
+}
+
+/// The magnitude of a product with a mantissa, if it is an `i64`.
+fn narrow(factors: [i64; 3], more: Magnitude) -> Option<u64> {
+    let size = i64::try_from(magnitude(factors, more)?).ok()?;
+    Some(size.unsigned_abs())
 }
 
 /// The magnitude of a product with a mantissa.

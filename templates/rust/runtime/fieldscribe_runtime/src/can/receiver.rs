@@ -11,8 +11,6 @@ use crate::{Decoded, Raw, Readable};
 pub trait Telegram {
     /// The name in the description.
     const NAME: &'static str;
-    /// How many words there are.
-    const WORDS: u16;
     /// The message whose frames carry them.
     const MESSAGE: &'static Message;
     /// The device that sends them.

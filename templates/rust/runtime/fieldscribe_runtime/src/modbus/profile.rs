@@ -48,22 +48,30 @@ pub struct Profile {
 }
 
 impl Profile {
-    /// The functions, the framings, the least and the greatest unit, the unit that means all, whether 0Fh pads its bytes
-    /// to an even count. Where a gateway translates, give a profile of your own with both framings.
+    /// The functions, the framings, the least and the greatest unit, the unit that means all. Where a gateway translates,
+    /// give a profile of your own with both framings.
     #[must_use]
     pub const fn new(
         functions: &'static [Function],
         framings: &'static [Framing],
         units: (u8, u8),
         broadcast: Option<u8>,
-        pad_coil_bytes_even: bool,
     ) -> Self {
         Self {
             functions,
             framings,
             units,
             broadcast,
-            pad_coil_bytes_even,
+            pad_coil_bytes_even: false,
+        }
+    }
+
+    /// The same device, of which 0Fh pads its bytes to an even count.
+    #[must_use]
+    pub const fn padding_coils(self) -> Self {
+        Self {
+            pad_coil_bytes_even: true,
+            ..self
         }
     }
 

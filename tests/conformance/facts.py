@@ -1,0 +1,142 @@
+"""What the package says of points beside their conversions."""
+
+from __future__ import annotations
+
+import warnings
+from typing import TYPE_CHECKING, Any
+
+from conformance.package import attribute_of, attributes
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from vector_file import Vector
+
+    from conformance.package import Check, Package
+
+
+def address(package: Package, vector: Vector) -> bool:
+    """Where a point is, and its limits."""
+    point = package.point(vector)
+    at = point.facts.at
+    found = {"point": point.facts.item, "code": point.facts.code}
+    found |= {"space": at.space, "address": at.address, "words": point.size}
+    if vector["raw_min"] is not None:
+        found["raw_min"], found["raw_max"] = point.raw_limits
+    references = {key: str(number) for key, number in point.facts.references.items()}
+    found |= {"decimals": point.decimals or None, "references": references}
+    return all((vector[key] or None) == (value or None) for key, value in found.items())
+
+
+def place(package: Package, vector: Vector) -> bool:
+    """All addresses of a point."""
+    at = package.point(vector).facts.at
+    return (list(at.addresses), at.index, at.telegram) == (
+        vector["addresses"],
+        vector["index"],
+        vector["telegram"],
+    )
+
+
+def fixed(package: Package, vector: Vector) -> bool:
+    """The bits that are always written as a constant."""
+    return bool(package.point(vector).facts.fixed == (vector["mask"], vector["bits"]))
+
+
+def facts(package: Package, vector: Vector) -> bool:
+    """What a point belongs to, and what it has beside its numbers."""
+    point = package.point(vector)
+    facts = point.facts
+    found = {"group": facts.group, "name": facts.name, "symbol": facts.unit or None, "default": facts.default}
+    found |= {"changes": facts.changes, "changes_with": list(facts.changes_with)}
+    found["variant"] = "=".join(facts.variant) if facts.variant else None
+    found["only_for"] = [facts.only_for[0], *facts.only_for[1]] if facts.only_for else []
+    apart = facts.write_at
+    found |= {"write_space": apart and apart.space, "write_addresses": list(apart.addresses) if apart else []}
+    typed = vector["type"] == "text" or point.wire is getattr(package.runtime, vector["type"].upper())
+    return typed and _chosen(package, point) and all(vector[key] == value for key, value in found.items())
+
+
+def _chosen(package: Package, point: Any) -> bool:
+    """Whether the plain name of a point that variants share chooses it for its variant."""
+    if point.facts.variant is None:
+        return True
+    axis, value = point.facts.variant
+    shared = _attribute(package, point.facts.name)
+    return bool(shared.axis == axis and shared.points[value] is point)
+
+
+def _attribute(package: Package, name: str) -> Any:
+    """What stands in the class for a name."""
+    return attributes(package.device)[attribute_of(package.device, name)]
+
+
+def alias(package: Package, vector: Vector) -> bool:
+    """An old name gives the same point, and warns with both names."""
+    point = package.point(vector).facts
+    suffix = point.item.removeprefix(point.name)  # points of variants share their names, also the old ones
+    old, new = (_attribute(package, vector[key].removesuffix(suffix)) for key in ("old", "new"))
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        getattr(package.device, old.old_name)
+    told = [str(one.message) for one in caught if one.category is DeprecationWarning and one.filename == __file__]
+    same = {**vars(old), "new_name": None, "old_name": None} == {**vars(new), "new_name": None, "old_name": None}
+    names = f"{old.old_name} is now called {old.new_name}"
+    return same and new is attributes(package.device)[old.new_name] and told == [names]
+
+
+def left_out(package: Package, vector: Vector) -> bool:
+    """What is documented only is no attribute of a device, and the message says why."""
+    documented = package.device.DOCUMENTED
+    said = []
+    for name in documented:
+        try:
+            getattr(object.__new__(package.device), name)
+        except AttributeError as error:
+            said.append(str(error))
+    reasons = [f"{name} is documented only: {one}" for name, one in documented.items()]
+    return [name.rstrip("_") for name in documented] == vector["names"] and said == reasons
+
+
+def documented(package: Package, vector: Vector) -> bool:
+    """Where a point is that is documented only."""
+    [one] = [one for name, one in package.device.DOCUMENTED.items() if name.rstrip("_") == vector["name"]]
+    found = one.at.space, one.at.address, len(one.at.addresses), one.at.index
+    where = ", ".join(map(str, one.at.addresses)) + ("" if one.at.index is None else f", index {one.at.index}")
+    told = f"{one.reason}; `read_at` and `write_at` reach its words at {one.at.telegram or one.at.space} {where}"
+    return str(one) == told and found == tuple(vector[key] for key in ("space", "address", "words", "index"))
+
+
+def block(package: Package, vector: Vector) -> bool:
+    """A planned read."""
+    block = package.device.BLOCKS[vector["group"]][vector["index"]]
+    found = {"space": block.space, "function": block.function, "address": block.address, "count": block.count}
+    return all(vector[key] == value for key, value in found.items())
+
+
+def group(package: Package, vector: Vector) -> bool:
+    """The words that bring a group."""
+    members = [one for one in package.device.POINTS.values() if one.facts.group == vector["group"]]
+    read = [one.facts.at for one in members if hasattr(one, "decode") and one.facts.at.space == "parameter"]
+    return bool(list(dict.fromkeys(address for at in read for address in at.addresses)) == vector["addresses"])
+
+
+def code(package: Package, vector: Vector) -> bool:
+    """A number of the protocol with a name."""
+    names = getattr(package.device.PROFILE, "exceptions" if vector["what"] == "exception" else "errors")
+    return bool(names[vector["number"]] == vector["name"])
+
+
+CHECKS: Mapping[str, Check] = {
+    "address": address,
+    "place": place,
+    "fixed": fixed,
+    "facts": facts,
+    "alias": alias,
+    "left_out": left_out,
+    "documented": documented,
+    "block": block,
+    "group": group,
+    "code": code,
+}
+"""The checks of this theme by the kind of vector."""

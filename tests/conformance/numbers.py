@@ -1,0 +1,61 @@
+"""Raw numbers to values and counts and back, and whether they may be written."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from conformance.package import pattern, raws_of
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from vector_file import Vector
+
+    from conformance.package import Check, Package
+
+
+def decode(package: Package, vector: Vector) -> bool:
+    """A raw number to a value."""
+    status, value = package.outcome(package.point(vector).decode, vector["raw"], raws_of(vector))
+    if status == "special":
+        return bool(vector["status"] == status and str(value) == vector["special"] and value.raw == vector["raw"])
+    return status == vector["status"] and (status != "ok" or pattern(value) == pattern(vector["value"]))
+
+
+def encode(package: Package, vector: Vector) -> bool:
+    """A value to a raw number."""
+    status, raw = package.outcome(package.point(vector).encode, vector["value"], raws_of(vector))
+    return status == vector["status"] and (status != "ok" or raw == vector["raw"])
+
+
+def decode_count(package: Package, vector: Vector) -> bool:
+    """A raw number to a count."""
+    point, raw, raws = package.point(vector), vector["raw"], raws_of(vector)
+    status, count = package.outcome(point.decode_count, raw, raws)
+    if status == "special":
+        named = count.special == vector["special"] == str(point.decode(raw, raws))
+        return bool(vector["status"] == status and named)
+    return bool(status == vector["status"] and (status != "ok" or count == vector["count"]))
+
+
+def encode_count(package: Package, vector: Vector) -> bool:
+    """A count to a raw number."""
+    point, count, raws = package.point(vector), vector["count"], raws_of(vector)
+    status, raw = package.outcome(point.encode_count, count, raws)
+    return status == vector["status"] and (status != "ok" or raw == vector["raw"])
+
+
+def check(package: Package, vector: Vector) -> bool:
+    """Whether a raw number may be written."""
+    status, _ = package.outcome(package.point(vector).check, vector["raw"], raws_of(vector))
+    return bool(status == vector["status"])
+
+
+CHECKS: Mapping[str, Check] = {
+    "decode": decode,
+    "encode": encode,
+    "decode_count": decode_count,
+    "encode_count": encode_count,
+    "check": check,
+}
+"""The checks of this theme by the kind of vector."""

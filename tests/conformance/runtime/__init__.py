@@ -1,0 +1,18 @@
+"""What the runtime promises whatever the device is, on made devices: it is part of what every package ships."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from conformance.runtime import can, descriptors, errors, forms, memory, modbus, quantities, uss, words
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from conformance.package import Package
+
+_THEMES = (errors, forms, words, quantities, descriptors, memory, modbus, can, uss)
+CHECKS: list[Callable[[Package], None]] = [
+    check for theme in _THEMES for name, check in vars(theme).items() if name.startswith("check_")
+]
+"""Each raises AssertionError, or what the runtime raises, where it is not as it should be."""

@@ -1,0 +1,117 @@
+"""Points as attributes: on the class codecs, on a device handles; variants, old names, and what cannot be done."""
+
+from __future__ import annotations
+
+import warnings
+from typing import TYPE_CHECKING, Any
+
+from conformance.runtime.bench import AsyncMemory, Memory, devices, refusal, refuses
+from conformance.scripts import now
+
+if TYPE_CHECKING:
+    from conformance.package import Package
+
+
+def _made(package: Package) -> tuple[Any, Any]:
+    """A device with points of each access, one by variant, one that only some variants have, and commands."""
+    runtime = package.runtime
+    word = runtime.Integer(runtime.U16)
+
+    points: dict[str, Any] = {
+        "PROFILE": runtime.Profile(functions={3: 8, 6: 1, 16: 8, 5: 1}),
+        "VARIANTS": {"model": ("a", "b", "c"), "size": ("x", "y")},
+        "DOCUMENTED": {"odd": runtime.Documented("nobody knows")},
+        "read": runtime.ReadOnly(word, at=runtime.holding(1), code="R1"),
+        "write": runtime.WriteOnly(word, at=runtime.holding(2)),
+        "both": runtime.ReadWrite(word, at=runtime.holding(3)),
+        "class_": runtime.ReadWrite(word, at=runtime.holding(4)),
+        "one_a": runtime.ReadOnly(word, at=runtime.holding(5), variant=("model", "a"), name="one", group="g"),
+        "one_b": runtime.ReadOnly(word, at=runtime.holding(6), variant=("model", "b"), name="one", group="g"),
+        "some": runtime.ReadOnly(word, at=runtime.holding(7), only_for=("model", ("a", "c")), group="g"),
+        "any": runtime.Command(at=runtime.holding(9)),
+        "fixed": runtime.Command(at=runtime.coil(10), value=1),
+    }
+    points["one"] = runtime.ByVariant("model", {"a": points["one_a"], "b": points["one_b"]})
+    points["old"] = runtime.renamed(points["both"], "both")
+    points["old_one"] = runtime.renamed(points["one"], "one")
+    blocking, awaiting = devices(package, points, runtime.ModbusDevice, runtime.AsyncModbusDevice)
+    return blocking, awaiting
+
+
+def check_access(package: Package) -> None:
+    """A device reads what can be read and writes what can be written; nothing is assigned to."""
+    for kind, line in zip(_made(package), (Memory, AsyncMemory), strict=True):
+        memory = line({1: 5, 2: 6, 3: 7})
+        device = kind(memory, 1)
+        assert (now(device.read.read()), now(device.read.read_raw()), now(device.both.read())) == (5, 5, 7)
+        now(device.write.write(8))
+        now(device.write.write_raw(9))
+        now(device.both.write(4))
+        now(device.both.write_raw(3))
+        now(device.class_.write(2))
+        assert memory.asked[3:] == [(6, 2, 8), (6, 2, 9), (6, 3, 4), (6, 3, 3), (6, 4, 2)]
+        assert [hasattr(device.read, name) for name in ("write", "write_raw", "encode")] == [False] * 3
+        assert [hasattr(device.write, name) for name in ("read", "read_raw", "decode")] == [False] * 3
+        refuses(AttributeError, "a point is not assigned to: use its write method", setattr, device, "both", 1)
+        refuses(AttributeError, "a point is not assigned to: use its write method", setattr, device, "one", 1)
+        refuses(AttributeError, "a command is not assigned to: use its send method", setattr, device, "any", 1)
+        refuses(AttributeError, "odd is documented only: nobody knows", getattr, device, "odd")
+        refuses(AttributeError, "'Made' object has no attribute 'none'", getattr, device, "none")
+        missing = refusal(getattr, device, "none")
+        assert (missing.name, missing.obj) == ("none", device)
+        assert (device.read.facts, device.class_.facts.item) == (kind.read.facts, "class")
+
+
+def check_commands(package: Package) -> None:
+    """A command has its number, or any."""
+    for kind, line in zip(_made(package), (Memory, AsyncMemory), strict=True):
+        memory = line({})
+        device = kind(memory, 1)
+        for value in (None, 1, 7):
+            now(device.any.send(value))
+        now(device.fixed.send())
+        now(device.fixed.send(1))
+        refuses(package.runtime.AccessError, "fixed is the number 1, not 2", device.fixed.send, 2)
+        assert memory.asked == [(6, 9, 1), (6, 9, 1), (6, 9, 7), (5, 10, 0xFF00), (5, 10, 0xFF00)]
+        assert (kind.any.value, kind.any.name, kind.fixed.value) == (None, "any", 1)
+
+
+def check_variants(package: Package) -> None:
+    """A name that variants share is the point of the device's variant."""
+    access = package.runtime.AccessError
+    for kind, line in zip(_made(package), (Memory, AsyncMemory), strict=True):
+        devices = {value: kind(line({5: 1, 6: 2, 7: 3}), 1, {"model": value}) for value in ("a", "b", "c", None)}
+        assert [now(devices[value].one.read()) for value in ("a", "b")] == [1, 2]
+        assert (devices["b"].point("one"), devices["a"].point("one")) == (kind.one_b, kind.one_a)
+        assert kind.one.points == {"a": kind.one_a, "b": kind.one_b}
+        refuses(access, "one does not exist for model c", getattr, devices["c"], "one")
+        refuses(access, "one depends on model: pass it when the device is made", getattr, devices[None], "one")
+        refuses(access, "one does not exist for model c", devices["c"].point, "one")
+        refuses(access, "one depends on model: pass it when the device is made", devices[None].point, "one")
+        refuses(access, "none is no point of this device", devices["a"].point, "none")
+        refuses(access, "one_a exists only for model a", getattr, devices["b"], "one_a")
+        refuses(access, "some exists only for model a or c", getattr, devices["b"], "some")
+        assert [now(devices[value].some.read()) for value in ("a", "c", None)] == [3, 3, 3]
+        assert now(devices[None].one_a.read()) == 1
+        assert [now(devices[value].read_many("g")) for value in ("a", "b", "c", None)] == [
+            {"one": 1, "some": 3}, {"one": 2}, {"some": 3}, {"some": 3},
+        ]  # fmt: skip
+        refuses(access, "some exists only for model a or c", devices["b"].read_many, ["some"])
+        refuses(ValueError, "the device has no variants by 'shape'", kind, line({}), 1, {"shape": "x"})
+        refuses(ValueError, "model is one of a, b, c, not 'd'", kind, line({}), 1, {"model": "d"})
+        assert (kind(line({}), 1).variants, devices["a"].variants) == ({}, {"model": "a"})
+        assert (kind.read.label, kind.both.label, kind.one_a.facts.name) == ("R1 read", "both", "one")
+        assert sorted(kind.POINTS) == ["both", "class", "one_a", "one_b", "read", "some", "write"]
+
+
+def check_old_names(package: Package) -> None:
+    """An old name works and warns where it is used."""
+    kind, _ = _made(package)
+    device = kind(Memory({3: 7, 5: 1}), 1, {"model": "a"})
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        assert (device.old.read(), device.old_one.read(), device.both.read()) == (7, 1, 7)
+        assert (kind.old.facts, kind.old_one.points) == (kind.both.facts, kind.one.points)
+    told = [(str(one.message), one.category, one.filename) for one in caught]
+    names = ["old is now called both", "old_one is now called one"] * 2
+    assert told == [(name, DeprecationWarning, __file__) for name in names]

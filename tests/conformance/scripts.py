@@ -1,0 +1,81 @@
+"""Transports that expect what is sent and answer as they were told."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from vector_file import Vector
+
+
+class Script:
+    """A transport of every family that expects what is sent and answers as it was told; `needs` in any order."""
+
+    def __init__(self, vector: Vector, frame: Callable[[int, bytes], Any]) -> None:
+        self.framing = vector["framing"]
+        self._steps = list(vector["script"])
+        self._needs = dict(vector["needs"])
+        self._frame = frame
+        self._came: list[bytes] = []
+
+    def exchange(self, request: bytes) -> bytes:
+        """One request and its reply."""
+        if request in self._needs:
+            return bytes(self._needs[request])
+        sent, received = self._steps.pop(0)
+        if sent != request:
+            raise AssertionError(f"sent {request.hex()}, not {sent.hex()}")
+        return bytes(received)
+
+    def send(self, frame: Any) -> None:
+        """One frame to the bus; what answers it comes next."""
+        self._came.append(self.exchange(frame.id.to_bytes(4, "big") + frame.data))
+
+    def receive(self) -> Any:
+        """The next frame from the bus."""
+        data = self._came.pop(0) if self._came else b""
+        if not data:
+            raise TimeoutError
+        return self._frame(int.from_bytes(data[:4], "big"), data[4:])
+
+    def receive_waiting(self) -> Any:
+        """What is there already."""
+        return self.receive() if self._came and self._came[0] else None
+
+    @property
+    def done(self) -> bool:
+        """Whether all was sent that should be."""
+        return not self._steps
+
+
+class AsyncScript(Script):
+    """The same for devices that wait with `await`; it never lets anything else run."""
+
+    async def exchange(self, request: bytes) -> bytes:  # type: ignore[override]  # as the async transports are
+        """One request and its reply."""
+        return super().exchange(request)
+
+    async def send(self, frame: Any) -> None:  # type: ignore[override]  # as the async transports are
+        """One frame to the bus; what answers it comes next."""
+        self._came.append(super().exchange(frame.id.to_bytes(4, "big") + frame.data))
+
+    async def receive(self) -> Any:
+        """The next frame from the bus."""
+        return super().receive()
+
+    def receive_waiting(self) -> Any:
+        """What is there already."""
+        return super().receive() if self._came and self._came[0] else None
+
+
+def now(result: Any) -> Any:
+    """A result, also of a coroutine that never really waits."""
+    if not hasattr(result, "send"):
+        return result
+    try:
+        result.send(None)
+    except StopIteration as done:
+        return done.value
+    raise AssertionError("it waits for something else than its transport")

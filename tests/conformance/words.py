@@ -1,0 +1,71 @@
+"""Bit groups, the words of a number, texts and digits."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from vector_file import Vector
+
+    from conformance.package import Check, Package
+
+
+def bits(package: Package, vector: Vector) -> bool:
+    """A bit group out of its word and into it."""
+    point, word = package.point(vector), vector["word"]
+    replaced = point.insert(word, vector["replaced"])
+    return bool(point.extract(word) == vector["raw"] and replaced == vector["result"])
+
+
+def words(package: Package, vector: Vector) -> bool:
+    """The words of a number."""
+    point = package.point(vector)
+    words = tuple(vector["words"])
+    return bool(point.from_words(words) == vector["raw"] and point.to_words(vector["raw"]) == words)
+
+
+def text_decode(package: Package, vector: Vector) -> bool:
+    """Words to a text."""
+    point = package.point(vector)
+    by_address = dict(zip(point.facts.at.addresses, vector["words"], strict=True))
+    raw = point.from_words([by_address[address] for address in sorted(by_address)])
+    return bool(point.decode(raw).encode("latin-1") == vector["text"])
+
+
+def text_encode(package: Package, vector: Vector) -> bool:
+    """A text to words."""
+    point = package.point(vector)
+    status, raw = package.outcome(point.encode, vector["text"].decode("latin-1"))
+    if status != "ok":
+        return bool(status == vector["status"] and vector["words"] == [])
+    at = point.facts.write_at or point.facts.at
+    by_address = dict(zip(sorted(at.addresses), point.to_words(raw), strict=True))
+    words = [by_address[address] for address in at.addresses]
+    return bool(status == vector["status"] and words == vector["words"])
+
+
+def digits(package: Package, vector: Vector) -> bool:
+    """A word to its digits."""
+    status, found = package.outcome(package.point(vector).decode, vector["raw"])
+    if status == "special":
+        return bool(vector["status"] == status and str(found) == vector["special"])
+    return bool(status == vector["status"] and list(found) == vector["digits"])
+
+
+def digits_encode(package: Package, vector: Vector) -> bool:
+    """Digits to their word."""
+    status, raw = package.outcome(package.point(vector).encode, tuple(vector["digits"]))
+    return bool(status == vector["status"] and (status != "ok" or raw == vector["raw"]))
+
+
+CHECKS: Mapping[str, Check] = {
+    "bits": bits,
+    "words": words,
+    "text_decode": text_decode,
+    "text_encode": text_encode,
+    "digits": digits,
+    "digits_encode": digits_encode,
+}
+"""The checks of this theme by the kind of vector."""
