@@ -161,6 +161,41 @@ def test_check(run: Callable[..., Result], small: Path) -> None:
     assert json.loads(run("explain", "small_drive", "P1", "--format", "json").out)["findings"]
 
 
+def test_check_finds_the_same_device_twice_as_generate_does(run: Callable[..., Result], small: Path) -> None:
+    """Both ask the one rule."""
+    other = small.parent / "second"
+    other.mkdir()
+    for file in small.iterdir():
+        (other / file.name).write_text(file.read_text("utf-8"), "utf-8")
+    for words in (("check",), ("generate", "--target", "docs", "--list-outputs")):
+        told = run(*words)
+        assert told.code == 1, words
+        assert "duplicate-device" in told.out + told.err
+        assert "described twice in this run, first in descriptions/second/device.yaml" in told.out + told.err
+    assert run("check").out.count("4 points") == 1
+
+
+def test_without_paths_the_device_of_the_folder_is_meant(
+    run: Callable[..., Result], small: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(small)
+    told = run("check")
+    assert (told.code, told.err) == (0, "")
+    assert told.out.startswith("small_drive: ")
+    listed = run("generate", "--target", "docs", "--list-outputs")
+    assert (listed.code, "docs/small_drive.md" in listed.out) == (0, True)
+    assert "hitachi" not in listed.out
+
+
+def test_a_part_is_no_device(run: Callable[..., Result], small: Path) -> None:
+    """One finding, not one for each key that a device has."""
+    told = run("check", str(small / "device.yaml"), str(small / "main.yaml"))
+    assert told.code == 1
+    assert "`main.yaml` is a part of a description and no device file" in told.out
+    assert "name device.yaml beside it" in told.out
+    assert "1 error in 1 file" in told.out
+
+
 def test_device_arguments(run: Callable[..., Result], small: Path, tmp_path: Path) -> None:
     for device in ("small_drive", "descriptions/small_drive", str(small / "device.yaml")):
         assert run("explain", device, "P1").out.startswith("P1 speed: Speed\n")
@@ -485,3 +520,57 @@ def test_decode_ends_with_0_for_notes_and_for_what_replies_bring(
 @pytest.mark.parametrize("command", COMMANDS)
 def test_every_help_says_how_the_command_ends(run: Callable[..., Result], command: str) -> None:
     assert "nds with " in run(command, "--help").out
+
+
+CONDITIONS = """\
+- {name: mode, title: {en: Mode}, at: 17h, enum: {0: local, 1: remote}}
+- {name: cascade, title: {en: Cascade}, at: 18h, range: 0..100, when: size == large and mode == remote}
+- {name: simple, title: {en: Simple}, at: 19h, range: 0..100, when: size == small}
+- {name: double, title: {en: Double}, at: 19h, range: 0..200, when: size == large}
+"""
+
+
+def test_what_the_chosen_variant_does_not_have_is_refused(run: Callable[..., Result], small: Path) -> None:
+    """A condition that the variant makes impossible is named, in every command that takes variants."""
+    (small / "main.yaml").write_text(MAIN.replace("TITLE", "Speed") + CONDITIONS, "utf-8")
+    only = "it exists only when size == large and mode == remote"
+    encode, chosen = ("encode", "small_drive", "cascade", "10", "--frame"), ("--variant", "size=small")
+    frame = run(*encode).out.strip()
+    assert run(*encode, "--variant", "size=large").out.strip() == frame
+    refused = run(*encode, *chosen)
+    assert (refused.code, refused.out) == (1, "")
+    assert f"cascade: {only}" in refused.err
+    heard = run("decode", "small_drive", frame, *chosen)
+    assert heard.code == 1
+    assert f"Cascade; {only}" in heard.out
+    assert run("decode", "small_drive", frame).code == 0
+    read = "01 03 00 18 00 01 04 0D"
+    assert only in run("decode", "small_drive", read, *chosen).out
+    told = run("explain", "small_drive", "wire:0x18", *chosen)
+    assert (told.code, told.out) == (1, "")
+    assert only in told.err
+    assert run("explain", "small_drive", "cascade").code == 0
+
+
+def test_of_points_at_one_address_the_chosen_variant_has_one(run: Callable[..., Result], small: Path) -> None:
+    (small / "main.yaml").write_text(MAIN.replace("TITLE", "Speed") + CONDITIONS, "utf-8")
+    frame = run("encode", "small_drive", "wire:0x19", "10", "--frame", "--variant", "size=small").out.strip()
+    heard = run("decode", "small_drive", frame, "--variant", "size=small")
+    assert heard.code == 0
+    assert "simple = 10" in heard.out
+    assert "double" not in heard.out
+    assert "double" not in run("explain", "small_drive", "wire:0x19", "--variant", "size=small").out
+
+
+def test_decode_says_that_limits_could_not_be_checked(run: Callable[..., Result], small: Path) -> None:
+    """A write that nobody held against its limits is not told as if it were fine."""
+    limited = "- {name: limited, title: {en: Limited}, at: 1Ah, range: 0 .. ratio.raw}\n"
+    (small / "main.yaml").write_text(MAIN.replace("TITLE", "Speed") + limited, "utf-8")
+    frame = run("encode", "small_drive", "limited", "10", "--with", "P2=20", "--frame").out.strip()
+    heard = run("decode", "small_drive", frame)
+    assert heard.code == 0
+    assert "not held against its limits, which depend on P2 ratio: give --with ratio=VALUE" in " ".join(
+        heard.out.split()
+    )
+    assert "not held" not in run("decode", "small_drive", frame, "--with", "P2=20").out
+    assert run("decode", "small_drive", frame, "--with", "P2=5").code == 1

@@ -115,7 +115,7 @@ EDITS = (
         "name: quick_start, title: New, note: New,",
         False,
     ),
-    ("kitchen_uss", "parameters.yaml", "name: quick_start,", "name: quick_start, since: firmware 7, line: 7,", False),
+    ("kitchen_uss", "parameters.yaml", "name: quick_start,", "name: quick_start, since: firmware 7, line: 7,", True),
     ("kitchen_sink", "ranges.yaml", "since: firmware 2.0, until: firmware 3.1", "since: firmware 2.5", False),
     ("kitchen_sink", "device.yaml", "version: 2.3.4", "version: 2.3.5", True),
 )

@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import pytest
+from fieldscribe.existence import Comparison, Condition
 from fieldscribe.families.modbus import (
     FUNCTIONS,
     PROTOCOL_MOST,
@@ -341,9 +342,12 @@ def bus(*functions: tuple[int, int | None], **facts: Any) -> Bus:
     return replace(sample_bus(), functions=codes, **facts)
 
 
+AXES = {"class": ("200V", "400V")}
+
+
 def planned(points: list[Point], **facts: Any) -> list[tuple[int, int, tuple[str, ...]]]:
     """Blocks of at most four words as (address, count, names)."""
-    return [(block.address, block.count, block.points) for block in plan_blocks(bus((3, 4), **facts), points)]
+    return [(block.address, block.count, block.points) for block in plan_blocks(bus((3, 4), **facts), points, AXES)]
 
 
 def test_blocks_join_neighbours_up_to_the_most() -> None:
@@ -377,16 +381,43 @@ def test_points_at_one_address_count_once() -> None:
     assert planned([group, other, *variants, at(12)]) == [(10, 3, ("high", "low", "p11", "p12"))]
 
 
+def test_what_not_every_device_has_is_in_a_block_of_its_own() -> None:
+    """A device refuses all of a read that touches one address that it does not have."""
+    large = Condition(((Comparison("class", "==", ("400V",)),),))
+    for facts in ({"when": large}, {"since": "firmware 2"}, {"until": "firmware 3"}, {"variant": "class=400V"}):
+        found = planned([at(10), replace(at(11), **facts), at(12)])
+        assert found == [(10, 1, ("p10",)), (11, 1, ("p11",)), (12, 1, ("p12",))], facts
+    both = [replace(at(11), variant="class=200V"), replace(at(12), name="p11", variant="class=400V")]
+    assert planned([at(10), *both, at(13)]) == [
+        (10, 1, ("p10",)),
+        (11, 1, ("p11",)),
+        (12, 1, ("p11",)),
+        (13, 1, ("p13",)),
+    ]
+    reserved = replace(at(11), generated=False, reserved=True, when=large)
+    assert planned([at(10), reserved, at(12)]) == [(10, 1, ("p10",)), (12, 1, ("p12",))]
+
+
+def test_what_stands_where_another_point_always_is_shares_its_block() -> None:
+    large = Condition(((Comparison("class", "==", ("400V",)),),))
+    word, bits = at(11), replace(at(11), name="bits", bits=(3, 0), type="u8", when=large)
+    assert planned([at(10), word, bits, at(12)]) == [(10, 3, ("p10", "bits", "p11", "p12"))]
+    alone = [
+        replace(at(11), name=name, bits=(high, high - 3), type="u8", when=large) for name, high in (("a", 3), ("b", 7))
+    ]
+    assert planned([at(10), *alone]) == [(10, 1, ("p10",)), (11, 1, ("a", "b"))]
+
+
 def test_what_no_read_can_bring_is_in_no_block() -> None:
     assert planned([at(10, 11, 12, 13)]) == [(10, 4, ("p10",))]
-    assert plan_blocks(bus((3, 2)), [at(10, 11, 12, 13), at(20, 30)]) == ()
-    assert plan_blocks(bus(), [at(10)]) == ()
+    assert plan_blocks(bus((3, 2)), [at(10, 11, 12, 13), at(20, 30)], {}) == ()
+    assert plan_blocks(bus(), [at(10)], {}) == ()
 
 
 def test_blocks_come_by_space_then_address() -> None:
     coil = point("coil", 5, "bit", space="coil")
     other = point("other", 1, places=(Place("read", "holding", (1,), 4),))
-    blocks = plan_blocks(bus((1, None), (3, None), (4, None)), [at(2), other, coil])
+    blocks = plan_blocks(bus((1, None), (3, None), (4, None)), [at(2), other, coil], {})
     assert [(block.space, block.function, block.address) for block in blocks] == [
         ("coil", 1, 5),
         ("holding", 4, 1),

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from fieldscribe.diagnostics import Report
+from fieldscribe.families.modbus.requests import crc16
 from fieldscribe.language.keys import keys_markdown
 from fieldscribe.language.load import load
 from fieldscribe.language.nodes import Map, Seq, Value
@@ -175,3 +176,10 @@ def test_patterns_end_at_the_very_end() -> None:
     assert compiled_pattern("^[a-z]+$").search("abc")
     assert not compiled_pattern("^[a-z]+$").search("abc\n")
     assert re.search("^[a-z]+$", "abc\n"), "what Python alone would say"
+
+
+def test_frames_in_examples_have_their_own_checksum() -> None:
+    """An example is copied: it is the right frame, not the misprint of a manual."""
+    texts = set(re.findall(r"\b[0-9A-F]{2}(?: [0-9A-F]{2}){7}\b", keys_markdown()))
+    assert texts == {"05 06 10 28 01 F4 0C 91"}
+    assert crc16(bytes.fromhex("05 06 10 28 01 F4")).to_bytes(2, "little") == bytes.fromhex("0C 91")

@@ -83,6 +83,13 @@ def possible(clause: Iterable[Comparison], domain_of: Callable[[str], Domain]) -
     )
 
 
+def absent(condition: Condition | None, left: Mapping[str, tuple[str, ...]]) -> bool:
+    """Whether a condition cannot be true any more with these values `left` of each axis of variants."""
+    if condition is None:
+        return False
+    return not any(possible(clause, lambda name: left.get(name, ANY)) for clause in condition.clauses)
+
+
 def _samples(comparisons: list[Comparison], domain: Domain) -> Iterator[int | str]:
     """Enough of the domain to decide the comparisons."""
     bounds = [one for one in domain if not isinstance(one, str)]

@@ -80,6 +80,17 @@ def load_device(device_file: Path, report: Report, inputs: Inputs | None = None)
     return None if subject is None else subject.models[0]
 
 
+def is_new(device: Device, device_file: Path, known: dict[str, Path], report: Report) -> bool:
+    """Whether no description before was of this device; a second one is a finding. `known` takes note of the first."""
+    first = known.setdefault(device.id, device_file)
+    if first == device_file:
+        return True
+    message = f"the device `{device.id}` is described twice in this run, first in {shown(first)}"
+    hint = f"give one {DEVICE_FILE} another `device`"
+    report.error("duplicate-device", message, Span(shown(device_file), 1, 1), hint)
+    return False
+
+
 def load_subject(device_file: Path, report: Report) -> Subject | None:
     """As `load_device`, but with every fact's place in the text, as checks and the audit need it."""
     from fieldscribe.language.files import read_files

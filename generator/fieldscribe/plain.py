@@ -65,7 +65,7 @@ def _point(point: Point, enums: dict[int, Enum]) -> Point:
         digits=digits and replace(digits, enum=enums.get(id(digits.enum)) or _enum(digits.enum)),
         flags=tuple(_flag(flag) for flag in point.flags),
         unit=replace(point.unit, name="", quantity=""),
-        since=None,
+        since=None if point.since is None and point.until is None else "",  # that not every firmware has it
         until=None,
         record=None,
         untyped=None if point.untyped is None else "",

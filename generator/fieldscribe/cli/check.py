@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
+    from pathlib import Path
 
     from fieldscribe.model import Device
 
@@ -26,7 +27,8 @@ def add_arguments(parser: ArgumentParser) -> None:
         nargs="*",
         type=some_path,
         metavar="PATH",
-        help="device ids, folders with device.yaml, or folders of such folders (default: descriptions)",
+        help="device ids, folders with device.yaml, or folders of such folders "
+        "(default: device.yaml here, else descriptions)",
     )
     add_format(parser)
 
@@ -38,14 +40,15 @@ def run(arguments: Namespace) -> int:
     from fieldscribe.cli import FINDINGS, FINE
     from fieldscribe.cli.common import description_paths, print_json, report_findings
     from fieldscribe.diagnostics import Report
-    from fieldscribe.pipeline import find_devices, load_device
+    from fieldscribe.pipeline import find_devices, is_new, load_device
     from fieldscribe.report import as_data
 
     as_text = arguments.format == "text"
     report, good = Report(), []
+    known: dict[str, Path] = {}
     for device_file in find_devices(description_paths(arguments.paths), report):
         device = load_device(device_file, report)
-        if device is not None:
+        if device is not None and is_new(device, device_file, known, report):
             good.append(_facts(device))
             if as_text:
                 print(_line(good[-1]), flush=True)

@@ -90,14 +90,17 @@ def some_path(text: str) -> Path:
 
 
 def description_paths(paths: list[Path]) -> list[Path]:
-    """What was given, ids of devices as their folders; else ./descriptions, else what comes with the compiler.
+    """What was given, ids of devices as their folders; else ./device.yaml, ./descriptions, or the compiler's own.
 
     Raises StopError for what does not exist.
     """
+    from fieldscribe.pipeline import DEVICE_FILE
     from fieldscribe.resources import descriptions_dir
 
     if paths:
         return [path if path.exists() else _known_folder(path) for path in paths]
+    if Path(DEVICE_FILE).is_file():
+        return [Path(DEVICE_FILE)]
     if LOCAL.is_dir():
         return [LOCAL]
     print(f"there is no folder {LOCAL} here: these are the devices that come with fieldscribe", file=sys.stderr)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
 
-    from fieldscribe.explain import Explanation
+    from fieldscribe.explain import Explanation, Match
     from fieldscribe.model import Device
 
 HELP = "say everything about one address, code or name"
@@ -21,7 +21,7 @@ EXAMPLE = """examples:
   fieldscribe explain siemens_mm4 error:17
   fieldscribe explain hitachi_l200 unit:Hz
 
-ends with 2 when nothing has that code, name or address"""
+ends with 2 when nothing has that code, name or address, with 1 when the chosen variants do not have it"""
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -51,7 +51,8 @@ def run(arguments: Namespace) -> int:
     from fieldscribe.explain.others import explain_others
 
     device = open_device(arguments)
-    found = _points(device, arguments.what, as_documented=arguments.as_documented)
+    matches = _matches(device, arguments.what)
+    found = _told(device, matches, as_documented=arguments.as_documented)
     found += explain_others(device, arguments.what)
     if not found:
         if arguments.what.strip().lower().startswith("unit:"):
@@ -76,14 +77,28 @@ def _no_unit(symbol: str) -> tuple[str, str]:
     return f"there is no unit `{quoted(symbol)}`", unit_hint(symbol, ())
 
 
-def _points(device: Device, what: str, *, as_documented: bool) -> list[tuple[list[str], Explanation]]:
-    """Every point that is meant, with all readings that lead to it."""
-    from fieldscribe.explain import explain_point
+def _matches(device: Device, what: str) -> list[Match]:
+    """Every point that is meant, of those that the chosen variants have. Raises StopError where they have none."""
+    from fieldscribe.cli import FINDINGS
+    from fieldscribe.cli.common import StopError
+    from fieldscribe.dialogue.selection import absence, label
     from fieldscribe.explain.lookup import find
+
+    matches = find(device, what)
+    there = [match for match in matches if not absence(device, match.point)]
+    if matches and not there:
+        first = matches[0].point
+        raise StopError(f"{label(first)}: {absence(device, first)}", "choose another --variant", FINDINGS)
+    return there
+
+
+def _told(device: Device, matches: list[Match], *, as_documented: bool) -> list[tuple[list[str], Explanation]]:
+    """Each of the points, with all readings that lead to it."""
+    from fieldscribe.explain import explain_point
 
     readings: dict[str, list[str]] = {}
     points = {}
-    for match in find(device, what):
+    for match in matches:
         word = f": {match.word}" if match.word else ""
         readings.setdefault(match.point.item, []).append(match.reading + word)
         points[match.point.item] = match.point

@@ -33,7 +33,8 @@ def add_arguments(parser: ArgumentParser) -> None:
         nargs="*",
         type=some_path,
         metavar="PATH",
-        help="device ids, folders with device.yaml, or folders of such folders (default: descriptions)",
+        help="device ids, folders with device.yaml, or folders of such folders "
+        "(default: device.yaml here, else descriptions)",
     )
     parser.add_argument(
         "--target",

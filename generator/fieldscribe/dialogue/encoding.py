@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from fieldscribe import wording
 from fieldscribe.dialogue.meanings import meaning_of, raw_text, rounding_remarks
 from fieldscribe.dialogue.refusals import RefusedError
-from fieldscribe.dialogue.selection import label
+from fieldscribe.dialogue.selection import absence, label
 from fieldscribe.dialogue.typed_values import encode_typed, read_value
 from fieldscribe.text import line
 
@@ -43,7 +43,7 @@ class Encoded:
 
 def encode_point(device: Device, point: Point, value: str, settings: Settings, *, as_raw: bool = False) -> Encoded:
     """The raw number that writes a typed value, or that raw number if it may be written."""
-    _refuse_unwritable(point)
+    _refuse_unwritable(device, point)
     typed = read_value(point, value, as_raw=as_raw)
     raw = encode_typed(device, point, typed, settings)
     notes = () if typed.value is None else tuple(rounding_remarks(point, typed.value, raw, settings))
@@ -53,7 +53,9 @@ def encode_point(device: Device, point: Point, value: str, settings: Settings, *
     return Encoded(point.item, point.code, raw, raw & ((1 << width) - 1), text, notes, point.words)
 
 
-def _refuse_unwritable(point: Point) -> None:
+def _refuse_unwritable(device: Device, point: Point) -> None:
+    if missing := absence(device, point):
+        raise RefusedError("absent", f"{label(point)}: {missing}")
     if not point.generated:
         reason = point.reason or "the manual leaves it open"
         raise RefusedError("not_generated", line(f"{label(point)} cannot be written: {reason}"))

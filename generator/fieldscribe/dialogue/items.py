@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.dialogue import Item
 from fieldscribe.dialogue.codec import setting_of
-from fieldscribe.dialogue.meanings import meaning_of, range_remark, raw_text
-from fieldscribe.dialogue.selection import label, same_meaning
+from fieldscribe.dialogue.meanings import meaning_of, range_remark, raw_text, unchecked_remark
+from fieldscribe.dialogue.selection import absence, label, same_meaning
+from fieldscribe.existence import absent
 from fieldscribe.families import FAMILIES
 from fieldscribe.text import line
 from fieldscribe.wording import title_text
@@ -36,12 +37,12 @@ class Directory:
     def __init__(self, device: Device) -> None:
         self._at: dict[Where, list[Point]] = {}
         indexed = FAMILIES[device.family].indexed
-        for point in device.points:
+        for point in present_first(device):
             for place in point.places:
                 index = (point.index or 0) if place.space in indexed else 0
                 for address in place.addresses:
                     here = self._at.setdefault((point.telegram or place.space, address, index), [])
-                    if point not in here:
+                    if point not in here and not (here and absence(device, point)):
                         here.append(point)
         self._places: dict[str, set[tuple[tuple[int, ...], int | None]]] = {}
         for point in device.points:
@@ -75,9 +76,15 @@ def title_of(point: Point) -> str:
     return title_text({"en": point.title["en"]})
 
 
-def named_item(point: Point, base: Base, said: str = "") -> Item:
-    """A point that a frame names without a raw number; `said` stands for the title."""
-    return Item(*base, line(f"{label(point)}: {said or title_of(point)}"), point.item, point.code)
+def present_first(device: Device) -> list[Point]:
+    """All points, those last that the chosen variants do not have: in their places others may stand."""
+    return sorted(device.points, key=lambda point: absent(point.when, device.variants))
+
+
+def named_item(point: Point, base: Base, said: str = "", *, odd: str = "") -> Item:
+    """A point that a frame names without a raw number; `said` stands for the title, `odd` is a finding."""
+    text = f"{label(point)}: {said or title_of(point)}" + (f"; {odd}" if odd else "")
+    return Item(*base, line(text), point.item, point.code, findings=(odd,) if odd else ())
 
 
 def value_item(device: Device, point: Point, base: Base, numbers: Numbers, *, written: bool = False) -> Item:
@@ -85,8 +92,9 @@ def value_item(device: Device, point: Point, base: Base, numbers: Numbers, *, wr
     raw, settings = numbers
     meaning = meaning_of(device, point, raw, settings)
     text = f"{label(point)} = {meaning.text} ({raw_text(point, raw)}): {title_of(point)}"
-    odd = range_remark(device, point, raw, settings) if written else ""
-    text += f"; {odd}" if odd else ""
+    odd = (absence(device, point) or range_remark(device, point, raw, settings)) if written else ""
+    open_limits = unchecked_remark(device, point, raw, settings) if written and not odd else ""
+    text += "".join(f"; {said}" for said in (odd, open_limits) if said)
     text += f"; {meaning.hint}" if meaning.hint else ""
     shown = None if point.text is not None else raw
     findings = (odd,) if odd else ()

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from fieldscribe import wording
 from fieldscribe.dialogue import codec
 from fieldscribe.dialogue.codec import CodecError, Settings
-from fieldscribe.dialogue.refusals import amount_with_unit, failure, refusal
+from fieldscribe.dialogue.refusals import amount_with_unit, failure, names_text, refusal
 from fieldscribe.dialogue.selection import label
 from fieldscribe.dialogue.texts import shown, text_of
 from fieldscribe.dialogue.words import words_of
@@ -88,6 +88,19 @@ def range_remark(device: Device, point: Point, raw: int, settings: Settings) -> 
             return ""
         refused = refusal(device, point, _value(point, raw, settings), raw, (error, settings))
         return refused.message.removeprefix(f"{label(point)}: ").removeprefix(f"{label(point)} ")
+    return ""
+
+
+def unchecked_remark(device: Device, point: Point, raw: int, settings: Settings) -> str:
+    """That a written number could not be held against limits which other points set; empty if it was."""
+    if not point.writable:
+        return ""
+    try:
+        codec.check(point, raw, settings)
+    except CodecError as error:
+        if error.status == "missing":
+            given = " ".join(f"--with {name}=VALUE" for name in error.missing)
+            return f"not held against its limits, which depend on {names_text(device, error.missing)}: give {given}"
     return ""
 
 

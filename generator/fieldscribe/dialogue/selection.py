@@ -6,6 +6,8 @@ from dataclasses import replace
 from difflib import get_close_matches
 from typing import TYPE_CHECKING
 
+from fieldscribe import wording
+from fieldscribe.existence import absent
 from fieldscribe.explain.lookup import find, near
 from fieldscribe.text import line
 
@@ -25,7 +27,10 @@ class UnclearError(Exception):
 
 
 def choose_variants(device: Device, chosen: Iterable[str]) -> Device:
-    """The device with only the points of the chosen variants, each given as `axis=value`."""
+    """The device with only the points of the chosen variants, each given as `axis=value`, and only their values.
+
+    Points that a condition excludes then stay: what is asked of them is refused with that condition, see `absence`.
+    """
     wanted: dict[str, str] = {}
     for axis, value in (_variant(device, one) for one in chosen):
         if wanted.setdefault(axis, value) != value:
@@ -35,7 +40,21 @@ def choose_variants(device: Device, chosen: Iterable[str]) -> Device:
     if not wanted:
         return device
     points = tuple(point for point in device.points if _stays(point, wanted))
-    return replace(device, points=points)
+    left = {axis: (wanted[axis],) if axis in wanted else values for axis, values in device.variants.items()}
+    return replace(device, points=points, variants=left)
+
+
+def absence(device: Device, point: Point) -> str:
+    """Why the chosen variants do not have a point, in words; empty where they do, or may."""
+    if not absent(point.when, device.variants):
+        return ""
+    return line(f"it exists only when {wording.condition_text(point.when, points_by_name(device))}")
+
+
+def present(device: Device, points: Iterable[Point]) -> list[Point]:
+    """Those of the points that the chosen variants have or may have; all of them where that is none."""
+    found = list(points)
+    return [point for point in found if not absent(point.when, device.variants)] or found
 
 
 def choose_point(device: Device, asked: str, *, index: int | None = None, alike: bool = False) -> Point:
@@ -48,7 +67,7 @@ def choose_point(device: Device, asked: str, *, index: int | None = None, alike:
         elements = [str(match.point.index) for match in find(device, asked) if match.point.index is not None]
         hint = f"it has {', '.join(dict.fromkeys(elements))}" if elements else ""
         raise UnclearError(f"`{quoted(asked)}` has no element {index}", hint)
-    points = list({match.point.item: match.point for match in matches}.values())
+    points = present(device, {match.point.item: match.point for match in matches}.values())
     if len(points) == 1 or (alike and points and all(same_meaning(one, points[0]) for one in points)):
         return points[0]
     if not points:

@@ -7,10 +7,11 @@ import sys
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from fieldscribe.diagnostics import Span
 from fieldscribe.language.hints import nearest
 from fieldscribe.language.load import load
 from fieldscribe.language.shape import check_shape
-from fieldscribe.language.source import read_source
+from fieldscribe.language.source import read_source, shown
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -27,6 +28,7 @@ _HEADERS = frozenset(
 )
 """Headers of C libraries, which one of the same name in a folder of `-I` hides."""
 _CRATES = frozenset({"alloc", "core", "proc_macro", "std", "test"})
+_PART_KEYS = frozenset({"group", "groups", "points"})
 _NEEDED = ("device", "family", "documents")
 
 
@@ -43,9 +45,11 @@ def read_files(device_file: Path, report: Report, inputs: Inputs | None = None) 
 
     Nothing else of the folder is read: whatever an editor or a stranger leaves there.
     """
-    header, fine = _file(device_file, "device_file", report, inputs)
-    if header is None:
+    source = read_source(device_file, report, inputs)
+    header = None if source is None else load(source, report)
+    if header is None or _is_part(header, device_file, report):
         return None
+    fine = check_shape(header, "device_file", report)
     _safe_name(header, report)
     parts = [_file(path, "part_file", report, inputs) for path in _parts(device_file, header, report)]
     if not all(key in header for key in _NEEDED):
@@ -60,6 +64,17 @@ def _file(path: Path, kind: str, report: Report, inputs: Inputs | None) -> tuple
     source = read_source(path, report, inputs)
     root = None if source is None else load(source, report)
     return root, root is not None and check_shape(root, kind, report)
+
+
+def _is_part(header: Map, file: Path, report: Report) -> bool:
+    """Whether a file has no key of a device, but those of a part: one finding in place of one for each key."""
+    if any(key in header for key in ("device", "family", "vendor", "model")) or not _PART_KEYS & set(header):
+        return False
+    whole = file.parent / "device.yaml"
+    message = f"`{file.name}` is a part of a description and no device file"
+    hint = f"name {whole.name} beside it" if whole.exists() else "name the device.yaml that lists it under `parts`"
+    report.error("no-device", message, Span(shown(file), 1, 1), hint)
+    return True
 
 
 def _parts(device_file: Path, header: Map, report: Report) -> list[Path]:

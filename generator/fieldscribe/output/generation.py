@@ -37,23 +37,17 @@ class Generation:
 
     def load(self, device_files: list[Path]) -> None:
         """Take in the devices without errors; a second description of one is an error."""
-        from fieldscribe.pipeline import DEVICE_FILE, load_device
+        from fieldscribe.pipeline import is_new, load_device
 
+        known: dict[str, Path] = {}
         for device_file in device_files:
             try:
                 device = load_device(device_file, self.report, self.inputs)
             except Exception as error:  # the other devices are written
                 self._report_bug(device_file, "the compiler", error)
                 continue
-            if device is None:
-                continue
-            if device.id in self.devices:
-                first = shown(self.devices[device.id][0])
-                message = f"the device `{device.id}` is described twice in this run, first in {first}"
-                hint = f"give one {DEVICE_FILE} another `device`"
-                self.report.error("duplicate-device", message, Span(shown(device_file), 1, 1), hint)
-                continue
-            self.devices[device.id] = device_file, device
+            if device is not None and is_new(device, device_file, known, self.report):
+                self.devices[device.id] = device_file, device
 
     def list_outputs(self) -> None:
         """Note what there would be."""

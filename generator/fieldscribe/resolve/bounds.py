@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from fieldscribe.diagnostics import Span
+    from fieldscribe.language.formula import Affine, Part
     from fieldscribe.resolve.drafts import Draft
 
 MOST_EXPONENT = 30
@@ -185,8 +186,18 @@ class Bounds:
 
     def limit(self, draft: Draft, end: Expression, text: str, span: Span, in_units: bool) -> Linear:
         """The rule of one end of a range, applied to 1 it gives the raw limit. Raises FormulaError or UnknownError."""
-        rule = limit_rule(end, lambda name, part: self.scales.affine(draft, name, part, Written(text, span)))
+        rule = limit_rule(end, lambda name, part: self._of_another(draft, name, part, Written(text, span)))
         return self.encoded(draft, rule, span) if in_units else rule
+
+    def _of_another(self, draft: Draft, name: str, part: Part, formula: Written) -> Affine:
+        """A point's number in a limit of `draft`, which cannot limit itself. Raises UnknownError after a finding."""
+        used = self.scales.index.find(name, draft.variant)
+        if used is not None and used.name == draft.name:
+            message = f"`{name}` cannot limit itself"
+            hint = "name another point, or write the fixed end that the manual prints"
+            self.scales.scope.report.error("bad-formula", message, formula.of(name), hint)
+            raise UnknownError
+        return self.scales.affine(draft, name, part, formula)
 
     def falls(self, draft: Draft) -> bool:
         """Whether a larger value is a smaller raw number."""

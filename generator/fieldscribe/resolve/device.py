@@ -74,4 +74,5 @@ def _blocks(subject: Subject, points: tuple[Point, ...]) -> dict[str, tuple[Bloc
         by_group.setdefault(point.group, []).append(point)
     if subject.scope.header["family"] != "modbus":
         return {}
-    return {group: modbus.plan_blocks(subject.bus, members) for group, members in by_group.items()}
+    variants = {axis: tuple(entry["values"]) for axis, entry in subject.scope.header.get("variants", {}).items()}
+    return {group: modbus.plan_blocks(subject.bus, members, variants) for group, members in by_group.items()}

@@ -60,7 +60,7 @@ def _comparison(scope: Scope, draft: Draft, scales: Scales, one: Comparison, wri
         return existence.Comparison(name, one.op, tuple([_value(scope, name, each, written) for each in one.constants]))
     used = scales.index.find(name, draft.variant)
     if used is None:
-        scales.index.unknown(name, written.of(name))
+        scales.index.unknown(name, written.of(name), scope.axes)
         raise UnknownError
     if used.floating:
         message = f"`{name}` is a floating-point number"

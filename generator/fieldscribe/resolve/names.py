@@ -5,12 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from fieldscribe.language.hints import quoted
+from fieldscribe.language.hints import nearest, quoted
 from fieldscribe.language.meant import bits_meant, space_hint
 from fieldscribe.model import TYPES, TypeInfo
 from fieldscribe.resolve.values import integer
 
 if TYPE_CHECKING:
+    from collections.abc import Collection
+
     from fieldscribe.diagnostics import Span
     from fieldscribe.resolve.drafts import Draft
     from fieldscribe.resolve.scope import Scope
@@ -47,8 +49,8 @@ class Index:
         """Every point that `word` names: itself, or all that carry the code."""
         return self.by_name.get(word) or self.by_code.get(word, [])
 
-    def unknown(self, word: str, span: Span) -> None:
-        """A finding for a word that means no point, or too many."""
+    def unknown(self, word: str, span: Span, axes: Collection[str] = ()) -> None:
+        """A finding for a word that means no point, or too many; where it stands it could be one of `axes` too."""
         several = self.by_code.get(word, [])
         if several:
             message = f"`{word}` is the code of {len(several)} points"
@@ -56,6 +58,8 @@ class Index:
             return
         hexadecimal = word.isupper() and all(one in "0123456789ABCDEF" for one in word)
         hint = f"if a hexadecimal number is meant, write 0{word}h" if hexadecimal else None
+        near = nearest(word, (*axes, *self.by_name, *self.by_code)) if axes else None
+        hint = f"did you mean the axis `{near}`?" if near in axes else hint
         self.scope.unknown("point", word, span, [*self.by_name, *self.by_code], hint)
 
 

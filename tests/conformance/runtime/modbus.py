@@ -128,7 +128,10 @@ def check_failures(package: Package) -> None:
     """What goes wrong names the point, and the device can be used again."""
     for device, memory in _devices(package, {4: 4}):
         memory.fails = TimeoutError("nothing came")
-        assert str(refusal(device.c.read)) == "nothing came"
+        silence = refusal(device.c.read)
+        assert type(silence) is package.runtime.NoReplyError
+        assert str(silence) == f"{device.c.label}: unit 1 did not reply to function 03h"
+        assert silence.__cause__ is memory.fails
         memory.fails = package.runtime.FrameError("bad_crc", "wrong")
         assert str(refusal(device.c.read)) == "wrong"
         memory.fails = None

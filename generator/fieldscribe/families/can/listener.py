@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.dialogue import Heard, Item
 from fieldscribe.dialogue.items import Directory, named_item, value_item, without_variants
+from fieldscribe.dialogue.selection import absence
 from fieldscribe.dialogue.words import raw_of
 from fieldscribe.families.can.frames import LENGTH
 from fieldscribe.families.can.receiver import Receiver
@@ -170,7 +171,7 @@ class CanListener:
         base = ("parameter", address, 1)
         settings = {**unit.settings, **self._given}
         if raw is None:
-            return named_item(point, base)
+            return named_item(point, base, odd=absence(self._device, point))
         if len(point.addresses) == 1:
             item = value_item(self._device, point, base, (raw_of(point, (raw,)), settings), written=written)
             odd = fixed_finding(point, raw) if written else ""

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.dialogue import Item
 from fieldscribe.dialogue.codec import setting_of
-from fieldscribe.dialogue.items import named_item, value_item
+from fieldscribe.dialogue.items import named_item, present_first, value_item
+from fieldscribe.dialogue.selection import absence
 from fieldscribe.explain.lookup import word_text
 from fieldscribe.families.modbus.functions import READS, SPACES
 from fieldscribe.families.modbus.words import raw_of
@@ -56,11 +57,13 @@ class AddressBook:
     def __init__(self, device: Device) -> None:
         self._device = device
         self._at: dict[tuple[str, int], list[tuple[Point, Place]]] = {}
-        for point in device.points:
+        for point in present_first(device):
             for place in point.places:
                 spaces = {place.space, _SPACE_OF.get(place.function or 0, place.space)}
                 for key in ((space, address) for space in sorted(spaces) for address in place.addresses):
-                    self._at.setdefault(key, []).append((point, place))
+                    here = self._at.setdefault(key, [])
+                    if not (here and absence(device, point)):
+                        here.append((point, place))
 
     def starting_at(self, space: str, address: int) -> list[tuple[Point, Place]]:
         """The points whose lowest address this is."""
@@ -109,11 +112,12 @@ class AddressBook:
         whole = len(inside) == len(place.addresses)
         words = area.words
         base = (area.space, min(inside), len(inside))
+        odd = "" if words and area.function in READS else absence(self._device, point)
         if not whole:
             texts = [word_text(place.addresses, one) + _carried(words, one) for one in inside]
-            return named_item(point, base, f"only the {', '.join(texts)}")
+            return named_item(point, base, f"only the {', '.join(texts)}", odd=odd)
         if not all(address in words for address in inside):
-            return named_item(point, base)
+            return named_item(point, base, odd=odd)
         raw = raw_of(point, place.addresses, words)
         return value_item(self._device, point, base, (raw, settings), written=area.function not in READS)
 

@@ -9,29 +9,34 @@ from fieldscribe.families.modbus.functions import PROTOCOL_MOST, SPACES, profile
 from fieldscribe.model import Block
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Mapping, Sequence
 
     from fieldscribe.model import Bus, Place, Point
 
 
 @dataclass(slots=True)
 class _Lane:
-    """What one space and function offer: spans to read (low, end, name), and addresses that may be crossed."""
+    """What one space and function offer: spans to read (low, end, name), and addresses that may be crossed.
+
+    Those may be crossed where a readable point is in every device.
+    """
 
     spans: list[tuple[int, int, str]] = field(default_factory=list)
     crossable: set[int] = field(default_factory=set)
 
 
-def plan_blocks(bus: Bus, points: Iterable[Point]) -> tuple[Block, ...]:
+def plan_blocks(bus: Bus, points: Sequence[Point], variants: Mapping[str, tuple[str, ...]]) -> tuple[Block, ...]:
     """Reads that bring all generated readable points, by space, then address.
 
     A block crosses no address that no readable point covers (reserved ones may be crossed) and none of the bus's gaps;
-    it holds points whole and at most as many items as the device allows. Points that no single read can bring (no
-    allowed function, more words than allowed, words that are not neighbours) are in no block.
+    it holds points whole and at most as many items as the device allows. What not every device has (a condition, a
+    firmware, one variant alone) is in a block of its own: where it is missing, the device refuses all of a read. Points
+    that no single read can bring (no allowed function, more words than allowed, words that are not neighbours) are in
+    no block.
     """
     most = profile_of(bus).most
     blocks: list[Block] = []
-    for (space, function), lane in _lanes(bus, points).items():
+    for (space, function), lane in _lanes(points, variants).items():
         if function in most:
             blocks.extend(_cut(space, function, lane, bus.gaps.get(space, ()), most[function]))
     order = {space: index for index, space in enumerate(SPACES)}
@@ -39,8 +44,9 @@ def plan_blocks(bus: Bus, points: Iterable[Point]) -> tuple[Block, ...]:
     return tuple(blocks)
 
 
-def _lanes(bus: Bus, points: Iterable[Point]) -> dict[tuple[str, int], _Lane]:
+def _lanes(points: Sequence[Point], variants: Mapping[str, tuple[str, ...]]) -> dict[tuple[str, int], _Lane]:
     lanes: dict[tuple[str, int], _Lane] = {}
+    values = _values(points)
     for point in points:
         place = _read_place(point)
         if place is None or place.space not in SPACES:
@@ -49,11 +55,32 @@ def _lanes(bus: Bus, points: Iterable[Point]) -> dict[tuple[str, int], _Lane]:
         if function not in PROTOCOL_MOST:
             continue
         lane = lanes.setdefault((place.space, function), _Lane())
-        lane.crossable.update(place.addresses)
+        if _always_there(point, place, values, variants):
+            lane.crossable.update(place.addresses)
         low, end = min(place.addresses), max(place.addresses) + 1
         if point.generated and end - low == len(place.addresses):
             lane.spans.append((low, end, point.name))
     return lanes
+
+
+def _values(points: Iterable[Point]) -> dict[tuple[str, Place], set[str]]:
+    """The variants in which points of one name are read at one place."""
+    found: dict[tuple[str, Place], set[str]] = {}
+    for point in points:
+        place = _read_place(point)
+        if point.variant is not None and place is not None:
+            found.setdefault((point.name, place), set()).add(point.variant)
+    return found
+
+
+def _always_there(
+    point: Point, place: Place, values: Mapping[tuple[str, Place], set[str]], variants: Mapping[str, tuple[str, ...]]
+) -> bool:
+    """Whether every device has a point at the place that it is read from."""
+    if point.when is not None or point.since is not None or point.until is not None:
+        return False
+    axis = (point.variant or "").partition("=")[0]
+    return point.variant is None or {f"{axis}={value}" for value in variants.get(axis, ())} <= values[point.name, place]
 
 
 def _read_place(point: Point) -> Place | None:
@@ -68,7 +95,11 @@ def _cut(space: str, function: int, lane: _Lane, gaps: tuple[tuple[int, int], ..
     crossable = {address for address in lane.crossable if not any(low <= address <= high for low, high in gaps)}
     begin = end = 0
     names: dict[str, None] = {}
+    alone: dict[tuple[int, int], dict[str, None]] = {}
     for low, stop, name in sorted(span for span in lane.spans if span[1] - span[0] <= most):
+        if not lane.crossable.issuperset(range(low, stop)):
+            alone.setdefault((low, stop), {})[name] = None
+            continue
         joins = stop - begin <= most and all(address in crossable for address in range(end, stop))
         if names and not joins:
             yield Block(space, function, begin, end - begin, tuple(names))
@@ -78,3 +109,5 @@ def _cut(space: str, function: int, lane: _Lane, gaps: tuple[tuple[int, int], ..
         names[name] = None
     if names:
         yield Block(space, function, begin, end - begin, tuple(names))
+    for (low, stop), own in alone.items():
+        yield Block(space, function, low, stop - low, tuple(own))

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.dialogue import Heard, Item
 from fieldscribe.dialogue.items import Base, Directory, named_item, value_item, without_variants
+from fieldscribe.dialogue.selection import absence
 from fieldscribe.dialogue.words import raw_of
 from fieldscribe.families.uss import remarks
 from fieldscribe.families.uss.recognition import RESPONSE_WIDTHS, TASK_WIDTHS, Part, Wrapped, part_of, recognise, split
@@ -182,7 +183,7 @@ class UssListener:
     def _value(self, unit: _Unit, brought: _Brought, point: Point, base: Base) -> Item:
         """What a parameter part says of one point."""
         if brought.value is None:
-            return named_item(point, base)
+            return named_item(point, base, odd=absence(self._device, point) if brought.request else "")
         words = _hex(brought.part.values)
         if not point.generated:
             return named_item(point, base, f"carries {words}; {point.reason or 'its meaning is open'}")

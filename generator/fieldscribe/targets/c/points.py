@@ -34,6 +34,7 @@ from fieldscribe.text import c_comment, c_string
 from fieldscribe.wording import (
     access_text,
     codes_text,
+    condition_text,
     default_text,
     range_text,
     raw_range_text,
@@ -110,12 +111,14 @@ def value_type(point: Point) -> str:
 
 
 def comment_lines(point: Point, scope: Scope) -> tuple[str, ...]:
-    """The comment above a point: code, title, range, access, default, special codes, errors of the manual."""
+    """The comment above a point: code, title, range, access, default, condition, codes, errors of the manual."""
     head = f"{point.code}: {point.title['en']}" if point.code else point.title["en"]
     facts = ["" if point.untyped is not None else _range(point), access_text(point.access)]
     if point.default is not None:
         facts.append(f"default {default_text(point)}")
     lines = [*_wrapped(head), *_wrapped("; ".join(fact for fact in facts if fact) + ".")]
+    if point.when is not None:
+        lines += _wrapped(f"Exists only when {condition_text(point.when, scope.points)}.")
     lines += [f"{text[0].upper()}{text[1:]}." for text in width_texts(point)]
     if point.specials:
         lines += _wrapped(f"{codes_text(point)}.")

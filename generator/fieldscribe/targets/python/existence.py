@@ -1,8 +1,10 @@
-"""For which variants a point exists, where its condition is about one variant axis."""
+"""For which variants a point can exist, and whether anything else decides it too."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
+
+from fieldscribe.existence import absent
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -11,12 +13,17 @@ if TYPE_CHECKING:
 
 
 def only_for(point: Point, variants: Mapping[str, tuple[str, ...]]) -> tuple[str, tuple[str, ...]] | None:
-    """The axis and those of its values for which the point exists.
+    """The first axis that its condition narrows, and those of its values for which the point can exist."""
+    for axis in () if point.when is None else point.when.names:
+        values = variants.get(axis, ())
+        left = tuple([value for value in values if not absent(point.when, {axis: (value,)})])
+        if left != values:
+            return axis, left
+    return None
 
-    None where the condition asks for something else too: that is for the reader of the documentation.
-    """
-    condition = point.when
-    if condition is None or len(condition.names) != 1 or condition.names[0] not in variants:
-        return None
-    axis = condition.names[0]
-    return axis, tuple([value for value in variants[axis] if condition.holds({axis: value})])
+
+def uncertain(point: Point, variants: Mapping[str, tuple[str, ...]]) -> bool:
+    """Whether more than one axis of variants decides if the point exists: other points, firmwares, other axes."""
+    narrowed = only_for(point, variants)
+    others = set() if point.when is None else {*point.when.names} - ({narrowed[0]} if narrowed else set())
+    return bool(others) or point.since is not None or point.until is not None

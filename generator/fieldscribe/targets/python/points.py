@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from fieldscribe.targets.python.commands import commands, variants
-from fieldscribe.targets.python.existence import only_for
+from fieldscribe.targets.python.existence import only_for, uncertain
 from fieldscribe.targets.python.families import FAMILIES
 from fieldscribe.targets.python.families.family import RUNTIME, Family
 from fieldscribe.targets.python.forms import NUMBERED, allowed, form, number, place
@@ -15,7 +15,7 @@ from fieldscribe.targets.python.identifiers import Identifiers, attribute, sorte
 from fieldscribe.targets.python.layout import WIDTH, Group, Node, assigned, call, comment, laid_out
 from fieldscribe.targets.python.scope import Scope
 from fieldscribe.text import python_doc, python_string
-from fieldscribe.wording import codes_text, range_text
+from fieldscribe.wording import codes_text, condition_text, range_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -146,6 +146,8 @@ def _arguments(point: Point, scope: Scope) -> list[Node]:
     if found := only_for(point, scope.variants):
         values = Group("(", tuple([python_string(value) for value in found[1]]))
         arguments.append(Group("only_for=(", (python_string(found[0]), values)))
+    if uncertain(point, scope.variants):
+        arguments.append("uncertain=True")
     return arguments
 
 
@@ -190,6 +192,8 @@ def _doc(point: Point, errata: Mapping[str, Erratum], by_name: Mapping[str, Poin
     limits = range_text(point, by_name) if point.writable and point.form in ("scaled", "float", "integer") else ""
     first = f"{point.title['en']}: {limits}" if limits else point.title["en"]
     first = first if first.endswith(".") else f"{first}."
+    if point.when is not None:
+        first += f" Exists only when {condition_text(point.when, by_name)}."
     if point.conditions and point.writable:
         first += f" To write it takes: {', '.join(one.replace('_', ' ') for one in point.conditions)}."
     if point.specials:

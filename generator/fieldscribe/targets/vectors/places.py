@@ -11,6 +11,7 @@ from fieldscribe.text import line
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from fieldscribe.existence import Condition
     from fieldscribe.model import Point
     from fieldscribe.targets.vectors.lines import Lines
 
@@ -65,10 +66,18 @@ def aliases(lines: Lines, point: Point) -> None:
 
 def _only_for(point: Point, variants: Mapping[str, tuple[str, ...]]) -> tuple[str, ...] | None:
     """The values of one axis of variants for which the point exists, behind its name."""
-    if point.when is None or len(point.when.names) != 1 or point.when.names[0] not in variants:
+    if point.when is None:
         return None
-    [axis] = point.when.names
-    return (axis, *(value for value in variants[axis] if point.when.holds({axis: value})))
+    for axis in point.when.names:
+        left = [value for value in variants.get(axis, ()) if _possible_for(point.when, axis, value)]
+        if len(left) < len(variants.get(axis, ())):
+            return (axis, *left)
+    return None
+
+
+def _possible_for(condition: Condition, axis: str, value: str) -> bool:
+    """Whether a clause is left of which nothing says no to this value."""
+    return any(all(one.of != axis or one.holds(value) for one in clause) for clause in condition.clauses)
 
 
 def words(lines: Lines, point: Point) -> None:
