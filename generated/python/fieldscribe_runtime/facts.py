@@ -118,6 +118,7 @@ class FactArguments(TypedDict):
     changes_with: NotRequired[tuple[str, ...]]
     variant: NotRequired[tuple[str, str]]
     only_for: NotRequired[tuple[str, tuple[str, ...]]]
+    uncertain: NotRequired[bool]
     name: NotRequired[str]
 
 
@@ -127,7 +128,8 @@ class Facts:
 
     `references` are the manual's other numberings of the point, `allowed` the raw numbers that it allows. `fixed` is a
     mask and the bits that the word always has there when it is written. `changes_with` names points that change it.
-    `only_for` says for which values of which axis of variants the point exists.
+    `only_for` says for which values of which axis of variants the point exists; `uncertain` that something else decides
+    it too, such as another point or a firmware.
     """
 
     at: Place
@@ -144,5 +146,6 @@ class Facts:
     changes_with: tuple[str, ...] = ()
     variant: tuple[str, str] | None = None
     only_for: tuple[str, tuple[str, ...]] | None = None
+    uncertain: bool = False
     name: str = ""
     item: str = ""

@@ -6,9 +6,17 @@ from __future__ import annotations
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
-from .errors import CodecError, RangeError, WrongLengthError
+from .errors import (
+    CodecError,
+    RangeError,
+    SpecialCodeError,
+    UnknownValueError,
+    WrongLengthError,
+    WrongTypeError,
+)
 from .forms import whole
 from .rules import NO_RAWS, Limit, Raws, high_end, low_end
+from .special import Special
 
 if TYPE_CHECKING:
     import enum
@@ -222,6 +230,7 @@ class Encoding(Point, Generic[W_contra]):
         Raises RangeError, UnknownValueError, NotANumberError, ZeroFactorError, NoCaseError and MissingRawError, and
         SpecialCodeError for a value that would be a special code.
         """
+        self.require(value)
         try:
             raw = self._form.encode(value, self.allowed, raws)
             if raw is None:
@@ -229,6 +238,31 @@ class Encoding(Point, Generic[W_contra]):
         except CodecError as error:
             raise self._named(error) from None
         return raw
+
+    def require(self, value: object) -> None:
+        """Raises SpecialCodeError, UnknownValueError or WrongTypeError for what is never written.
+
+        That is known before the device is asked for what scale and limits need.
+        """
+        if isinstance(value, str) and (self.scale_needs or self.limit_needs):  # only quantities have such needs
+            raise self._named(WrongTypeError(f"takes a number, not {value!r}"))
+        if isinstance(value, Special):
+            code = self.special(value.raw)
+            if code != value:
+                raise self._named(UnknownValueError(f"{value} is no special code of this point"))
+            self._require_writable(code)
+
+    def require_raw(self, raw: int) -> None:
+        """The same for a raw number."""
+        if not isinstance(raw, int):
+            self.to_words(raw)
+        self._require_writable(self.special(raw))
+
+    def _require_writable(self, code: Special | None) -> None:
+        if code is not None and not code.writable:
+            raise self._named(
+                SpecialCodeError(code.name, f"raw {code.raw} is the special code {code}: it is only read")
+            )
 
     def encode_count(self, count: int, raws: Raws = NO_RAWS) -> int:
         """The raw number for an integer count of 10^-decimals units, by integers alone; raises as `encode`."""

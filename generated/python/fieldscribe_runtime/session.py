@@ -170,6 +170,12 @@ class Session(PointTable, ABC):
         variant = point.facts.variant
         return exists and (variant is None or self.variants.get(variant[0]) == variant[1])
 
+    def _surely_has(self, point: Point) -> bool:
+        """Whether the point is there for all that is known: no condition is open."""
+        axis, _ = point.facts.only_for or ("", ())
+        known = not axis or self.variants.get(axis) is not None
+        return known and not point.facts.uncertain and self._has(point)
+
     def _read_raw_steps(self, point: Point) -> Steps[int]:
         """Read a point's raw number."""
         with _about(point):
@@ -210,12 +216,14 @@ class Session(PointTable, ABC):
 
     def _write_steps(self, point: Encoding[T], value: T, place: Place | None = None) -> Steps[None]:
         """Write a value, to another `place` than the usual one where one is named."""
+        point.require(value)
         needs = dict.fromkeys((*point.scale_needs, *point.limit_needs))
         raws = yield from self._raws_steps(point, needs, writes=True)
         yield from self._put_raw_steps(point, point.encode(value, raws), place, raws)
 
     def _write_raw_steps(self, point: Encoding[Any], raw: int, place: Place | None = None) -> Steps[None]:
         """Write a raw number that the range allows."""
+        point.require_raw(raw)
         raws = yield from self._raws_steps(point, point.limit_needs, writes=True)
         point.check(raw, raws)
         yield from self._put_raw_steps(point, raw, place, raws)

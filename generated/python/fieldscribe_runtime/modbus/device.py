@@ -22,7 +22,10 @@ class Transport(Protocol):
         """`rtu` or `tcp`: what the frames look like."""
 
     def exchange(self, request: bytes) -> bytes:
-        """Send a frame and return the whole reply; for a broadcast (nobody answers) return no bytes."""
+        """Send a frame and return the whole reply; raises TimeoutError when none comes in time.
+
+        Nobody answers a broadcast: for it return no bytes (or wait in vain and raise TimeoutError).
+        """
 
 
 class AsyncTransport(Protocol):
@@ -33,7 +36,10 @@ class AsyncTransport(Protocol):
         """`rtu` or `tcp`: what the frames look like."""
 
     async def exchange(self, request: bytes) -> bytes:
-        """Send a frame and return the whole reply; for a broadcast (nobody answers) return no bytes."""
+        """Send a frame and return the whole reply; raises TimeoutError when none comes in time.
+
+        Nobody answers a broadcast: for it return no bytes (or wait in vain and raise TimeoutError).
+        """
 
 
 class ModbusDevice(ModbusSession, AnyDevice):

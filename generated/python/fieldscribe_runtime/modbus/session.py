@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Generator, Mapping, Sequence
 from typing import TYPE_CHECKING, ClassVar, TypeVar
 
-from ..errors import RequestError
+from ..errors import NoReplyError, RequestError
 from ..points import Decoding, Point
 from ..session import Session, check_unit
 from .frames import (
@@ -54,7 +54,13 @@ class ModbusSession(Session):
         """One request and its reply."""
         self._transaction = self._transaction + 1 & 0xFFFF
         request = Request(self.unit, function, address, count, values)
-        reply = yield build(request, self.PROFILE, self._framing, self._transaction)
+        frame = build(request, self.PROFILE, self._framing, self._transaction)
+        try:
+            reply = yield frame
+        except TimeoutError as error:
+            if self.unit == self.PROFILE.broadcast:
+                return ()
+            raise NoReplyError(f"unit {self.unit} did not reply to function {function:02X}h") from error
         if self.unit == self.PROFILE.broadcast:
             return ()
         return parse(request, reply, self.PROFILE, self._framing, self._transaction)
@@ -76,7 +82,8 @@ class ModbusSession(Session):
 
     def _gather_steps(self, points: Sequence[Point], group: str | None) -> Steps[dict[str, int]]:
         """Read the raw numbers of several points with few requests, in the blocks that the group was planned in."""
-        blocks: tuple[Block, ...] = self.BLOCKS.get(group, ()) if group is not None else ()
+        planned: tuple[Block, ...] = self.BLOCKS.get(group, ()) if group is not None else ()
+        blocks = [block for block in planned if any(block.covers(one.facts.at) for one in points)]
         rest = [one.facts.at for one in points if not any(block.covers(one.facts.at) for block in blocks)]
         raws: dict[str, int] = {}
         for block in (*blocks, *plan(rest, self.PROFILE, self._bridges())):
@@ -88,9 +95,9 @@ class ModbusSession(Session):
         return raws
 
     def _bridges(self) -> frozenset[tuple[str, int]]:
-        """The addresses of all points that are known to be readable."""
+        """The addresses of all points that are known to be there, and readable."""
         if self._readable is None:
-            readable = [one for one in self.POINTS.values() if isinstance(one, Decoding) and self._has(one)]
+            readable = [one for one in self.POINTS.values() if isinstance(one, Decoding) and self._surely_has(one)]
             places = [point.facts.at for point in readable]
             self._readable = frozenset((place.space, address) for place in places for address in place.addresses)
         return self._readable
