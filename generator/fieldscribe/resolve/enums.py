@@ -140,7 +140,7 @@ def flags_of(scope: Scope, draft: Draft, bits: tuple[int, int] | None, width: in
                 message = f"bit {outside} lies outside the {width} bits of the point"
                 hint = f"bits are numbered {last}..{first}{', as in the word' if bits else ''}"
                 place = outside.bit_length() - 1
-                if outside == 1 << place and outside > _WIDEST and first <= place <= last:
+                if outside > _WIDEST and outside == 1 << place and first <= place <= last:
                     hint += f"; the mask {key} is bit {place}"
                 scope.report.error("bit-outside-word", message, span, hint)
         elif taken.takes((low, high), name, span, raw.span(key)):
