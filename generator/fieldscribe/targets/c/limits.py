@@ -61,8 +61,9 @@ def _bounds_without_codes(point: Point) -> tuple[int, int]:
 
 def _named_test(name: str, macro: str, limits: tuple[Bound, Bound], bounds: tuple[int, int]) -> str:
     """Whether a number lies within RAW_MIN and RAW_MAX, as far as its type holds more."""
-    tests = [f"{name} >= {macro}_RAW_MIN"] if limits[0] != bounds[0] else []
-    tests += [f"{name} <= {macro}_RAW_MAX"] if limits[1] != bounds[1] else []
+    low, high = limits
+    tests = [f"{name} >= {macro}_RAW_MIN"] if not isinstance(low, int) or low > bounds[0] else []
+    tests += [f"{name} <= {macro}_RAW_MAX"] if not isinstance(high, int) or high < bounds[1] else []
     return " && ".join(tests)
 
 
