@@ -68,7 +68,8 @@ class Exchanges:
             self._add("read", point, raw, self.wire.reads(point, words), needs or [])
         if point.writable:
             for kind, keep in (("write", False), ("store", True)):
-                self._add(kind, point, raw, self._writing(point, raw, keep=keep), needs or [])
+                for number in (raw, 0) if point.type == "bit" and raw else (raw,):
+                    self._add(kind, point, number, self._writing(point, number, keep=keep), needs or [])
 
     def _writing(self, point: Point, raw: int, *, keep: bool) -> Script | None:
         place = writing_place(point)
@@ -140,7 +141,7 @@ def words_of(point: Point, place: Place, raw: int, *, received: bool = False) ->
 
 
 def typical(oracle: Oracle, point: Point, settings: dict[str, int]) -> int | None:
-    """A raw number that may be written, two thirds up its range if that may be."""
+    """A raw number that may be written, two thirds up its range and odd if that may be."""
     if point.text is not None:
         return int.from_bytes(bytes(0x41 + place % 26 for place in range(point.text.characters)), "big")
     if point.digits is not None:
@@ -154,7 +155,8 @@ def typical(oracle: Oracle, point: Point, settings: dict[str, int]) -> int | Non
     if isinstance(ratio, str) or isinstance(limits, str):
         return None
     low, high = max(limits, key=lambda one: one[1] - one[0])
-    tried = (high - (high - low) // 3, *(raw for interval in limits for raw in interval))
+    upper = high - (high - low) // 3
+    tried = (upper | 1, upper, *(raw for interval in limits for raw in interval))
     found = (with_fixed(point, raw) for raw in tried)
     return next((raw for raw in found if admit(point, raw, limits) == "ok" and not _is_special(point, raw)), None)
 
