@@ -452,7 +452,7 @@ MORE_POINTS = """\
   - {name: input_delay, at: 70, digits: {count: 4, enum: delay}, section: "4.3", line: 26, printed: {range: 0..2222}}
   - {name: source, at: 71, bits: 15..8, fixed: {7..3: 0}, section: "4.4", line: 34}
   - {name: source_logic, at: 71, bits: 0, flags: {0: {name: active, zero: "off", one: "on"}}, section: "4.4", line: 34}
-  - {name: fault_text, title: Fault text 12, at: 97..90, type: text, characters: 16, access: r, section: "4.5", line: 39}
+  - {name: fault_text, at: 97..90, type: text, characters: 16, access: r, section: "4.5", line: 39}
 enums:
   delay:
     0: {name: ms_100, quantity: 100 ms}

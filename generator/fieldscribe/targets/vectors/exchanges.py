@@ -68,7 +68,7 @@ class Exchanges:
             self._add("read", point, raw, self.wire.reads(point, words), needs or [])
         if point.writable:
             for kind, keep in (("write", False), ("store", True)):
-                for number in (raw, 0) if point.type == "bit" and raw else (raw,):
+                for number in (raw, 0) if point.type == "bit" and point.outer == (0, 1) else (raw,):
                     self._add(kind, point, number, self._writing(point, number, keep=keep), needs or [])
 
     def _writing(self, point: Point, raw: int, *, keep: bool) -> Script | None:
