@@ -70,6 +70,7 @@ def test_halves_are_rounded_on_32_bits_as_elsewhere(folder: Path, tmp_path: Path
         succeed([compiled("gcc", (*flags, *SSE), source, tmp_path / "half")])
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("flags", [SSE, (NO_FLOAT,)], ids=" ".join)
 @pytest.mark.parametrize("device", ["sample_drive", *MADE])
 def test_devices_conform_on_32_bits(device: str, flags: tuple[str, ...], folder: Path, tmp_path: Path) -> None:
