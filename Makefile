@@ -10,11 +10,11 @@ generate:           ## compile all descriptions into generated/
 
 test:               ## run every test
 	@sh generator/setup.sh tests
-	$(PYTHON) -m pytest -n auto
+	$(PYTHON) -m pytest -n auto --dist worksteal
 
 core:               ## run the quick tests only
 	@sh generator/setup.sh tests
-	$(PYTHON) -m pytest -n auto -m "not full"
+	$(PYTHON) -m pytest -n auto --dist worksteal -m "not full"
 
 check:              ## validate the descriptions, and say what in generated/ is stale
 	@sh generator/setup.sh compiler
