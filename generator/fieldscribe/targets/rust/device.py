@@ -18,7 +18,6 @@ from fieldscribe.text import line, rust_code, rust_string
 if TYPE_CHECKING:
     from fieldscribe.model import Device, Point
     from fieldscribe.targets.rust.subjects import Scope
-    from fieldscribe.targets.rust.views import PointView
 
 _SEMANTIC = re.compile(r"\d+\.\d+\.\d+(?:-[0-9A-Za-z.-]+)?")
 
@@ -56,8 +55,8 @@ def device_context(device: Device, scope: Scope) -> dict[str, object]:
         "long_enums": any(map(is_long, enums)),
         "words": words,
         "structs": structs,
-        "uses_arithmetic": any(map(_computes, points)),
-        "uses_enums": any("enums::" in point.value for point in points),
+        "uses_enums": bool(enums),
+        "uses_runtime": any("runtime::" in fact for point in points for fact in point.facts),
         "uses_flags": bool(words),
         "uses_with": bool(structs),
         "title": rust_code(f"{device.vendor} {device.model}"),
@@ -70,11 +69,3 @@ def device_context(device: Device, scope: Scope) -> dict[str, object]:
         "title_literal": rust_string(f"{device.vendor} {device.model}"),
         **family_context(device),
     }
-
-
-def _computes(point: PointView) -> bool:
-    """Whether the point's code calls the runtime's arithmetic."""
-    factors = [factor for rule in point.rules for factor in rule.factors]
-    if point.write or any(factor.bounds or factor.line for factor in factors):
-        return True
-    return point.read is not None and any("arithmetic::" in text for text in (point.read.value, point.read.count))

@@ -82,13 +82,13 @@ def calls(indent: int, left: str, items: list[tuple[str, Lines]]) -> Lines:
     return (*lines, "];")
 
 
-def fields_of_self(indent: int, type_: str, names: Lines) -> Lines:
-    """A struct literal that takes its fields from `self`."""
-    joined = ", ".join(f"{name}: self.{name}" for name in names)
+def fields_of(indent: int, type_: str, names: Lines) -> Lines:
+    """A struct literal that takes its fields from `all`."""
+    joined = ", ".join(f"{name}: all.{name}" for name in names)
     if len(joined) <= _STRUCT_WIDTH:
         return (f"{type_} {{ {joined} }}",)
     lines = [f"{type_} {{"]
     for name in names:
-        line = f"    {name}: self.{name},"
-        lines += [line] if indent + len(line) <= _WIDTH else [f"    {name}: self", f"        .{name},"]
+        line = f"    {name}: all.{name},"
+        lines += [line] if indent + len(line) <= _WIDTH else [f"    {name}: all", f"        .{name},"]
     return (*lines, "}")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.targets.rust.documentation import sentence
-from fieldscribe.targets.rust.layout import arm, binding, calls, comparison, fields_of_self, signature
+from fieldscribe.targets.rust.layout import arm, binding, calls, comparison, fields_of, signature
 from fieldscribe.targets.rust.literals import integer, mask, type_name, value_name
 from fieldscribe.targets.rust.views import ArgumentsView, EntryView, EnumView, FlagsView, FlagView
 from fieldscribe.text import rust_string
@@ -101,7 +101,7 @@ def arguments_views(scope: Scope) -> Iterator[ArgumentsView]:
         if parted:
             doc = f"Raw numbers that the scale of `{item}` needs."
             yield ArgumentsView(doc, part, _fields(subject.factors, scope), "", ())
-        literal = fields_of_self(8, part, tuple(map(value_name, subject.factors))) if parted else ()
+        literal = fields_of(8, "Self", tuple(map(value_name, subject.factors))) if parted else ()
         doc = f"Raw numbers that `{item}` needs."
         yield ArgumentsView(doc, subject.name, _fields(subject.arguments, scope), part, literal)
 

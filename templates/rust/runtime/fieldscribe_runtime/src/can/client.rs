@@ -119,7 +119,7 @@ impl<L: Listener + ?Sized> Listener for &mut L {
 }
 
 /// Why a point could not be read or written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum ClientError<E> {
     /// The number could not be encoded or decoded.

@@ -1,13 +1,23 @@
 // SPDX-License-Identifier: 0BSD
-//! Runs conformance vectors: what each kind means, for any point. The tables of a device's points stand beside it.
+//! Runs conformance vectors: what each kind means, for any point. The tables of a device's points stand in its own test.
 
-#![allow(dead_code, reason = "not every device has points of every kind")]
+#![forbid(unsafe_code)]
+#![allow(
+    clippy::missing_errors_doc,
+    clippy::missing_panics_doc,
+    clippy::must_use_candidate,
+    reason = "it is for tests, which end by it"
+)]
 
 #[macro_use]
 mod runtime;
 
-mod clients;
-pub mod frames;
+pub mod can;
+mod can_clients;
+pub mod modbus;
+mod modbus_clients;
+pub mod uss;
+mod uss_clients;
 
 use std::cell::Cell;
 use std::future::Future;
@@ -28,82 +38,82 @@ pub type Outcome = Result<(), String>;
 #[macro_export]
 macro_rules! table {
     ($kind:ident $run:ident {}) => {
-        fn $kind(_: &runner::Vector) -> Option<runner::Outcome> {
+        fn $kind(_: &$crate::Vector) -> Option<$crate::Outcome> {
             None
         }
     };
     ($kind:ident $run:ident { $($item:literal $point:ident $with:tt;)+ }) => {
-        fn $kind(vector: &runner::Vector) -> Option<runner::Outcome> {
+        fn $kind(vector: &$crate::Vector) -> Option<$crate::Outcome> {
             Some(match vector.subject().as_str() {
-                $($item => table!($run $point $with vector),)+
+                $($item => $crate::table!($run $point $with vector),)+
                 _ => return None,
             })
         }
     };
     ($run:ident $point:ident () $vector:ident) => {
-        runner::$run::<device::points::$point>($vector, ())
+        $crate::$run::<device::points::$point>($vector, ())
     };
     ($run:ident $point:ident ($with:ident: $($field:ident $name:literal)+) $vector:ident) => {
-        runner::$run::<device::points::$point>(
+        $crate::$run::<device::points::$point>(
             $vector,
             device::with::$with { $($field: $vector.with($name)),+ },
         )
     };
     ($run:ident $point:ident (alone) $vector:ident) => {
-        runner::$run::<device::points::$point>($vector)
+        $crate::$run::<device::points::$point>($vector)
     };
     ($run:ident $point:ident (at $($constant:ident $key:literal)*) $vector:ident) => {
-        runner::$run::<device::points::$point>(
+        $crate::$run::<device::points::$point>(
             $vector,
             &[$(($key, device::points::$point::$constant.to_string())),*],
         )
     };
     ($run:ident $point:ident (text $($constant:ident $key:literal)*) $vector:ident) => {
-        runner::place_of::<device::points::$point>(
+        $crate::place_of::<device::points::$point>(
             $vector,
             &[$(($key, device::points::$point::$constant.to_string())),*],
         )
     };
     ($run:ident $point:ident (sizes $characters:literal $words:literal) $vector:ident) => {
-        runner::$run::<device::points::$point, $characters, $words>($vector)
+        $crate::$run::<device::points::$point, $characters, $words>($vector)
     };
     ($run:ident $point:ident (digits $count:literal $number:ident) $vector:ident) => {
-        runner::$run::<device::points::$point, _, $number, $count>($vector)
+        $crate::$run::<device::points::$point, _, $number, $count>($vector)
     };
     ($run:ident $point:ident (frames) $vector:ident) => {
-        runner::frames::$run::<device::points::$point>($vector)
+        frames::$run::<device::points::$point>($vector)
     };
     ($run:ident $module:ident (telegram $name:ident) $vector:ident) => {
-        runner::frames::$run::<device::$module::$name>($vector)
+        frames::$run::<device::$module::$name>($vector)
     };
     ($run:ident $module:ident (documented $name:ident) $vector:ident) => {
-        runner::documented($vector, &device::$module::documented::$name)
+        $crate::documented($vector, &device::$module::documented::$name)
     };
     ($run:ident $module:ident (code $constant:ident) $vector:ident) => {
-        runner::code(
+        $crate::code(
             $vector,
             u64::from(device::$module::$constant),
             $vector.said("name").as_deref(),
         )
     };
     ($run:ident $module:ident (named $constant:ident) $vector:ident) => {
-        runner::code(
+        $crate::code(
             $vector,
             u64::from(device::$module::$constant),
             device::$module::name(device::$module::$constant),
         )
     };
     ($run:ident $module:ident (sent $constant:ident) $vector:ident) => {
-        runner::frames::command($vector, &device::PROFILE, device::$module::$constant)
+        frames::command($vector, &device::PROFILE, device::$module::$constant)
     };
     ($run:ident $point:ident (wire) $vector:ident) => {
-        runner::frames::$run::<device::points::$point>($vector, &device::PROFILE)
+        frames::$run::<device::points::$point>($vector, &device::PROFILE)
     };
     ($run:ident $point:ident (wire $($with:tt)+) $vector:ident) => {
-        runner::frames::$run::<device::points::$point>(
+        frames::$run::<device::points::$point>(
             $vector,
             &device::PROFILE,
-            $(table!(struct $with $vector)),+
+            $($crate::table!(struct $with $vector)),+
         )
     };
     (struct () $vector:ident) => {
@@ -113,18 +123,18 @@ macro_rules! table {
         device::with::$with { $($field: $vector.with($name)),+ }
     };
     ($run:ident $word:ident (value $constant:ident) $vector:ident) => {
-        runner::$run($vector, u64::from(device::flags::$word::$constant))
+        $crate::$run($vector, u64::from(device::flags::$word::$constant))
     };
     ($run:ident $enum:ident (enum $raw:ident) $vector:ident) => {{
         let raw: $raw = $vector.raw("raw");
         let value = device::enums::$enum::from(raw);
-        runner::name($vector, value.name(), $raw::from(value) == raw)
+        $crate::name($vector, value.name(), $raw::from(value) == raw)
     }};
     ($run:ident $word:ident (flag $raw:ident $get:ident $set:ident) $vector:ident) => {{
         let word = device::flags::$word::from($vector.raw::<$raw>("raw"));
         let set = [word.$get(), !word.$get()].map(|state| word.$set(state));
-        runner::same($raw::from(word), $vector.raw("raw"))
-            .and_then(|()| runner::flag($vector, word, u64::from(word.$get()), set))
+        $crate::same($raw::from(word), $vector.raw("raw"))
+            .and_then(|()| $crate::flag($vector, word, u64::from(word.$get()), set))
     }};
 }
 
@@ -900,6 +910,7 @@ pub fn main(
     default: &str,
     device: [&str; 3],
     run: impl Fn(&str, &Vector) -> Option<Outcome>,
+    check: impl Fn(),
 ) -> ExitCode {
     let path = std::env::var("FIELDSCRIBE_VECTORS").unwrap_or_else(|_| default.to_owned());
     let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"));
@@ -931,7 +942,7 @@ pub fn main(
     }
     let result = report(&kinds);
     runtime::check();
-    clients::check();
+    check();
     result
 }
 

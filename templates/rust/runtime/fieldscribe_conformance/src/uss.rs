@@ -7,6 +7,7 @@ use fieldscribe_runtime::uss::{
 };
 use fieldscribe_runtime::{BitGroup, Decoded, Encodable, Error, Readable, Whole, Writable};
 
+pub use super::uss_clients::check;
 use super::{exchanged, now, same, Number, Outcome, Script, Vector};
 
 /// The same operation with the client that blocks and the one that does not, each over a script of its own.
