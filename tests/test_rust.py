@@ -352,7 +352,7 @@ def probe_source(device: str) -> str:
     scope = scope_of(model)
     for subject in scope.subjects:
         name = f"{device}::points::{subject.name}"
-        traits = " ".join(line for lines in family_traits(subject, scope) for line in lines)
+        traits = " ".join(family_traits(subject, scope))
         bodies = [*probes(subject, name), *client_probes(subject, name, traits)]
         item = subject.point.item
         lines += [f"#[inline(never)] pub fn {head.replace('(', f'_{item}(', 1)} {{ {body} }}" for head, body in bodies]

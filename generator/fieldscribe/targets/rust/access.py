@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.model import Limit
 from fieldscribe.targets.rust.forms import count_type
+from fieldscribe.targets.rust.layout import filled
 from fieldscribe.targets.rust.literals import FLOAT_GREATEST, float_literal, integer, nearest_float
-from fieldscribe.targets.rust.rules import interval, limit_of
+from fieldscribe.targets.rust.rules import interval, limit_lines
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -41,7 +42,7 @@ def write_lines(subject: Subject, scope: Scope) -> tuple[str, ...]:
 
 def _block(name: str, facts: list[str]) -> tuple[str, ...]:
     line = f"{name} {{ {' '.join(facts)} }}" if facts else f"{name} {{}}"
-    if len(line) <= _WIDTH and not any("\n" in fact for fact in facts):
+    if len(line) <= _WIDTH and "\n" not in line:
         return (line,)
     lines = (line for fact in facts for line in fact.split("\n"))
     return (f"{name} {{", *(f"    {line}" for line in lines), "}")
@@ -61,21 +62,27 @@ def _allowed(subject: Subject, scope: Scope) -> Iterator[str]:
     else:
         ranges = _merged(point)
         if len(ranges) > 1:
-            yield "\n".join(_filled("in [", " | ", [interval(*one) for one in ranges], "];"))
+            yield "\n".join(filled("in [", " | ", [interval(*one) for one in ranges], "];"))
 
 
 def _limits(point: Point, scope: Scope) -> Iterator[str]:
     """A pair of ends for each range, of which other points set one or both."""
     yield "limits |with| ["
     for one in point.allowed.intervals:
-        ends = _end(one.low, scope, lower=True), _end(one.high, scope, lower=False)
-        line = f"    ({', '.join(ends)}),"
-        yield from (line,) if len(line) <= _WIDTH else ("    (", *(f"        {end}," for end in ends), "    ),")
+        low, high = _end(one.low, scope, lower=True), _end(one.high, scope, lower=False)
+        line = f"    ({low[0]}, {high[0]}),"
+        if len(low) + len(high) == 2 and len(line) <= _WIDTH:
+            yield line
+        else:
+            yield "    ("
+            for end in (low, high):
+                yield from (f"        {line}" for line in (*end[:-1], f"{end[-1]},"))
+            yield "    ),"
     yield "];"
 
 
-def _end(bound: Bound, scope: Scope, *, lower: bool) -> str:
-    return limit_of(bound, scope.points, lower=lower) if isinstance(bound, Limit) else integer(bound)
+def _end(bound: Bound, scope: Scope, *, lower: bool) -> tuple[str, ...]:
+    return limit_lines(bound, scope.points, lower=lower) if isinstance(bound, Limit) else (integer(bound),)
 
 
 def _float_ranges(point: Point) -> Iterator[str]:
@@ -97,18 +104,6 @@ def _merged(point: Point) -> list[tuple[int, int]]:
         else:
             found.append((low, high))
     return found
-
-
-def _filled(left: str, between: str, items: list[str], right: str) -> list[str]:
-    """Items in as few lines as their width needs."""
-    lines = [left]
-    for place, item in enumerate(items):
-        text = item + (between if place + 1 < len(items) else right)
-        if len(lines[-1]) + len(text) > _WIDTH:
-            lines[-1] = lines[-1].rstrip()
-            lines.append("    ")
-        lines[-1] += text
-    return lines
 
 
 def _place(point: Point, scope: Scope) -> Iterator[str]:

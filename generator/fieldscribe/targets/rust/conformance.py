@@ -200,7 +200,7 @@ def _row(subject: Subject, how: str) -> str:
 
 def _is_heard(subject: Subject, scope: Scope) -> bool:
     """Whether the point comes in frames of a telegram."""
-    return any("can::Received" in lines[0] for lines in family_traits(subject, scope))
+    return any("can::Received" in line for line in family_traits(subject, scope))
 
 
 def _sizes(point: Point) -> str:

@@ -10,6 +10,7 @@ from fieldscribe.names import upper
 from fieldscribe.targets.rust.documentation import left_out
 from fieldscribe.targets.rust.families import family_context
 from fieldscribe.targets.rust.families.spaces import space
+from fieldscribe.targets.rust.layout import binding
 from fieldscribe.targets.rust.points import point_view
 from fieldscribe.targets.rust.special_codes import shared_views
 from fieldscribe.targets.rust.words import arguments_views, enum_views, flags_views, is_long
@@ -17,6 +18,7 @@ from fieldscribe.text import line, rust_code, rust_string
 
 if TYPE_CHECKING:
     from fieldscribe.model import Device, Point
+    from fieldscribe.targets.rust.layout import Lines
     from fieldscribe.targets.rust.subjects import Scope
 
 _SEMANTIC = re.compile(r"\d+\.\d+\.\d+(?:-[0-9A-Za-z.-]+)?")
@@ -33,10 +35,12 @@ def head(device: Device, comment: str) -> str:
     return "\n".join(f"{comment} {one}" for one in lines)
 
 
-def _raw_only(point: Point) -> tuple[str, str, str, int, str]:
-    """Name, space, address, words and index of a point that is reached raw only."""
+def _raw_only(point: Point) -> tuple[str, Lines]:
+    """Name and lines of the constant of a point that is reached raw only."""
     index = "None" if point.index is None else f"Some({point.index})"
-    return upper(point.item), space(point.space), f"0x{point.address or 0:04X}", point.words, index
+    where = f"{space(point.space)}, 0x{point.address or 0:04X}, {point.words}, {index}"
+    name = upper(point.item)
+    return name, binding(4, f"pub const {name}: runtime::Documented", f"runtime::Documented::new({where})")
 
 
 def device_context(device: Device, scope: Scope) -> dict[str, object]:

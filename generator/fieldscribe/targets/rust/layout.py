@@ -5,6 +5,7 @@ from __future__ import annotations
 _WIDTH = 100
 _ARRAY_WIDTH = 60
 _STRUCT_WIDTH = 18
+_FREE_WIDTH = 104
 
 Lines = tuple[str, ...]
 
@@ -92,3 +93,23 @@ def fields_of(indent: int, type_: str, names: Lines) -> Lines:
         line = f"    {name}: all.{name},"
         lines += [line] if indent + len(line) <= _WIDTH else [f"    {name}: all", f"        .{name},"]
     return (*lines, "}")
+
+
+def filled(left: str, between: str, items: list[str], right: str) -> Lines:
+    """Items in as few lines as their width needs, where rustfmt does not look."""
+    lines = [left]
+    for place, item in enumerate(items):
+        text = item + (between if place + 1 < len(items) else right)
+        if len(lines[-1]) + len(text) > _FREE_WIDTH:
+            lines[-1] = lines[-1].rstrip()
+            lines.append("    ")
+        lines[-1] += text
+    return tuple(lines)
+
+
+def chained(text: str) -> Lines:
+    """An expression in one line, else with a line for each step behind a question mark."""
+    if len(text) <= _FREE_WIDTH:
+        return (text,)
+    first, *others = text.split("?.")
+    return first, *(f"    ?.{one}" for one in others)

@@ -6,10 +6,10 @@ import re
 from typing import TYPE_CHECKING
 
 from fieldscribe.targets.rust.access import read_lines, write_lines
-from fieldscribe.targets.rust.documentation import point_doc, sentence
+from fieldscribe.targets.rust.documentation import point_doc
 from fieldscribe.targets.rust.families import family_traits, space
 from fieldscribe.targets.rust.forms import form_lines
-from fieldscribe.targets.rust.layout import binding
+from fieldscribe.targets.rust.layout import binding, filled
 from fieldscribe.targets.rust.literals import integer, mask, raw_literal, type_name, type_range
 from fieldscribe.targets.rust.special_codes import code_lines
 from fieldscribe.targets.rust.views import PointView
@@ -28,7 +28,7 @@ def point_view(subject: Subject, scope: Scope) -> PointView:
     """All that the templates need of a point."""
     point, code = subject.point, subject.point.code
     return PointView(
-        doc=point_doc(point),
+        doc=point_doc(point, scope.errata),
         alias=rust_string(code) if code and code != subject.name and _ALIAS.fullmatch(code) else "",
         name=subject.name,
         facts=tuple(_facts(subject, scope)),
@@ -62,7 +62,7 @@ def _whereabouts(point: Point) -> Iterator[str]:
     addresses = point.places[0].addresses
     yield f"at {space(point.places[0].space).removeprefix('runtime::Space::')} 0x{min(addresses):04X};"
     if len(addresses) > 1:
-        yield f"addresses [{', '.join(f'0x{address:04X}' for address in addresses)}];"
+        yield from filled("addresses [", ", ", [f"0x{address:04X}" for address in addresses], "];")
     if point.words != 1:
         yield f"words {point.words};"
     if point.index is not None:

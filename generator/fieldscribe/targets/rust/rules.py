@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.model import Bound, Factor, Limit, Linear, Point
+from fieldscribe.targets.rust.layout import chained, filled
 from fieldscribe.targets.rust.literals import integer, value_name
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
+
+    from fieldscribe.model import Bound, Factor, Limit, Linear, Point
 
     Points = Mapping[str, Point]
 
@@ -17,15 +19,29 @@ Lines = tuple[str, ...]
 
 def rule_lines(point: Point, points: Points) -> Lines:
     """The rule that holds now: the cases in their order, up to one that always holds."""
-    lines: list[str] = []
+    otherwise = "Err(runtime::Error::NoCase)"
+    found: list[tuple[str, list[str], str]] = []
     for case in point.scale or ():
         result = rule_of(case.rule, points)
         if case.point is None:
-            return (*lines, "{", f"    {result}", "}") if lines else (result,)
-        head = f"if runtime::Raw::to_i64({_raw_of(case.point)}) == {integer(case.raw or 0)} {{"
-        lines[-1:] = [f"{lines[-1]} {head}" if lines else head]
-        lines += [f"    {result}", "} else"]
-    return (*lines[:-1], "} else {", "    Err(runtime::Error::NoCase)", "}")
+            otherwise = result
+            break
+        raw, code = f"runtime::Raw::to_i64({_raw_of(case.point)})", integer(case.raw or 0)
+        if found and (found[-1][0], found[-1][2]) == (raw, result):
+            found[-1][1].append(code)
+        else:
+            found.append((raw, [code], result))
+    if not found:
+        return chained(otherwise)
+    arms = (line for one in found for line in _arm(*one))
+    return "match () {", *arms, f"    () => {otherwise},", "}"
+
+
+def _arm(raw: str, codes: list[str], result: str) -> Iterator[str]:
+    """An arm of a match over nothing, by whether a raw number is one of these codes."""
+    yield from (f"    {line}" for line in filled(f"() if matches!({raw}, ", " | ", codes, ") => {"))
+    yield from (f"        {line}" for line in chained(result))
+    yield "    }"
 
 
 def rule_of(rule: Linear, points: Points) -> str:
@@ -37,7 +53,7 @@ def rule_of(rule: Linear, points: Points) -> str:
     return _start(rule) + "?".join(steps) if steps else f"Ok({_start(rule)})"
 
 
-def limit_of(limit: Limit, points: Points, *, lower: bool) -> str:
+def limit_lines(limit: Limit, points: Points, *, lower: bool) -> Lines:
     """A limit as a raw number within its outermost bound, which holds where a code sets the limit aside."""
     steps = "?".join(_step(factor, points, limit=True) for factor in _in_order(limit.rule))
     bound = integer(outer(limit, lower=lower))
@@ -47,7 +63,10 @@ def limit_of(limit: Limit, points: Points, *, lower: bool) -> str:
         for name, codes in limit.unless
         if codes
     ]
-    return f"if {' || '.join(aside)} {{ {bound} }} else {{ {found} }}" if aside else found
+    if not aside:
+        return chained(found)
+    head = filled("if ", " || ", aside, " {")
+    return *head, f"    {bound}", "} else {", *(f"    {line}" for line in chained(found)), "}"
 
 
 def interval(low: int, high: int) -> str:

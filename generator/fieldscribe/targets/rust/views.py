@@ -30,7 +30,7 @@ class ArgumentsView:
 
     doc: str
     name: str
-    fields: tuple[tuple[str, str, str], ...]
+    fields: tuple[tuple[tuple[str, ...], str, str], ...]
     part: str
     part_literal: tuple[str, ...]
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.targets.rust.documentation import sentence
+from fieldscribe.targets.rust.documentation import sentence, wrapped
 from fieldscribe.targets.rust.layout import arm, binding, calls, comparison, fields_of, signature
 from fieldscribe.targets.rust.literals import integer, mask, type_name, value_name
 from fieldscribe.targets.rust.views import ArgumentsView, EntryView, EnumView, FlagsView, FlagView
@@ -106,8 +106,8 @@ def arguments_views(scope: Scope) -> Iterator[ArgumentsView]:
         yield ArgumentsView(doc, subject.name, _fields(subject.arguments, scope), part, literal)
 
 
-def _fields(names: tuple[str, ...], scope: Scope) -> tuple[tuple[str, str, str], ...]:
-    return tuple((_source(name, scope), value_name(name), scope.raw_types[name]) for name in names)
+def _fields(names: tuple[str, ...], scope: Scope) -> tuple[tuple[tuple[str, ...], str, str], ...]:
+    return tuple((tuple(wrapped(_source(name, scope))), value_name(name), scope.raw_types[name]) for name in names)
 
 
 def _source(name: str, scope: Scope) -> str:

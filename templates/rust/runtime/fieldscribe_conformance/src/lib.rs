@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: 0BSD
-//! Runs conformance vectors: what each kind means, for any point. The tables of a device's points stand in its own test.
+//! Runs conformance vectors: what each kind means, for any point.
+//!
+//! The tables of a device's points stand in its own test.
 
 #![forbid(unsafe_code)]
 #![allow(

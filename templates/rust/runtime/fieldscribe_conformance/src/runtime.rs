@@ -11,8 +11,8 @@ use fieldscribe_runtime::client::{AsyncTransport, Transport};
 use fieldscribe_runtime::flags::{show, Flag, Flags};
 use fieldscribe_runtime::form::floating::Pattern;
 use fieldscribe_runtime::{
-    digits, in_address_order, in_reading_order, quantity, text, written, Code, Coded, Digits, Error,
-    Outside, Raw, Reading, Refused, Rule, Space, Special, Text, Whole,
+    digits, in_address_order, in_reading_order, quantity, text, written, Code, Coded, Digits,
+    Error, Outside, Raw, Reading, Refused, Rule, Space, Special, Text, Whole,
 };
 
 /// A point that is a plain number; the greatest of its type may not be.
@@ -80,8 +80,9 @@ impl fmt::Display for Lost {
 
 impl std::error::Error for Lost {}
 
-/// A line on which this is sent in this order, and that comes back; a question mark is no answer in time, an exclamation
-/// mark one that is longer than its space.
+/// A line on which this is sent in this order, and that comes back.
+///
+/// A question mark is no answer in time, an exclamation mark one that is longer than its space.
 pub struct Line {
     steps: VecDeque<(Vec<u8>, String)>,
     /// The space that was there for the last answer.
@@ -168,7 +169,13 @@ const COUNT: Outside<i64> = Outside {
 };
 
 fn errors() {
-    assert_eq!((REFUSED.refused().map(Refused::point), Error::NoCase.refused()), (Some("made_up"), None));
+    assert_eq!(
+        (
+            REFUSED.refused().map(Refused::point),
+            Error::NoCase.refused()
+        ),
+        (Some("made_up"), None)
+    );
     tells(
         Error::name,
         &[

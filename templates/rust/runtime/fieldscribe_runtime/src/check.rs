@@ -36,12 +36,19 @@ pub fn listed<P: Writable>(raw: P::Raw, is_listed: bool) -> Result<(), Error> {
 #[inline]
 pub fn limited<P: Writable>(raw: P::Raw, ranges: &[(i64, i64)]) -> Result<(), Error> {
     let number = raw.to_i64();
-    if ranges.iter().any(|(low, high)| *low <= number && number <= *high) {
+    if ranges
+        .iter()
+        .any(|(low, high)| *low <= number && number <= *high)
+    {
         return listed::<P>(raw, true);
     }
     let low = ranges.iter().map(|range| range.0).min();
     let high = ranges.iter().map(|range| range.1).max();
-    Err(outside::<P>(raw, low.unwrap_or(i64::MIN), high.unwrap_or(i64::MAX)))
+    Err(outside::<P>(
+        raw,
+        low.unwrap_or(i64::MIN),
+        high.unwrap_or(i64::MAX),
+    ))
 }
 
 /// The raw number with the point's bits that are always the same.
@@ -68,14 +75,24 @@ pub fn with_fixed_bits<P: Point>(raw: P::Raw) -> P::Raw {
 pub(crate) fn outside<P: Point>(raw: P::Raw, low: i64, high: i64) -> Error {
     let point = P::NAME;
     let given = raw.to_i64();
-    Error::OutOfRange(Refused::Raw(Outside { point, given, low, high }))
+    Error::OutOfRange(Refused::Raw(Outside {
+        point,
+        given,
+        low,
+        high,
+    }))
 }
 
 /// What is said of a number that has no name.
 #[must_use]
 pub(crate) fn unknown<P: Point>(given: i64) -> Error {
     let (point, low, high) = (P::NAME, P::RAW_MIN.to_i64(), P::RAW_MAX.to_i64());
-    Error::UnknownValue(Refused::Raw(Outside { point, given, low, high }))
+    Error::UnknownValue(Refused::Raw(Outside {
+        point,
+        given,
+        low,
+        high,
+    }))
 }
 
 /// What is said of a number that the raw type does not hold.
@@ -86,7 +103,12 @@ pub(crate) fn beyond<P: Writable>(number: i128) -> Error {
     }
     let (point, given) = (P::NAME, saturated(number));
     let (low, high) = (P::RAW_MIN.to_i64(), P::RAW_MAX.to_i64());
-    Error::OutOfRange(Refused::Raw(Outside { point, given, low, high }))
+    Error::OutOfRange(Refused::Raw(Outside {
+        point,
+        given,
+        low,
+        high,
+    }))
 }
 
 /// The number, or the end of the type that it is beyond.

@@ -14,8 +14,8 @@ pub trait Transport {
 
     /// Sends `request`, puts the reply into `reply` and gives its length in bytes.
     ///
-    /// What came before the request is to be thrown away first: a late answer to an earlier request, which was given up,
-    /// could else be taken for the answer to this one, as nothing in it tells them apart.
+    /// What came before the request is to be thrown away first: a late answer to an earlier request, which was
+    /// given up, could else be taken for the answer to this one, as nothing in it tells them apart.
     ///
     /// An empty `reply` says that none will come: the request went to all units.
     ///

@@ -110,11 +110,17 @@ impl fmt::Display for Error {
         formatter.write_str(match self {
             Self::OutOfRange(refused) => return refused.fmt(formatter),
             Self::UnknownValue(Refused::Raw(outside)) => {
-                return write!(formatter, "{}: nothing has the number {}", outside.point, outside.given);
+                return write!(
+                    formatter,
+                    "{}: nothing has the number {}",
+                    outside.point, outside.given
+                );
             }
             Self::NotANumber => "the value is not a number",
             Self::UnknownValue(_) => "the enum has no such number",
-            Self::BadText => "the text is too long, or has a character that is none of its encoding",
+            Self::BadText => {
+                "the text is too long, or has a character that is none of its encoding"
+            }
             Self::ZeroFactor => "a factor is zero",
             Self::NoCase => "no case of the scale holds",
             Self::Overflow => "the result does not fit its type",
@@ -138,8 +144,16 @@ impl fmt::Display for Refused {
 
 impl<T: fmt::Display> Outside<T> {
     fn show(&self, what: &str, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { point, given, low, high } = self;
-        write!(formatter, "{point}: {what}{given} is outside {low} to {high}")
+        let Self {
+            point,
+            given,
+            low,
+            high,
+        } = self;
+        write!(
+            formatter,
+            "{point}: {what}{given} is outside {low} to {high}"
+        )
     }
 }
 

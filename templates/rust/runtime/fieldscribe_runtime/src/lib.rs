@@ -43,5 +43,7 @@ pub use point::{
 pub use raw::Raw;
 pub use rule::Rule;
 pub use scale::Scale;
-pub use special::{encoded, quantity, reading, try_reading, written, Code, Coded, Reading, Special};
+pub use special::{
+    encoded, quantity, reading, try_reading, written, Code, Coded, Reading, Special,
+};
 pub use text::Text;

@@ -154,7 +154,9 @@ macro_rules! point {
             const NUMBERS: &'static [u16] = &$numbers;
         }
     };
-    (@form scaled $name:ident $kind:ident $reach:tt ($num:literal, $den:literal $(, $offset:literal, $over:literal)?)) => {
+    (@form scaled $name:ident $kind:ident $reach:tt (
+        $num:literal, $den:literal $(, $offset:literal, $over:literal)?
+    )) => {
         impl $crate::FixedScale for $name {
             const SCALE: $crate::Scale = $crate::Scale::new($num, $den)$(.plus($offset, $over))?;
             $crate::point!(@reach $kind $reach);
@@ -194,7 +196,10 @@ macro_rules! point {
         }
     };
     (@codes $name:ident $raw:ty, {
-        $($(#[$attribute:meta])* $special:ident $($last:ident)? = $made:ident($text:literal, $low:literal $(..=$high:literal)?);)+
+        $(
+            $(#[$attribute:meta])*
+            $special:ident $($last:ident)? = $made:ident($text:literal, $low:literal $(..=$high:literal)?);
+        )+
     }) => {
         impl $crate::Coded for $name {
             const CODES: &'static [$crate::Code<$raw>] = &[

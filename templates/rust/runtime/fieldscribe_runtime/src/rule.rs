@@ -77,7 +77,10 @@ impl Rule {
     /// [`Error::Overflow`].
     #[inline]
     pub fn limited_by(self, factor: impl Raw) -> Result<Self, Error> {
-        let num = self.num.checked_mul(factor.to_i64()).ok_or(Error::Overflow)?;
+        let num = self
+            .num
+            .checked_mul(factor.to_i64())
+            .ok_or(Error::Overflow)?;
         Ok(Self { num, ..self })
     }
 

@@ -136,3 +136,24 @@ const fn common(mut one: i128, mut other: i128) -> i128 {
     }
     one
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Scale;
+
+    #[test]
+    fn counts_within_reach_are_all_that_give_a_raw_number_within_its_ends() {
+        for (num, den) in [(10, 1), (1, 2), (3, 7), (-7, 5), (256, 1)] {
+            for (offset, over) in [(0, 1), (5, 2), (-4, 3)] {
+                let line = Scale::new(num, den).plus(offset, over).encoding(10);
+                for (low, high) in [(-9, 9), (0, 30), (3, 3), (-1, 0), (1, 2)] {
+                    let (first, last) = line.reach(low, high);
+                    for count in -1000..1000 {
+                        let is_within = (low..=high).contains(&line.rounded(count));
+                        assert_eq!(is_within, first <= count && count <= last);
+                    }
+                }
+            }
+        }
+    }
+}

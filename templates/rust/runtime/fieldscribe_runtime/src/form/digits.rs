@@ -40,7 +40,10 @@ pub fn decode<P: Named<Raw: Into<u16>>, V: Names<P::Carried>>(raw: P::Raw, (): (
 /// # Errors
 /// [`Error::UnknownValue`].
 #[inline]
-pub fn encode<P: Digits + Named + Writable, V: Names<P::Carried>>(value: V, with: P::With) -> Result<P::Raw, Error> {
+pub fn encode<P: Digits + Named + Writable, V: Names<P::Carried>>(
+    value: V,
+    with: P::With,
+) -> Result<P::Raw, Error> {
     let number = value.joined::<P>()?;
     let raw = P::Raw::from_i128(number.into());
     checked::<P>(raw.ok_or_else(|| unknown::<P>(number.into()))?, with)

@@ -23,7 +23,10 @@ impl Pattern for u32 {
         f64::from(f32::from_bits(self))
     }
 
-    #[expect(clippy::cast_possible_truncation, reason = "rounding to binary32 is what is asked for")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "rounding to binary32 is what is asked for"
+    )]
     #[inline]
     fn nearest(value: f64) -> Self {
         (value as f32).to_bits()
@@ -55,14 +58,25 @@ pub fn decode<P: Point<Raw: Pattern>, V: From<f64>>(raw: P::Raw, (): ()) -> V {
 /// # Errors
 /// What [`Writable::check_with`] says; [`Error::NotANumber`].
 #[inline]
-pub fn encode<P: Writable<Raw: Pattern>, V: Into<f64>>(value: V, with: P::With) -> Result<P::Raw, Error> {
+pub fn encode<P: Writable<Raw: Pattern>, V: Into<f64>>(
+    value: V,
+    with: P::With,
+) -> Result<P::Raw, Error> {
     let value = value.into();
     if value.is_nan() {
         return Err(Error::NotANumber);
     }
-    match checked::<P>(P::Raw::nearest(value), with) {
+    let raw = P::Raw::nearest(value);
+    if !raw.number().is_finite() {
+        let greatest = P::Raw::GREATEST;
+        return Err(outside::<P>(value, -greatest, greatest));
+    }
+    match checked::<P>(raw, with) {
         Err(Error::OutOfRange(Refused::Value(limits))) => {
-            let given = Outside { given: value, ..limits };
+            let given = Outside {
+                given: value,
+                ..limits
+            };
             Err(Error::OutOfRange(Refused::Value(given)))
         }
         other => other,
@@ -89,11 +103,27 @@ pub fn ranged<P: Writable<Raw: Pattern>>(raw: P::Raw, ranges: &[(f64, f64)]) -> 
     if given.is_nan() {
         return Err(Error::NotANumber);
     }
-    if ranges.iter().any(|(low, high)| *low <= given && given <= *high) {
+    if ranges
+        .iter()
+        .any(|(low, high)| *low <= given && given <= *high)
+    {
         return Ok(());
     }
-    let low = ranges.iter().fold(f64::INFINITY, |low, range| low.min(range.0));
-    let high = ranges.iter().fold(f64::NEG_INFINITY, |high, range| high.max(range.1));
+    let low = ranges
+        .iter()
+        .fold(f64::INFINITY, |low, range| low.min(range.0));
+    let high = ranges
+        .iter()
+        .fold(f64::NEG_INFINITY, |high, range| high.max(range.1));
+    Err(outside::<P>(given, low, high))
+}
+
+fn outside<P: Point>(given: f64, low: f64, high: f64) -> Error {
     let point = P::NAME;
-    Err(Error::OutOfRange(Refused::Value(Outside { point, given, low, high })))
+    Error::OutOfRange(Refused::Value(Outside {
+        point,
+        given,
+        low,
+        high,
+    }))
 }

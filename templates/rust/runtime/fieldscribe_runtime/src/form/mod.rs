@@ -94,17 +94,28 @@ fn nearest<P: Writable>(
     };
     match P::check_with(raw, with) {
         Ok(()) => Ok(raw),
-        Err(Error::OutOfRange(Refused::Raw(Outside { low, high, .. }))) => {
-            Err(refused_value::<P>(value, decode(low.into()), decode(high.into())))
-        }
+        Err(Error::OutOfRange(Refused::Raw(Outside { low, high, .. }))) => Err(refused_value::<P>(
+            value,
+            decode(low.into()),
+            decode(high.into()),
+        )),
         Err(error) => Err(error),
     }
 }
 
 fn refused_value<P: Writable>(given: f64, low: f64, high: f64) -> Error {
-    let (low, high) = if low <= high { (low, high) } else { (high, low) };
+    let (low, high) = if low <= high {
+        (low, high)
+    } else {
+        (high, low)
+    };
     let point = P::NAME;
-    Error::OutOfRange(Refused::Value(Outside { point, given, low, high }))
+    Error::OutOfRange(Refused::Value(Outside {
+        point,
+        given,
+        low,
+        high,
+    }))
 }
 
 /// What is said of a raw number that a count became, told in counts, which `decode` makes of raw numbers.

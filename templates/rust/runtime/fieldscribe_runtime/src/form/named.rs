@@ -2,8 +2,8 @@
 //! Points whose numbers have names.
 
 pub use crate::check::within as check;
-use crate::form::stored;
 pub use crate::form::plain::{decode_count, encode_count};
+use crate::form::stored;
 use crate::{Error, Named, Writable};
 
 /// The name of the raw number.
@@ -17,6 +17,9 @@ pub fn decode<P: Named, V: From<P::Carried>>(raw: P::Raw, (): ()) -> V {
 /// # Errors
 /// What [`Writable::check_with`] says.
 #[inline]
-pub fn encode<P: Named + Writable, V: Into<P::Carried>>(value: V, with: P::With) -> Result<P::Raw, Error> {
+pub fn encode<P: Named + Writable, V: Into<P::Carried>>(
+    value: V,
+    with: P::With,
+) -> Result<P::Raw, Error> {
     stored::<P>(value.into(), with)
 }

@@ -34,7 +34,8 @@ pub fn decode_count<P: Scaled, C: From<i64>>(raw: P::Raw, with: P::Factors) -> R
     if P::is_beyond(raw) {
         return Err(Error::Overflow);
     }
-    rule.decode_count(raw.to_i64(), per_unit(P::DECIMALS)).map(C::from)
+    rule.decode_count(raw.to_i64(), per_unit(P::DECIMALS))
+        .map(C::from)
 }
 
 /// The raw number nearest to a value, checked; each step is rounded to binary64.

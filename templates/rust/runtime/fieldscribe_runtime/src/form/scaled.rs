@@ -27,7 +27,10 @@ impl<P: FixedScale, C: Count> Settled<P, C> {
     const COUNTS: (i128, i128) = {
         let (low, high) = Self::LINE.reach(P::REACH.0, P::REACH.1);
         let (least, most) = C::ENDS;
-        (if low < least { least } else { low }, if high > most { most } else { high })
+        (
+            if low < least { least } else { low },
+            if high > most { most } else { high },
+        )
     };
     const ENCODE: Path = Path::new(Self::LINE, Self::COUNTS.0, Self::COUNTS.1);
 }
@@ -49,7 +52,10 @@ pub fn decode_count<P: FixedScale, C: Count>(raw: P::Raw, (): ()) -> C {
 /// # Errors
 /// What [`Writable::check_with`] says; [`Error::NotANumber`].
 #[inline]
-pub fn encode<P: FixedScale + Writable, V: Into<f64>>(value: V, with: P::With) -> Result<P::Raw, Error> {
+pub fn encode<P: FixedScale + Writable, V: Into<f64>>(
+    value: V,
+    with: P::With,
+) -> Result<P::Raw, Error> {
     let value = value.into();
     let ((num, den), (offset, over)) = (P::SCALE.ratio(), P::SCALE.offset());
     let mut scaled = value;
@@ -70,10 +76,13 @@ pub fn encode<P: FixedScale + Writable, V: Into<f64>>(value: V, with: P::With) -
 /// # Errors
 /// What [`Writable::check_with`] says.
 #[inline]
-pub fn encode_count<P: FixedScale + Writable, C: Count>(count: C, with: P::With) -> Result<P::Raw, Error> {
+pub fn encode_count<P: FixedScale + Writable, C: Count>(
+    count: C,
+    with: P::With,
+) -> Result<P::Raw, Error> {
     let number = count.to_i64();
     let (low, high) = Settled::<P, C>::COUNTS;
-    if !is_within(number, low, high) {
+    if !is_within::<C>(number, low, high) {
         return Err(outside::<P, C>(number));
     }
     let raw = P::Raw::truncated(Settled::<P, C>::ENCODE.run(number));
@@ -83,19 +92,21 @@ pub fn encode_count<P: FixedScale + Writable, C: Count>(count: C, with: P::With)
     }
     match P::check_with(raw, with) {
         Ok(()) => Ok(raw),
-        Err(error) => Err(in_counts(error, number, |raw| Some(Settled::<P, C>::DECODE.run(raw)))),
+        Err(error) => Err(in_counts(error, number, |raw| {
+            Some(Settled::<P, C>::DECODE.run(raw))
+        })),
     }
 }
 
-/// Whether a number lies between two that its type holds, in one comparison where 32 bits are enough.
+/// Whether a count lies between two that its type holds, in one comparison where that has 32 bits.
 #[allow(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
     reason = "the width is looked at first"
 )]
 #[inline]
-const fn is_within(number: i64, low: i128, high: i128) -> bool {
-    if below(low, 31) && below(high, 31) && below(number as i128, 31) {
+const fn is_within<C: Count>(number: i64, low: i128, high: i128) -> bool {
+    if below(C::ENDS.1, 31) {
         (number as u32).wrapping_sub(low as u32) <= (high as u32).wrapping_sub(low as u32)
     } else {
         low as i64 <= number && number <= high as i64
@@ -106,7 +117,10 @@ const fn is_within(number: i64, low: i128, high: i128) -> bool {
 #[cold]
 fn outside<P: FixedScale, C: Count>(given: i64) -> Error {
     let decode = Settled::<P, C>::DECODE;
-    let (one, other) = (decode.run(P::RAW_MIN.to_i64()), decode.run(P::RAW_MAX.to_i64()));
+    let (one, other) = (
+        decode.run(P::RAW_MIN.to_i64()),
+        decode.run(P::RAW_MAX.to_i64()),
+    );
     Error::OutOfRange(Refused::Count(Outside {
         point: P::NAME,
         given,
@@ -116,7 +130,10 @@ fn outside<P: FixedScale, C: Count>(given: i64) -> Error {
 }
 
 /// The binary64 number nearest to the value of a raw number: one division of integers that are exact, or of 128 bits.
-#[allow(clippy::cast_possible_truncation, reason = "the width is looked at first")]
+#[allow(
+    clippy::cast_possible_truncation,
+    reason = "the width is looked at first"
+)]
 #[inline]
 pub(crate) fn value<P: FixedScale>(raw: i128) -> f64 {
     let line = P::SCALE.decoding(1);
