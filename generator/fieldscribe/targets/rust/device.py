@@ -19,7 +19,7 @@ from fieldscribe.text import line, rust_code, rust_string
 if TYPE_CHECKING:
     from fieldscribe.model import Device, Point
     from fieldscribe.targets.rust.layout import Lines
-    from fieldscribe.targets.rust.subjects import Scope
+    from fieldscribe.targets.rust.subjects import Scope, Subject
 
 _SEMANTIC = re.compile(r"\d+\.\d+\.\d+(?:-[0-9A-Za-z.-]+)?")
 
@@ -59,6 +59,7 @@ def device_context(device: Device, scope: Scope) -> dict[str, object]:
         "long_enums": any(map(is_long, enums)),
         "words": words,
         "structs": structs,
+        "example": next((one.name for one in scope.subjects if _is_plainly_read(one)), ""),
         "uses_enums": bool(enums),
         "uses_runtime": any("runtime::" in fact for point in points for fact in point.facts),
         "uses_flags": bool(words),
@@ -73,3 +74,9 @@ def device_context(device: Device, scope: Scope) -> dict[str, object]:
         "title_literal": rust_string(f"{device.vendor} {device.model}"),
         **family_context(device),
     }
+
+
+def _is_plainly_read(subject: Subject) -> bool:
+    """Whether a client reads the point by itself alone."""
+    point = subject.point
+    return point.readable and point.telegram is None and subject.factors_type == "()"

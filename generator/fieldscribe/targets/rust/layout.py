@@ -49,19 +49,6 @@ def array(items: list[str]) -> Lines:
     return (joined,) if len(joined) <= _ARRAY_WIDTH else tuple(f"{item}," for item in items)
 
 
-def short_array(indent: int, left: str, items: list[str]) -> Lines:
-    """`left = &[items];` of short items: one line, else lines that are filled up."""
-    joined = ", ".join(items)
-    if len(joined) <= _ARRAY_WIDTH or len(items) < 2:
-        return binding(indent, left, f"&[{joined}]")
-    lines = [""]
-    for item in items:
-        if lines[-1] and indent + 4 + len(lines[-1]) + 1 + len(item) + 1 > _WIDTH:
-            lines.append("")
-        lines[-1] += f" {item}," if lines[-1] else f"{item},"
-    return f"{left} = &[", *(f"    {line}" for line in lines), "];"
-
-
 def comparison(indent: int, left: str, right: str) -> Lines:
     """`left right`, else with `right` on a line of its own."""
     line = f"{left} {right}"

@@ -47,6 +47,7 @@ def can_context(device: Device) -> dict[str, object]:
     bus = device.bus
     carriers = {message.name: message for message in device.messages}
     return {
+        "example_link": str(bus.units[0]),
         "exception_type": "u16",
         "exception_names": code_names(bus.exceptions),
         "units": f"({bus.units[0]}, {bus.units[1]})",

@@ -20,6 +20,7 @@ def uss_context(device: Device) -> dict[str, object]:
     """What the template of the family's items sees."""
     bus = device.bus
     return {
+        "example_link": f"Link::new({max(bus.pkw)}, {bus.pzd[0]}), {bus.units[0]}",
         "exception_type": "u16",
         "exception_names": code_names(bus.exceptions),
         "units": f"({bus.units[0]}, {bus.units[1]})",

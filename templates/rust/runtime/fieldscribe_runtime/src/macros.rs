@@ -79,6 +79,7 @@ macro_rules! point {
             $(const INDEX: Option<u8> = Some($index);)?
             $(const TELEGRAM: Option<&'static str> = Some($telegram);)?
             $(const FIXED_MASK: u32 = $fixed_mask; const FIXED_BITS: u32 = $fixed_bits;)?
+            const FLOATING: bool = $crate::point!(@floating $form);
             $(const UNIT: &'static str = $unit;)?
             $(const DECIMALS: u32 = $decimals;)?
             $(const RAW_MIN: $raw = $low; const RAW_MAX: $raw = $high;)?
@@ -119,6 +120,9 @@ macro_rules! point {
 
     (@no $given:tt) => { false };
     (@first $first:ty, $($other:ty,)?) => { $first };
+
+    (@floating floating) => { true };
+    (@floating $form:ident) => { false };
 
     (@placed $name:ident) => {
         impl $crate::Whole for $name {}
