@@ -49,6 +49,7 @@ pub(crate) struct Path {
 
 impl Path {
     /// The path of a line for the numbers `low..=high`.
+    #[inline]
     pub const fn new(line: Line, low: i128, high: i128) -> Self {
         let least = line.dividend(low) + line.divide / 2;
         Self {
@@ -137,6 +138,7 @@ impl Magic {
 }
 
 /// The cheapest way that holds for `low..=high`.
+#[inline]
 const fn way(line: Line, low: i128, high: i128) -> Way {
     let (least, most) = (line.dividend(low), line.dividend(high));
     let size = if least.abs() > most.abs() {
@@ -188,6 +190,7 @@ const fn way(line: Line, low: i128, high: i128) -> Way {
 }
 
 /// Whether one floor rounds all: halves of negative numbers, which go down, do not come up.
+#[inline]
 const fn is_one_floor(line: Line, least: i128) -> bool {
     line.multiply > 0 && (least >= 0 || line.divide % 2 == 1)
 }
@@ -196,6 +199,7 @@ const fn is_one_floor(line: Line, least: i128) -> bool {
 ///
 /// With `factor` and `plus` rounded up by `e` and `f` parts of the divisor, the quotient grows by `(n * e + f) /
 /// (divide << shift)`: no whole number is crossed while that is less than one part.
+#[inline]
 const fn exact(line: Line, low: i128, high: i128, bits: u32) -> Option<Magic> {
     let mut shift = 0;
     while shift < bits {
@@ -214,6 +218,7 @@ const fn exact(line: Line, low: i128, high: i128, bits: u32) -> Option<Magic> {
 /// What makes every quotient of the numbers above `low` exact or short by one, in a product of 32 bits.
 ///
 /// With `factor` and `plus` rounded down, the quotient shrinks by the same: by one at most while that is one at most.
+#[inline]
 const fn near(line: Line, low: i128, high: i128) -> Option<Magic> {
     let mut shift = 0;
     while shift < 32 {
@@ -230,11 +235,13 @@ const fn near(line: Line, low: i128, high: i128) -> Option<Magic> {
 }
 
 /// What is left over of the quotient of the least number, with the half that rounds.
+#[inline]
 const fn rest(line: Line, low: i128) -> i128 {
     (line.dividend(low) + line.divide / 2).rem_euclid(line.divide)
 }
 
 /// `number << shift` in parts of the divisor, rounded up or down, and by how much of one that is off.
+#[inline]
 const fn parts(number: i128, divide: i128, shift: u32, up: bool) -> (i128, i128) {
     let shifted = number << shift;
     let (whole, left) = (shifted / divide, shifted % divide);
@@ -246,6 +253,7 @@ const fn parts(number: i128, divide: i128, shift: u32, up: bool) -> (i128, i128)
 }
 
 /// `span * factor + plus`, if it is no more than can be told.
+#[inline]
 const fn product(span: i128, factor: i128, plus: i128) -> Option<i128> {
     match span.checked_mul(factor) {
         Some(product) => product.checked_add(plus),
@@ -258,6 +266,7 @@ const fn product(span: i128, factor: i128, plus: i128) -> Option<i128> {
     clippy::cast_sign_loss,
     reason = "a product with them has 64 bits"
 )]
+#[inline]
 const fn magic(factor: i128, plus: i128, shift: u32) -> Magic {
     Magic {
         factor: factor as u64,

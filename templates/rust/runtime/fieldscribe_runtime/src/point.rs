@@ -373,7 +373,7 @@ pub fn in_reading_order<W: Copy + AsRef<[u16]> + AsMut<[u16]>>(words: W, address
     let mut found = words;
     if addresses.windows(2).any(|pair| pair.first() > pair.last()) {
         for (place, address) in found.as_mut().iter_mut().zip(addresses) {
-            let rank = addresses.iter().filter(|other| *other < address).count();
+            let rank = rank(addresses, *address);
             *place = words.as_ref().get(rank).copied().unwrap_or(*place);
         }
     }
@@ -387,11 +387,18 @@ pub fn in_address_order<W: Copy + AsRef<[u16]> + AsMut<[u16]>>(words: W, address
     let mut found = words;
     if addresses.windows(2).any(|pair| pair.first() > pair.last()) {
         for (word, address) in words.as_ref().iter().zip(addresses) {
-            let rank = addresses.iter().filter(|other| *other < address).count();
+            let rank = rank(addresses, *address);
             if let Some(place) = found.as_mut().get_mut(rank) {
                 *place = *word;
             }
         }
     }
     found
+}
+
+/// How many of the addresses are below one.
+#[inline]
+fn rank(addresses: &[u16], address: u16) -> usize {
+    let below = addresses.iter().map(|other| usize::from(*other < address));
+    below.fold(0, usize::wrapping_add)
 }

@@ -13,6 +13,7 @@ pub struct Scale {
 impl Scale {
     /// `raw = value * num / den`; the denominator is positive.
     #[must_use]
+    #[inline]
     pub const fn new(num: i128, den: i128) -> Self {
         Self {
             num,
@@ -24,6 +25,7 @@ impl Scale {
 
     /// The scale plus `num / den`; the denominator is positive.
     #[must_use]
+    #[inline]
     pub const fn plus(self, num: i128, den: i128) -> Self {
         Self {
             offset_num: num,
@@ -34,17 +36,20 @@ impl Scale {
 
     /// Numerator and denominator of the ratio.
     #[must_use]
+    #[inline]
     pub const fn ratio(self) -> (i128, i128) {
         (self.num, self.den)
     }
 
     /// Numerator and denominator of the offset.
     #[must_use]
+    #[inline]
     pub const fn offset(self) -> (i128, i128) {
         (self.offset_num, self.offset_den)
     }
 
     /// A raw number becomes the value in counts of `1 / per_unit`.
+    #[inline]
     pub(crate) const fn decoding(self, per_unit: i128) -> Line {
         let sign = self.num.signum();
         Line::new(
@@ -55,6 +60,7 @@ impl Scale {
     }
 
     /// A count of `1 / per_unit` becomes the raw number.
+    #[inline]
     pub(crate) const fn encoding(self, per_unit: i128) -> Line {
         Line::new(
             self.num * self.offset_den,
@@ -73,6 +79,7 @@ pub(crate) struct Line {
 }
 
 impl Line {
+    #[inline]
     const fn new(multiply: i128, add: i128, divide: i128) -> Self {
         let common = common(common(multiply.abs(), add.abs()), divide);
         Self {
@@ -83,11 +90,13 @@ impl Line {
     }
 
     /// What is divided.
+    #[inline]
     pub const fn dividend(self, number: i128) -> i128 {
         number * self.multiply + self.add
     }
 
     /// Whether all that comes up for the numbers `low..=high` has an absolute value below two to the power of `bits`.
+    #[inline]
     pub const fn fits(self, low: i128, high: i128, bits: u32) -> bool {
         let half = self.divide / 2 + 1;
         below(low, bits)
@@ -102,6 +111,7 @@ impl Line {
     }
 
     /// The least and the greatest number whose result, rounded, lies within `low..=high`.
+    #[inline]
     pub const fn reach(self, low: i128, high: i128) -> (i128, i128) {
         // A result r comes from (r - 1/2) to (r + 1/2); which of the two halves is its own, the trial tells.
         let mut under = (2 * low - 1) * self.divide - 2 * self.add;
@@ -119,6 +129,7 @@ impl Line {
     }
 
     /// The result, rounded to nearest, halves away from zero.
+    #[inline]
     const fn rounded(self, number: i128) -> i128 {
         let dividend = self.dividend(number);
         dividend.signum() * ((dividend.abs() + self.divide / 2) / self.divide)
@@ -126,10 +137,12 @@ impl Line {
 }
 
 /// Whether the absolute value is below two to the power of `bits`.
+#[inline]
 pub(crate) const fn below(number: i128, bits: u32) -> bool {
     number.unsigned_abs() >> bits == 0
 }
 
+#[inline]
 const fn common(mut one: i128, mut other: i128) -> i128 {
     while other != 0 {
         (one, other) = (other, one % other);

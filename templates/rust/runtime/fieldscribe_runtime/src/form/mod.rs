@@ -55,6 +55,7 @@ mod counts {
 }
 
 /// How many counts are one unit.
+#[inline]
 const fn per_unit(decimals: u32) -> i64 {
     match 10_i64.checked_pow(decimals) {
         Some(power) => power,

@@ -129,6 +129,20 @@ fn outside<P: FixedScale, C: Count>(given: i64) -> Error {
     }))
 }
 
+/// What is settled for the values of a point.
+struct Valued<P>(PhantomData<P>);
+
+impl<P: FixedScale> Valued<P> {
+    const LINE: Line = P::SCALE.decoding(1);
+    const IS_EXACT: bool = Self::fits(EXACT);
+    const IS_SMALL: bool = Self::fits(31);
+
+    const fn fits(bits: u32) -> bool {
+        let (least, most) = <P::Raw as Raw>::ENDS;
+        Self::LINE.fits(least, most, bits)
+    }
+}
+
 /// The binary64 number nearest to the value of a raw number: one division of integers that are exact, or of 128 bits.
 #[allow(
     clippy::cast_possible_truncation,
@@ -136,21 +150,27 @@ fn outside<P: FixedScale, C: Count>(given: i64) -> Error {
 )]
 #[inline]
 pub(crate) fn value<P: FixedScale>(raw: i128) -> f64 {
-    let line = P::SCALE.decoding(1);
-    let (least, most) = <P::Raw as Raw>::ENDS;
-    if !line.fits(least, most, EXACT) {
-        return quotient(line.dividend(raw), u64::try_from(line.divide).unwrap_or(0));
+    let Line {
+        multiply,
+        add,
+        divide,
+    } = Valued::<P>::LINE;
+    if !Valued::<P>::IS_EXACT {
+        let dividend = raw.wrapping_mul(multiply).wrapping_add(add);
+        return quotient(dividend, u64::try_from(divide).unwrap_or(0));
     }
-    let dividend = line.dividend(raw) as i64;
-    let dividend = if line.fits(least, most, 31) {
+    let dividend = (raw as i64)
+        .wrapping_mul(multiply as i64)
+        .wrapping_add(add as i64);
+    let dividend = if Valued::<P>::IS_SMALL {
         f64::from(dividend as i32)
     } else {
         to_f64(dividend)
     };
-    if line.divide == 1 {
+    if divide == 1 {
         dividend
     } else {
-        dividend / float(line.divide)
+        dividend / float(divide)
     }
 }
 
