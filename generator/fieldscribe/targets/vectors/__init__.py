@@ -17,6 +17,7 @@ from fieldscribe.targets.vectors.modbus import modbus, modbus_wires
 from fieldscribe.targets.vectors.oracle import Oracle
 from fieldscribe.targets.vectors.places import address, aliases, facts, words
 from fieldscribe.targets.vectors.scaled import scaled
+from fieldscribe.targets.vectors.shapes import Shapes
 from fieldscribe.targets.vectors.uss import UssWire, uss
 from fieldscribe.targets.vectors.whole import bits, fixed, flags, names, specials, whole
 from fieldscribe.text import line
@@ -51,6 +52,7 @@ def runtime(device: Device) -> Iterable[tuple[str, str]]:
 def collect(device: Device) -> Lines:
     """All vectors of a device: its points in the author's order, then its frames and blocks."""
     lines = Lines()
+    shapes = Shapes()
     oracle = Oracle({point.name: point for point in reversed(device.points)})
     frames, wires = _FAMILIES[device.family]
     usual, *others = (Exchanges(lines, oracle, device, wire) for wire in wires(device))
@@ -60,7 +62,7 @@ def collect(device: Device) -> Lines:
     limits(lines, device)
     for point in device.points:
         if point.generated:
-            _point(lines, oracle, point, device.variants)
+            _point(lines, oracle, point, device.variants, deep=shapes.is_new(point))
             usual.of(point)
             lines.gather()
     for exchanges in others:
@@ -78,22 +80,22 @@ def collect(device: Device) -> Lines:
     return lines
 
 
-def _point(lines: Lines, oracle: Oracle, point: Point, variants: Mapping[str, tuple[str, ...]]) -> None:
+def _point(lines: Lines, oracle: Oracle, point: Point, variants: Mapping[str, tuple[str, ...]], *, deep: bool) -> None:
     lines.set("point", point.item)
     address(lines, point)
     facts(lines, point, variants)
     aliases(lines, point)
     if point.form == "scaled":
-        scaled(lines, oracle, point)
+        scaled(lines, oracle, point, deep=deep)
     elif point.form == "float":
-        floats(lines, point)
+        floats(lines, point, deep=deep)
     elif point.form == "text":
         text(lines, point)
     elif point.form == "digits":
         digits(lines, point)
     else:
-        whole(lines, oracle, point)
-    names(lines, point)
+        whole(lines, oracle, point, deep=deep)
+    names(lines, point, deep=deep)
     specials(lines, point)
     flags(lines, point)
     fixed(lines, point)
