@@ -128,13 +128,15 @@ def telling_raw(ratio: Ratio) -> int | None:
 def settings(oracle: Oracle, point: Point, *, deep: bool = True) -> list[dict[str, int]]:
     """Raw numbers for all arguments: a typical set, then one argument at a time through all that it may bring.
 
-    Without depth each argument has one other number, so that two that are exchanged are noticed.
+    Without depth each argument has one other number, so that two that are exchanged are noticed, and each case is met.
     """
     names = point.arguments
     base = {name: _typical(oracle, point, name) for name in names}
     if not deep:
-        others = {name: [raw for raw in _choices(oracle, point, name) if raw != base[name]] for name in names}
-        return [base, *({**base, name: raws[-1]} for name, raws in others.items() if raws)]
+        cases = [(case.point, case.raw) for case in point.scale or () if case.point is not None]
+        last = [(name, raw) for name in names for raw in _choices(oracle, point, name)[-2:] if raw != base[name]]
+        others = dict(last).items()
+        return [base, *({**base, name: raw} for name, raw in dict.fromkeys((*cases, *others)) if raw is not None)]
     found = [base, *({**base, name: raw} for name in names for raw in _choices(oracle, point, name))]
     # Each case with every end of the factors that it has, not only those of the first case.
     for case in point.scale or ():

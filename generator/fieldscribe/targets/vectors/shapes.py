@@ -34,7 +34,8 @@ def shape_of(point: Point) -> Hashable:
     specials = tuple((one.low, one.high, one.writable, one.no_value) for one in point.specials)
     limits = _limits(point.allowed.intervals)
     kind = point.type, point.width, point.access, point.fixed, point.encodes_values, point.decimals, point.most_raw
-    enum = None if point.enum is None else tuple((entry.raw, entry.name) for entry in point.enum.entries)
+    named = point.digits.enum if point.digits is not None else point.enum
+    enum = None if named is None else tuple((entry.raw, entry.name) for entry in named.entries)
     return (*kind, point.scale, specials, limits, enum, bool(point.flags), len(point.allowed.units))
 
 
