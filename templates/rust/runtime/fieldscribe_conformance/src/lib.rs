@@ -23,15 +23,18 @@ mod uss_clients;
 
 use std::cell::Cell;
 use std::future::Future;
-use std::pin::pin;
+use std::pin::{pin, Pin};
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::task::{Context, Poll, Wake, Waker};
 
 use fieldscribe_runtime::{
     BitGroup, Code, Coded, CountReadable, CountWritable, Decoded, Documented, Encodable, Error,
-    Flags, Point, Raw, Readable, Reading, Text, Whole, Writable,
+    Flags, Point, Raw, Readable, Reading, Space, Text, Whole, Writable,
 };
+
+/// Numberings of a point, and what it is in them.
+pub type References<'a> = &'a [(&'a str, &'a dyn std::fmt::Display)];
 
 /// Nothing, or what differs.
 pub type Outcome = Result<(), String>;
@@ -67,13 +70,13 @@ macro_rules! table {
     ($run:ident $point:ident (at $($constant:ident $key:literal)*) $vector:ident) => {
         $crate::$run::<device::points::$point>(
             $vector,
-            &[$(($key, device::points::$point::$constant.to_string())),*],
+            &[$(($key, &device::points::$point::$constant)),*],
         )
     };
     ($run:ident $point:ident (text $($constant:ident $key:literal)*) $vector:ident) => {
         $crate::place_of::<device::points::$point>(
             $vector,
-            &[$(($key, device::points::$point::$constant.to_string())),*],
+            &[$(($key, &device::points::$point::$constant)),*],
         )
     };
     ($run:ident $point:ident (sizes $characters:literal $words:literal) $vector:ident) => {
@@ -297,6 +300,20 @@ impl<'a> Vector<'a> {
         }
     }
 
+    /// The same for a value; which of the numbers that are none it is, is not told.
+    fn reads_value(&self, found: Result<Result<f64, &str>, Error>) -> Outcome {
+        self.reads(found, |value| {
+            let expected = self.float();
+            let nans = expected.is_nan() && value.is_nan();
+            same(true, nans || expected.to_bits() == value.to_bits())
+        })
+    }
+
+    /// The same for a count.
+    fn reads_count(&self, found: Result<Result<i128, &str>, Error>) -> Outcome {
+        self.reads(found, |count| same(self.number("count"), Some(count)))
+    }
+
     /// That every field was held against something, but for those that are for people alone.
     fn complete(&self, shape: &Shape) -> Outcome {
         for (place, (key, note)) in shape.keys.iter().enumerate() {
@@ -470,11 +487,7 @@ where
     P: Readable<Raw: Number, Value: Meaning<f64>>,
 {
     let found = P::decode_with(vector.raw("raw"), with).into_result();
-    vector.reads(found.map(Meaning::read), |value: f64| {
-        let expected = vector.float();
-        let nans = expected.is_nan() && value.is_nan(); // which of them is not told
-        same(true, nans || expected.to_bits() == value.to_bits())
-    })
+    vector.reads_value(found.map(Meaning::read))
 }
 
 /// A value to a raw number.
@@ -492,9 +505,7 @@ where
     P: CountReadable<Raw: Number, Count: Counted>,
 {
     let found = P::decode_count_with(vector.raw("raw"), with).into_result();
-    vector.reads(found.map(Counted::read_count), |count| {
-        same(vector.number("count"), Some(count))
-    })
+    vector.reads_count(found.map(Counted::read_count))
 }
 
 /// A raw number to a count, which is itself, and to the value that has that number.
@@ -662,28 +673,27 @@ where
     let raw: P::Raw = vector.raw("raw");
     let words: Vec<u16> = vector.numbers("words");
     same(words.as_slice(), P::to_words(raw).as_ref())?;
-    if P::ADDRESSES.len() > 1 {
-        let read = raw.into_words();
-        let mut parts: Vec<_> = P::ADDRESSES.iter().zip(read.as_ref()).collect();
-        parts.sort();
-        same(
-            words.clone(),
-            parts.into_iter().map(|(_, word)| *word).collect(),
-        )?;
+    in_order(&words, P::ADDRESSES, raw.into_words().as_ref())?;
+    let more = [words.as_slice(), &[0]].concat();
+    let received = |words: &[u16]| P::from_received(words.to_vec().into_iter());
+    same(Ok(raw), received(&words))?;
+    same(Err(Error::WrongLength), received(&words[1..]))?;
+    same(Err(Error::WrongLength), received(&more))
+}
+
+/// The words by address are those in reading order.
+fn in_order(words: &[u16], addresses: &[u16], read: &[u16]) -> Outcome {
+    if addresses.len() == 1 {
+        return Ok(());
     }
-    same(Ok(raw), P::from_received(words.iter().copied()))?;
-    same(
-        Err(Error::WrongLength),
-        P::from_received(words.iter().skip(1).copied()),
-    )?;
-    same(
-        Err(Error::WrongLength),
-        P::from_received(words.iter().chain([&0]).copied()),
-    )
+    let mut parts: Vec<_> = addresses.iter().zip(read).collect();
+    parts.sort();
+    let found: Vec<u16> = parts.into_iter().map(|(_, word)| *word).collect();
+    same(words, found.as_slice())
 }
 
 /// Where a point is, and what stands beside it: the manual's code and other numberings, the outer limits, decimals.
-pub fn address<P>(vector: &Vector, references: &[(&str, String)]) -> Outcome
+pub fn address<P>(vector: &Vector, references: References) -> Outcome
 where
     P: Point<Raw: Number + PartialEq + std::fmt::Debug>,
 {
@@ -691,26 +701,42 @@ where
         same(vector.raw("raw_min"), P::RAW_MIN)?;
         same(vector.raw("raw_max"), P::RAW_MAX)?;
     }
-    if P::ADDRESSES.len() > 1 {
-        let mut addresses = P::ADDRESSES.to_vec();
-        addresses.sort_unstable();
-        same((P::ADDRESS..).take(P::WORDS.into()).collect(), addresses)?;
-    }
+    ascending(P::ADDRESS, P::ADDRESSES, P::WORDS, P::SPACE)?;
     place_of::<P>(vector, references)
 }
 
+/// The addresses of several words follow each other from the lowest one on, but for a parameter that has one for all.
+fn ascending(lowest: u16, addresses: &[u16], words: u16, space: Space) -> Outcome {
+    let mut found = addresses.to_vec();
+    found.sort_unstable();
+    let is_one_for_all = space == Space::Parameter && addresses.len() == 1;
+    let words = if is_one_for_all { 1 } else { words };
+    same(found, (lowest..).take(words.into()).collect())
+}
+
 /// The same but for the limits, which a text has not.
-pub fn place_of<P: Point>(vector: &Vector, references: &[(&str, String)]) -> Outcome {
-    same(vector.text("space").as_str(), P::SPACE.name())?;
-    same(vector.text("point").as_str(), P::NAME)?;
+pub fn place_of<P: Point>(vector: &Vector, references: References) -> Outcome {
     same(vector.raw("address"), P::ADDRESS)?;
     same(vector.raw("words"), P::WORDS)?;
-    same(vector.said("code").as_deref(), P::CODE)?;
+    let names = [Some(P::SPACE.name()), Some(P::NAME), P::CODE];
+    placed(vector, names, P::DECIMALS, references)
+}
+
+fn placed(
+    vector: &Vector,
+    names: [Option<&str>; 3],
+    found: u32,
+    references: References,
+) -> Outcome {
+    let expected = [vector.text("space"), vector.text("point")].map(Some);
+    let [space, point] = expected;
+    let expected = [space, point, vector.said("code")];
+    same(expected, names.map(|name| name.map(str::to_owned)))?;
     let decimals = vector.number("decimals").unwrap_or_default();
-    same(decimals, i128::from(P::DECIMALS))?;
+    same(decimals, i128::from(found))?;
     let references = references
         .iter()
-        .map(|(key, text)| ((*key).to_owned(), text.clone()));
+        .map(|(key, text)| ((*key).to_owned(), text.to_string()));
     same(vector.pairs("references"), references.collect())
 }
 
@@ -884,8 +910,13 @@ impl Wake for Idle {
 
 /// The result of a future that never really waits.
 pub fn now<F: Future>(future: F) -> F::Output {
+    polled(pin!(future))
+}
+
+/// The same, once for all futures of a result.
+fn polled<T>(future: Pin<&mut dyn Future<Output = T>>) -> T {
     let waker = Waker::from(Arc::new(Idle));
-    match pin!(future).poll(&mut Context::from_waker(&waker)) {
+    match future.poll(&mut Context::from_waker(&waker)) {
         Poll::Ready(result) => result,
         Poll::Pending => panic!("it waits for something else than its transport"),
     }
