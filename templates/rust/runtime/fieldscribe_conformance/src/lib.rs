@@ -675,7 +675,7 @@ where
     same(words.as_slice(), P::to_words(raw).as_ref())?;
     in_order(&words, P::ADDRESSES, raw.into_words().as_ref())?;
     let more = [words.as_slice(), &[0]].concat();
-    let received = |words: &[u16]| P::from_received(words.to_vec().into_iter());
+    let received = |words: &[u16]| P::from_received(words.iter().copied());
     same(Ok(raw), received(&words))?;
     same(Err(Error::WrongLength), received(&words[1..]))?;
     same(Err(Error::WrongLength), received(&more))
