@@ -87,7 +87,7 @@ def filled(left: str, between: str, items: list[str], right: str) -> Lines:
     lines = [left]
     for place, item in enumerate(items):
         text = item + (between if place + 1 < len(items) else right)
-        if len(lines[-1]) + len(text) > _FREE_WIDTH:
+        if len(lines[-1]) + len(text) > _FREE_WIDTH and lines[-1].strip():
             lines[-1] = lines[-1].rstrip()
             lines.append("    ")
         lines[-1] += text
