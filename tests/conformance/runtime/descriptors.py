@@ -78,25 +78,25 @@ def check_commands(package: Package) -> None:
 
 def check_variants(package: Package) -> None:
     """A name that variants share is the point of the device's variant."""
-    access = package.runtime.AccessError
+    access, absent = package.runtime.AccessError, package.runtime.AbsentError
     for kind, line in zip(_made(package), (Memory, AsyncMemory), strict=True):
         devices = {value: kind(line({5: 1, 6: 2, 7: 3}), 1, {"model": value}) for value in ("a", "b", "c", None)}
         assert [now(devices[value].one.read()) for value in ("a", "b")] == [1, 2]
-        assert (devices["b"].point("one"), devices["a"].point("one")) == (kind.one_b, kind.one_a)
+        assert (devices["b"].point("one"), devices["a"].point("one")) == (devices["b"].one, devices["a"].one_a)
         assert kind.one.points == {"a": kind.one_a, "b": kind.one_b}
-        refuses(access, "one does not exist for model c", getattr, devices["c"], "one")
-        refuses(access, "one depends on model: pass it when the device is made", getattr, devices[None], "one")
+        refuses(absent, "one does not exist for model c", getattr, devices["c"], "one")
+        refuses(absent, "one depends on model: pass it when the device is made", getattr, devices[None], "one")
         refuses(access, "one does not exist for model c", devices["c"].point, "one")
         refuses(access, "one depends on model: pass it when the device is made", devices[None].point, "one")
-        refuses(access, "none is no point of this device", devices["a"].point, "none")
-        refuses(access, "one_a exists only for model a", getattr, devices["b"], "one_a")
-        refuses(access, "some exists only for model a or c", getattr, devices["b"], "some")
+        refuses(access, "nothing is no point of this device", devices["a"].point, "nothing")
+        refuses(absent, "one_a exists only for model a", getattr, devices["b"], "one_a")
+        refuses(absent, "some exists only for model a or c", getattr, devices["b"], "some")
         assert [now(devices[value].some.read()) for value in ("a", "c", None)] == [3, 3, 3]
         assert now(devices[None].one_a.read()) == 1
         assert [now(devices[value].read_many("g")) for value in ("a", "b", "c", None)] == [
             {"one": 1, "some": 3}, {"one": 2}, {"some": 3}, {"some": 3},
         ]  # fmt: skip
-        refuses(access, "some exists only for model a or c", devices["b"].read_many, ["some"])
+        refuses(absent, "some exists only for model a or c", devices["b"].read_many, ["some"])
         refuses(ValueError, "the device has no variants by 'shape'", kind, line({}), 1, {"shape": "x"})
         refuses(ValueError, "model is one of a, b, c, not 'd'", kind, line({}), 1, {"model": "d"})
         assert (kind(line({}), 1).variants, devices["a"].variants) == ({}, {"model": "a"})

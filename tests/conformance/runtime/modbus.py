@@ -62,7 +62,7 @@ def check_many(package: Package) -> None:
         assert memory.since() == [(1, 7, 1), (2, 7, 1), (3, 7, 1), (4, 9, 1), (4, 7, 1)]
         refuses(package.runtime.AccessError, "there is no group none", device.read_many, "none")
         refuses(package.runtime.AccessError, "H1 high cannot be read", device.read_many, ["high"])
-        refuses(package.runtime.AccessError, "none is no point of this device", device.read_many, ["none"])
+        refuses(package.runtime.AccessError, "nobody is no point of this device", device.read_many, ["nobody"])
 
 
 def check_plan(package: Package) -> None:

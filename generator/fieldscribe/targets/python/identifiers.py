@@ -58,7 +58,7 @@ WORD_MEMBERS = frozenset(
 )
 """Public members of IntFlag and of words of flags, which no flag may hide."""
 
-_CLASS_TAKEN = PYTHON_RESERVED | {"Field", "Flag", "Literal", "Points", "Self", "Word"}
+_CLASS_TAKEN = PYTHON_RESERVED | {"Field", "Flag", "Literal", "NamedNumber", "Points", "Self", "Word"}
 """What no class may be called: the modules of enums and of the device refer to these."""
 
 _ATTRIBUTE_TAKEN = PYTHON_RESERVED | DEVICE_MEMBERS | HELPERS

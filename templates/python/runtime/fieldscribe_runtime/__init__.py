@@ -9,6 +9,7 @@ from .commands import Command
 from .descriptors import ByVariant, ReadOnly, ReadWrite, WriteOnly, renamed
 from .device import AnyAsyncDevice, AnyDevice
 from .errors import (
+    AbsentError,
     AccessError,
     CodecError,
     EchoError,
@@ -66,6 +67,7 @@ from .modbus import (
     Profile,
     Transport,
 )
+from .named import NamedNumber
 from .points import Point
 from .quantities import Floating, Scaled
 from .rules import Case, Factor, Limit, Rule
@@ -90,6 +92,7 @@ __all__ = [
     "U16",
     "U32",
     "U64",
+    "AbsentError",
     "AccessError",
     "AnyAsyncDevice",
     "AnyDevice",
@@ -120,6 +123,7 @@ __all__ = [
     "MissingRawError",
     "ModbusDevice",
     "Named",
+    "NamedNumber",
     "NoCaseError",
     "NoReplyError",
     "NotANumberError",

@@ -25,6 +25,14 @@ class Place:
     index: int | None = None
     telegram: str | None = None
 
+    def __str__(self) -> str:
+        """The place as manuals print it: numbers of parameters and words in decimal, other addresses not."""
+        if self.telegram is not None:
+            return f"{self.telegram} word {', '.join(map(str, self.addresses))}"
+        notation = str if self.space == "parameter" else "0x{:04X}".format
+        index = "" if self.index is None else f" index {self.index}"
+        return f"{self.space} {', '.join(map(notation, self.addresses))}{index}"
+
     @property
     def address(self) -> int:
         """The lowest address, which a request names."""
@@ -149,3 +157,10 @@ class Facts:
     uncertain: bool = False
     name: str = ""
     item: str = ""
+
+    @property
+    def where(self) -> str:
+        """The place for people: on the wire, which bits of the word, and the manual's other numberings."""
+        bits = "" if self.bits is None else f" bits {self.bits[0]}..{self.bits[1]}"
+        printed = ", ".join(f"{key} {number}" for key, number in self.references.items())
+        return f"{self.at}{bits} ({printed})" if printed else f"{self.at}{bits}"

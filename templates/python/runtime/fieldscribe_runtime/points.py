@@ -49,6 +49,9 @@ class Point:
         """Code and name, for messages."""
         return f"{self.facts.code} {self.facts.item}" if self.facts.code else self.facts.item
 
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} {self.label}: {self.facts.where}>"
+
     @property
     def wire(self) -> Type:
         """The wire type."""
@@ -195,6 +198,12 @@ class Decoding(Point, Generic[R_co]):
         Raises ZeroFactorError, NoCaseError, ResultOverflowError and MissingRawError, none of them without such points,
         and RangeError for what is no raw number of the point.
         """
+        quick = self.__dict__["decode"] = self._form.quick_decode(*self._ends, self._decode)  # from the first call on
+        value: R_co = quick(raw, raws)
+        return value
+
+    def _decode(self, raw: int, raws: Raws = NO_RAWS) -> R_co:
+        """The same for whatever comes, and with the words of what is wrong."""
         try:
             value: R_co = self._form.decode(self._possible(raw), raws)
         except CodecError as error:
@@ -230,6 +239,12 @@ class Encoding(Point, Generic[W_contra]):
         Raises RangeError, UnknownValueError, NotANumberError, ZeroFactorError, NoCaseError and MissingRawError, and
         SpecialCodeError for a value that would be a special code.
         """
+        quick = self.__dict__["encode"] = self._form.quick_encode(self.allowed, self._encode)  # from the first call on
+        raw: int = quick(value, raws)
+        return raw
+
+    def _encode(self, value: W_contra, raws: Raws = NO_RAWS) -> int:
+        """The same for whatever comes, and with the words of what is wrong."""
         self.require(value)
         try:
             raw = self._form.encode(value, self.allowed, raws)

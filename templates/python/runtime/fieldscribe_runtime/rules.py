@@ -16,6 +16,9 @@ Raws = Mapping[str, int]
 
 NO_RAWS: Raws = {}
 
+Line = tuple[int, int, int]
+"""A scale as (times, less, over): value = (raw * times - less) / over, exactly, and `over` is positive."""
+
 
 def round_ratio(num: int, den: int) -> int:
     """The integer nearest to num / den, halves away from zero."""
@@ -116,15 +119,33 @@ class Rule:
             return None
         return round_float(result) if math.isfinite(result) else None
 
-    def decode(self, raw: int, raws: Raws) -> float:
-        """The binary64 nearest to the exact value."""
+    def line(self, raws: Raws) -> Line:
+        """The rule solved for the value, in lowest terms; raises as `ratio` does."""
         num, den = self.ratio(raws)
         over, under = self.offset
-        top, bottom = (raw * under - over) * den, num * under
+        found = (under * den, over * den, num * under)
+        shared = math.gcd(*found) if num > 0 else -math.gcd(*found)
+        return found[0] // shared, found[1] // shared, found[2] // shared
+
+    def steps(self) -> tuple[float, float, float] | None:
+        """What a value is multiplied with and divided by, and what is added; None beyond binary64."""
         try:
-            return -top / -bottom if bottom < 0 else top / bottom  # int / int is correctly rounded
+            return float(self.num), float(self.den), self.offset[0] / self.offset[1]
+        except OverflowError:
+            return None
+
+    def decode(self, raw: int, raws: Raws) -> float:
+        """The binary64 nearest to the exact value."""
+        times, less, over = self.line(raws)
+        try:
+            return (raw * times - less) / over  # int / int is correctly rounded
         except OverflowError:
             raise ResultOverflowError(f"raw {raw} gives no binary64") from None
+
+    def is_safe(self, raws: Raws, low: int, high: int) -> bool:
+        """Whether no raw number from `low` to `high` gives a value beyond binary64."""
+        times, less, over = self.line(raws)
+        return all(abs(raw * times - less) >> 1023 < over for raw in (low, high))
 
     def encode_count(self, count: int, decimals: int, raws: Raws, *, zero_allowed: bool = False) -> int:
         """The raw number of `count` units of 10^-decimals, by integers alone."""

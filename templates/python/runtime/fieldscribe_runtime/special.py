@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterator, Mapping
+    from collections.abc import Callable, Collection, Iterator, Mapping
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,6 +53,11 @@ class Codes:
         if found is None and self._bands:
             return next((self._made(name, raw) for low, high, name in self._bands if low <= raw <= high), None)
         return found
+
+    @property
+    def finder(self) -> Callable[[int], Special | None]:
+        """What a raw number is, without asking for bands where there are none."""
+        return self if self._bands else self._single.get
 
     def __getitem__(self, name: str) -> Special:
         """The code of that name; raises KeyError, also for a band, in which a raw number is meant."""
