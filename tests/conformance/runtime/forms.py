@@ -138,12 +138,22 @@ def check_open_enums(package: Package) -> None:
     color = _names(package, RED=1, BLUE=3)
     unknown, red = color(77), color.RED
     assert (unknown, hash(unknown), int(unknown), unknown.value) == (77, hash(77), 77, 77)
-    assert (isinstance(unknown, color), unknown.is_named, red.is_named, list(color)) == (True, False, True, [red, color.BLUE])
+    assert (isinstance(unknown, color), unknown.is_named, red.is_named, list(color)) == (
+        True,
+        False,
+        True,
+        [red, color.BLUE],
+    )
     assert (repr(unknown), unknown.name, str(unknown), f"{unknown}", f"{unknown:04x}") == (
         "Color(77)", "Color(77)", "77", "77", "004d",
     )  # fmt: skip
     assert (repr(red), red.name, str(red), f"{red}", f"{red:d}") == ("<Color.RED: 1>", "RED", "red", "red", "1")
-    assert (unknown == color(77), unknown != color(78), {unknown: "x"}[77], json.dumps(unknown)) == (True, True, "x", "77")
+    assert (unknown == color(77), unknown != color(78), {unknown: "x"}[77], json.dumps(unknown)) == (
+        True,
+        True,
+        "x",
+        "77",
+    )
     assert (copy.deepcopy(unknown), color(True)) == (unknown, red)
     for bad in ("RED", 2.5, None):
         assert str(refusal(color, bad)) == f"{bad!r} is not a valid Color"

@@ -143,7 +143,9 @@ def check_around(package: Package) -> None:
         runtime.RangeError,
     )
     assert (around.shown(30, {"other": 2}), around.limits(4), around.choices(" V")) == ("1.5", (-8, 7), None)
-    named = runtime.WithCodes(runtime.Named(runtime.U16, mode := _mode(package), closed=True), runtime.Codes({"off": 5}))
+    named = runtime.WithCodes(
+        runtime.Named(runtime.U16, mode := _mode(package), closed=True), runtime.Codes({"off": 5})
+    )
     assert (named.names, named.name_of(2), named.refused) == (mode, "fast", runtime.UnknownValueError)
     assert (named.limits(16), named.choices("")) == ((0, 2), "none of 0 idle, 2 fast")
     floating = runtime.WithCodes(runtime.Floating(runtime.F32), runtime.Codes({"off": 5}))

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 _MODULES = (
     "__init__",
     "can/__init__",
+    "can/decoder",
     "can/device",
     "can/frames",
     "can/receiver",
@@ -34,6 +35,7 @@ _MODULES = (
     "fast",
     "forms",
     "handles",
+    "layouts",
     "lookup",
     "modbus/__init__",
     "modbus/device",

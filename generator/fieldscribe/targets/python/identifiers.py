@@ -17,6 +17,7 @@ DEVICE_MEMBERS = frozenset(
         "broadcast",
         "drop_process_data",
         "forget",
+        "layouts",
         "fresh_for",
         "link",
         "patience",

@@ -59,6 +59,7 @@ from .forms import (
     Integer,
     Named,
 )
+from .layouts import Layout
 from .modbus import (
     AsyncModbusDevice,
     AsyncTransport,
@@ -119,6 +120,7 @@ __all__ = [
     "Floating",
     "FrameError",
     "Integer",
+    "Layout",
     "Limit",
     "MissingRawError",
     "ModbusDevice",

@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING, Any
 from .rules import NO_RAWS
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Mapping, Sequence
+
     from .rules import Line, Raws, Rule
     from .special import Special
 
@@ -82,20 +83,41 @@ def scaled(line: Line, low: int, high: int, slow: Way) -> Way:
     return decode if (times, less) == (1, 0) else decode_by_line
 
 
+def unchecked(line: Line) -> Way:
+    """As `scaled` for what is known to be a raw number of the point."""
+    times, less, over = line
+
+    def decode(raw: int, raws: Raws) -> Any:
+        return raw / over
+
+    def decode_by_line(raw: int, raws: Raws) -> Any:
+        return (raw * times - less) / over
+
+    return decode if (times, less) == (1, 0) else decode_by_line
+
+
+def itself(raw: int, raws: Raws) -> int:
+    """What is known to be a raw number of the point, and its value."""
+    del raws
+    return raw
+
+
 def scaled_by(rule: Rule, low: int, high: int, slow: Way) -> Way:
-    """From raw numbers of a range to values, by a scale that one other point decides: it seldom changes."""
-    point = rule.factors[0].point
-    lines: dict[int | None, Line] = {}
+    """From raw numbers of a range to values, by a scale that other points decide: these seldom change."""
+    points = tuple([factor.point for factor in rule.factors])
+    point = points[0]
+    lines: dict[Any, Line] = {}
 
     def decode(raw: int, raws: Raws = NO_RAWS) -> Any:
         """The value (or special code) of a raw number; raises as the point's class says."""
-        line = lines.get(raws.get(point))
+        numbers = raws.get(point) if len(points) == 1 else tuple(map(raws.get, points))
+        line = lines.get(numbers)
         if line is not None and type(raw) is int and low <= raw <= high:
             times, less, over = line
             return (raw * times - less) / over
         value = slow(raw, raws)  # raises what is to be raised
         if len(lines) < _REMEMBERED and rule.is_safe(raws, low, high):
-            lines[raws[point]] = rule.line(raws)
+            lines[numbers] = rule.line(raws)
         return value
 
     return decode
@@ -174,4 +196,84 @@ def uncoded(find: Callable[[int], Special | None], plain: Way, slow: Way) -> Way
         raw = plain(value, raws)
         return raw if find(raw) is None else slow(value, raws)
 
+    return encode
+
+
+def bits_of(low: int, mask: int, sign: int, then: Way) -> Way:
+    """From words to what a way makes of some bits of them; `sign` is the highest of these where they are signed."""
+
+    def decode(word: int, raws: Raws = NO_RAWS) -> Any:
+        return then((word >> low & mask ^ sign) - sign, raws)
+
+    return decode
+
+
+def taken_apart(unpack: Callable[[bytes], tuple[int, ...]], plan: Sequence[tuple[str, Any, Way]], slow: Way) -> Way:
+    """From bytes to values by name: the plan says which field each is of, and by which way.
+
+    Most frames have a few points, for which a loop would cost as much as the work.
+    """
+
+    def decode(data: bytes, raws: Raws = NO_RAWS) -> Any:
+        """The values in the bytes; raises as the layout's class says."""
+        try:
+            fields = unpack(data)
+        except struct.error:
+            return slow(data, raws)
+        return {name: way(fields[at], raws) for name, at, way in plan}
+
+    if len(plan) == 3:
+        (name_1, at_1, way_1), (name_2, at_2, way_2), (name_3, at_3, way_3) = plan
+
+        def decode_3(data: bytes, raws: Raws = NO_RAWS) -> Any:
+            """The values in the bytes; raises as the layout's class says."""
+            try:
+                fields = unpack(data)
+            except struct.error:
+                return slow(data, raws)
+            return {
+                name_1: way_1(fields[at_1], raws),
+                name_2: way_2(fields[at_2], raws),
+                name_3: way_3(fields[at_3], raws),
+            }
+
+        return decode_3
+    if len(plan) == 4:
+        (name_1, at_1, way_1), (name_2, at_2, way_2), (name_3, at_3, way_3), (name_4, at_4, way_4) = plan
+
+        def decode_4(data: bytes, raws: Raws = NO_RAWS) -> Any:
+            """The values in the bytes; raises as the layout's class says."""
+            try:
+                fields = unpack(data)
+            except struct.error:
+                return slow(data, raws)
+            return {
+                name_1: way_1(fields[at_1], raws),
+                name_2: way_2(fields[at_2], raws),
+                name_3: way_3(fields[at_3], raws),
+                name_4: way_4(fields[at_4], raws),
+            }
+
+        return decode_4
+    return decode
+
+
+def put_together(pack: Callable[..., bytes], plan: Sequence[tuple[str, Way]]) -> Way:
+    """From values by name to bytes: the plan has a way for each field."""
+
+    def encode(values: Mapping[str, Any], raws: Raws) -> bytes:
+        return pack(*[way(values[name], raws) for name, way in plan])
+
+    if len(plan) == 4:
+        (name_1, way_1), (name_2, way_2), (name_3, way_3), (name_4, way_4) = plan
+
+        def encode_4(values: Mapping[str, Any], raws: Raws) -> bytes:
+            return pack(
+                way_1(values[name_1], raws),
+                way_2(values[name_2], raws),
+                way_3(values[name_3], raws),
+                way_4(values[name_4], raws),
+            )
+
+        return encode_4
     return encode

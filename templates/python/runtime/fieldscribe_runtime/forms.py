@@ -7,7 +7,7 @@ import enum
 import operator
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from .errors import (
     CodecError,
@@ -15,7 +15,7 @@ from .errors import (
     UnknownValueError,
     WrongTypeError,
 )
-from .fast import chosen, listed, same
+from .fast import chosen, itself, listed, same
 from .rules import Bound, Raws, high_end, low_end
 from .special import NO_CODES
 
@@ -28,6 +28,7 @@ R_co = TypeVar("R_co", covariant=True)
 W_contra = TypeVar("W_contra", contravariant=True)
 E = TypeVar("E", bound="NamedNumber")
 F = TypeVar("F", bound=enum.IntFlag)
+T = TypeVar("T")
 
 Allowed = tuple[tuple[Bound, Bound], ...]
 """Closed intervals of raw numbers that may be written."""
@@ -103,6 +104,10 @@ class Form(Decodes[R_co], Encodes[W_contra], ABC, Generic[R_co, W_contra]):
         del low, high
         return slow
 
+    def sure_decode(self, low: int, high: int, slow: Way) -> Way:
+        """The same for what is known to be a number from `low` to `high`."""
+        return self.quick_decode(low, high, slow)
+
     def quick_encode(self, allowed: Allowed, slow: Way) -> Way:
         """A function that encodes usual values quickly, and leaves the rest to the slow way."""
         del allowed
@@ -169,6 +174,11 @@ class Integer(Form[int, int]):
         """The raw number itself."""
         return same(low, high, slow)
 
+    def sure_decode(self, low: int, high: int, slow: Way) -> Way:
+        """The raw number itself, whatever it is."""
+        del low, high, slow
+        return itself
+
     def quick_encode(self, allowed: Allowed, slow: Way) -> Way:
         """The value itself."""
         ends = fixed_ends(allowed)
@@ -205,6 +215,25 @@ class Bit(Form[bool, bool]):
         return int(value) if isinstance(value, bool) else whole(value)
 
 
+class _Members(dict[int, T]):
+    """Members of enums by their raw numbers; those without a name are made when they come."""
+
+    def __init__(self, form: Form[T, Any], low: int, high: int) -> None:
+        self._form, self._ends = form, (low, high)
+
+    def __missing__(self, raw: int) -> T:
+        if type(raw) is not int or not self._ends[0] <= raw <= self._ends[1]:
+            raise KeyError(raw)
+        member = self._form.decode(raw, {})
+        if len(self) < _REMEMBERED:
+            self[raw] = member
+        return member
+
+
+_REMEMBERED = 4096
+"""So many members without a name are remembered for each point."""
+
+
 class Named(Form[E, E]):
     """An enum; a number without a name is a member of it, too. `closed`: only its own numbers may be written."""
 
@@ -219,15 +248,17 @@ class Named(Form[E, E]):
             self.refused = UnknownValueError
 
     def quick_decode(self, low: int, high: int, slow: Way) -> Way:
-        """The members as they are listed."""
-        return listed(self._known, slow)
+        """The members as they are listed, and others as they came before."""
+        return listed(_Members(self, low, high), slow)
 
     def quick_encode(self, allowed: Allowed, slow: Way) -> Way:
         """The members that may be written, as they are listed."""
         ends = fixed_ends(allowed)
         if ends is None:
             return slow
-        return chosen(self.names, {member: raw for raw, member in self._known.items() if ends[0] <= raw <= ends[1]}, slow)
+        return chosen(
+            self.names, {member: raw for raw, member in self._known.items() if ends[0] <= raw <= ends[1]}, slow
+        )
 
     def decode(self, raw: int, raws: Raws) -> E:
         """The member, also for a number without a name."""
@@ -260,24 +291,6 @@ class Named(Form[E, E]):
         return f"none of {named}" if self.closed else None
 
 
-class _Words(dict[int, F]):
-    """Words of flags by their raw numbers, made when they come."""
-
-    def __init__(self, form: Flags[F], low: int, high: int) -> None:
-        self._form, self._ends = form, (low, high)
-
-    def __missing__(self, raw: int) -> F:
-        if type(raw) is not int or not self._ends[0] <= raw <= self._ends[1]:
-            raise KeyError(raw)
-        word = self._form.decode(raw, {})
-        if len(self) < _MOST_WORDS:
-            self[raw] = word
-        return word
-
-
-_MOST_WORDS = 4096
-
-
 class Flags(Form[F, F]):
     """Named bits in a word; bits without a name survive."""
 
@@ -289,7 +302,7 @@ class Flags(Form[F, F]):
 
     def quick_decode(self, low: int, high: int, slow: Way) -> Way:
         """Words that have come before, as they were then."""
-        return listed(_Words(self, low, high), slow)
+        return listed(_Members(self, low, high), slow)
 
     def decode(self, raw: int, raws: Raws) -> F:
         """All bits of the word."""

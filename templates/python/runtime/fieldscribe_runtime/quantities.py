@@ -9,7 +9,7 @@ import sys
 from typing import TYPE_CHECKING, TypeVar
 
 from .errors import NotANumberError, ResultOverflowError, WrongTypeError
-from .fast import from_pattern, rounded, scaled, scaled_by, to_pattern
+from .fast import from_pattern, rounded, scaled, scaled_by, to_pattern, unchecked
 from .forms import Form, fixed_ends, whole
 from .rules import NO_RAWS, Case, Rule, chosen
 
@@ -64,13 +64,20 @@ class Scaled(Form[float, float]):
 
     def quick_decode(self, low: int, high: int, slow: Way) -> Way:
         """By a scale that is fixed, or that one other point decides."""
-        if not isinstance(self.rule, Rule) or len(self.rule.factors) > 1:
+        if not isinstance(self.rule, Rule):
             return slow
         if self.most is not None:
             low, high = max(low, -self.most), min(high, self.most)
         if self.rule.factors:
             return scaled_by(self.rule, low, high, slow)
         return scaled(self.rule.line(NO_RAWS), low, high, slow) if self.rule.is_safe(NO_RAWS, low, high) else slow
+
+    def sure_decode(self, low: int, high: int, slow: Way) -> Way:
+        """By a scale that is fixed, whatever the raw number is."""
+        rule = self.rule
+        if not isinstance(rule, Rule) or rule.factors or self.most is not None or not rule.is_safe(NO_RAWS, low, high):
+            return self.quick_decode(low, high, slow)
+        return unchecked(rule.line(NO_RAWS))
 
     def quick_encode(self, allowed: Allowed, slow: Way) -> Way:
         """By a fixed scale into one fixed range."""

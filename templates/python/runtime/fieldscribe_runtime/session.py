@@ -57,6 +57,14 @@ def check_unit(unit: int, units: tuple[int, int]) -> None:
         raise RequestError("bad_unit", f"the device can be unit {low} to {high}, not {unit!r}")
 
 
+def exists(point: Point, variants: Mapping[str, str | None]) -> bool:
+    """Whether the variants that are told have a point; one of a variant needs it told."""
+    axis, values = point.facts.only_for or ("", ())
+    left = variants.get(axis) in (None, *values)
+    variant = point.facts.variant
+    return left and (variant is None or variants.get(variant[0]) == variant[1])
+
+
 class PointTable:
     """A device's points, with what its bus needs to know."""
 
@@ -190,10 +198,7 @@ class Session(PointTable, ABC):
             raise AbsentError(f"{point.label} exists only for {axis} {' or '.join(values)}")
 
     def _has(self, point: Point) -> bool:
-        axis, values = point.facts.only_for or ("", ())
-        exists = self.variants.get(axis) in (None, *values)
-        variant = point.facts.variant
-        return exists and (variant is None or self.variants.get(variant[0]) == variant[1])
+        return exists(point, self.variants)
 
     def _surely_has(self, point: Point) -> bool:
         """Whether the point is there for all that is known: no condition is open."""

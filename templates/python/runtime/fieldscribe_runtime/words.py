@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import functools
 import operator
-from typing import TYPE_CHECKING, Generic, TypeVar, overload
+from typing import TYPE_CHECKING, Any, Generic, TypeVar, overload
 
 if TYPE_CHECKING:
     from .named import NamedNumber
@@ -50,10 +50,10 @@ class Field(Generic[N]):
     def __init__(self: Field[int], low: int, width: int) -> None: ...
     @overload
     def __init__(self: Field[M], low: int, width: int, names: type[M]) -> None: ...
-    def __init__(self, low: int, width: int, names: type[N] | None = None) -> None:
+    def __init__(self, low: int, width: int, names: type[Any] | None = None) -> None:
         self.low = low
         self.width = width
-        self.names = names
+        self.names: type[N] | None = names
 
     @overload
     def __get__(self, word: None, owner: object) -> Field[N]: ...

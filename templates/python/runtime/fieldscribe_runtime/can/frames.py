@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, NamedTuple
 from ..errors import AccessError, FrameError, RequestError
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from ..facts import Telegram
 
 LENGTH = 8
@@ -135,6 +137,25 @@ def check(message: Message, unit: int, frame: Frame) -> None:
         for role, byte in found:
             if role.kind == kind and byte != _expected(role, unit, frame.data):
                 raise FrameError(status, f"a byte that {message.name} has as its {what} is {byte:02X}h")
+
+
+def recognizer(message: Message, unit: int) -> Callable[[Frame], bool]:
+    """Whether `check` has nothing against a frame, by bytes that are known beforehand."""
+    can_id = message.identifier(unit)
+    roles = list(enumerate(message.roles))
+    known = tuple([(at, _expected(role, unit, b"")) for at, role in roles if role.kind in ("constant", "unit")])
+    combined = tuple([(at, role.number) for at, role in roles if role.kind == "xor"])
+
+    def is_it(frame: Frame) -> bool:
+        data = frame.data
+        if frame.id != can_id or len(data) != LENGTH:
+            return False
+        for at, byte in known:
+            if data[at] != byte:
+                return False
+        return not combined or all(data[at] == _combined(data, mask) for at, mask in combined)
+
+    return is_it
 
 
 _FIXED = (("constant", "wrong_constant", "constant"), ("unit", "wrong_unit", "unit"), ("xor", "wrong_check", "check"))

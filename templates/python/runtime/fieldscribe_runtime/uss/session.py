@@ -8,9 +8,10 @@ from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar, TypeVar
 
-from ..errors import EchoError, FrameError, NoReplyError, RequestError
+from ..errors import AccessError, EchoError, FrameError, NoReplyError, RequestError
 from ..facts import Place
-from ..session import Session, check_unit
+from ..layouts import Layout
+from ..session import Session, check_unit, exists
 from .frames import (
     NO_TASK,
     RAM,
@@ -61,6 +62,16 @@ class UssSession(Session):
     def drop_process_data(self) -> None:
         """Let all words of process data be 0 until they are written again, because others have commanded the device."""
         self._sent = {}
+
+    @classmethod
+    def layouts(cls, telegram: str, *, words: int | None = None, **variants: str) -> tuple[Layout, ...]:
+        """The process data of a telegram, or its first words, with the points in them; variants as for the device."""
+        for one in cls.PROFILE.telegrams:
+            if one.name == telegram:
+                points = [point for point in cls.POINTS.values() if exists(point, variants)]
+                own = [point for point in points if point.facts.at.telegram == telegram]
+                return (Layout(own, range(one.words if words is None else words)),)
+        raise AccessError(f"the device has no telegram {telegram}")
 
     def _get_steps(self, place: Place) -> Steps[tuple[int, ...]]:
         """Read a parameter (the high word first), or words of the process data that comes back."""
