@@ -45,6 +45,7 @@ _MODULES = (
     "named",
     "points",
     "quantities",
+    "records",
     "rules",
     "session",
     "special",

@@ -6,7 +6,6 @@ from __future__ import annotations
 import enum
 import operator
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from .errors import (
@@ -16,6 +15,7 @@ from .errors import (
     WrongTypeError,
 )
 from .fast import chosen, itself, listed, same
+from .records import Record
 from .rules import Bound, Raws, high_end, low_end
 from .special import NO_CODES
 
@@ -34,8 +34,7 @@ Allowed = tuple[tuple[Bound, Bound], ...]
 """Closed intervals of raw numbers that may be written."""
 
 
-@dataclass(frozen=True, slots=True)
-class Type:
+class Type(Record):
     """A wire type: how many bits, and whether they are two's complement."""
 
     bits: int

@@ -6,10 +6,13 @@ from __future__ import annotations
 import math
 import struct
 from collections.abc import Mapping
-from dataclasses import dataclass
-from fractions import Fraction
+from typing import TYPE_CHECKING
 
 from .errors import MissingRawError, NoCaseError, ResultOverflowError, ZeroFactorError
+from .records import Record
+
+if TYPE_CHECKING:
+    from fractions import Fraction
 
 Raws = Mapping[str, int]
 """Raw numbers of other points by name."""
@@ -43,12 +46,13 @@ def raw_of(point: str, raws: Raws) -> int:
 
 def _binary32(pattern: int) -> Fraction:
     """The number that the bits are; 0 for infinities and NaN."""
+    from fractions import Fraction  # only scales by floating-point points need it
+
     value: float = struct.unpack("<f", struct.pack("<I", pattern & 0xFFFF_FFFF))[0]
     return Fraction(value) if math.isfinite(value) else Fraction(0)
 
 
-@dataclass(frozen=True, slots=True)
-class Factor:
+class Factor(Record):
     """raw * slope + intercept of another point, to the power of 1 or -1.
 
     With `ten_to` it is ten to that number, and the pair says between which raw numbers of the point this holds. With
@@ -78,8 +82,7 @@ class Factor:
         return self.ten_to is None or self.ten_to[0] <= raw_of(self.point, raws) <= self.ten_to[1]
 
 
-@dataclass(frozen=True, slots=True)
-class Rule:
+class Rule(Record):
     """raw = value * num / den * product(factors) + offset; the offset is a pair, numerator and denominator."""
 
     num: int = 1
@@ -164,8 +167,7 @@ class Rule:
         return count
 
 
-@dataclass(frozen=True, slots=True)
-class Case:
+class Case(Record):
     """`rule` holds when the raw number of `point` equals `raw`; without a point it always holds."""
 
     point: str | None
@@ -182,8 +184,7 @@ def chosen(cases: tuple[Case, ...], raws: Raws) -> Rule:
     raise NoCaseError(f"no scale for these raw numbers of {points}")
 
 
-@dataclass(frozen=True, slots=True)
-class Limit:
+class Limit(Record):
     """A limit that other points set: `rule` applied to 1.
 
     It does not hold while a point has a number in one of its bands (first, last) of `unless`.

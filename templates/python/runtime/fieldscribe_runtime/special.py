@@ -3,15 +3,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
+
+from .records import Record
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterator, Mapping
 
 
-@dataclass(frozen=True, slots=True)
-class Special:
+class Special(Record):
     """What a point holds in the place of a quantity: a code by its name.
 
     With `no_value` it says that there is no value; only a `writable` one may be written.

@@ -3,10 +3,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
 from ..errors import AccessError, FrameError, RequestError
+from ..records import Record
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -17,8 +17,7 @@ LENGTH = 8
 """How many bytes every message has."""
 
 
-@dataclass(frozen=True, slots=True)
-class Frame:
+class Frame(Record):
     """A data frame on the bus: its identifier and its bytes."""
 
     id: int
@@ -37,8 +36,7 @@ class Role(NamedTuple):
     number: int = 0
 
 
-@dataclass(frozen=True, slots=True)
-class Message:
+class Message(Record):
     """A layout of 8 bytes with an identifier: `can_id`, plus the unit number if `adds_unit`."""
 
     name: str
@@ -57,8 +55,7 @@ class Message:
         return any(role.kind == kind for role in self.roles)
 
 
-@dataclass(frozen=True, slots=True)
-class Profile:
+class Profile(Record):
     """What a device says and hears: unit numbers, the bits of identifiers, messages and telegrams."""
 
     units: tuple[int, int]

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from ..errors import RequestError, TelegramError
@@ -16,7 +15,6 @@ if TYPE_CHECKING:
     from .frames import Frame, Message, Profile
 
 
-@dataclass(slots=True)
 class _Slot:
     """The last frame of one multiplexer number, and that before.
 

@@ -3,10 +3,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from ..errors import ExceptionReplyError, FrameError, RequestError
+from ..records import Record
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Mapping
@@ -24,8 +24,7 @@ ECHOES = frozenset({WRITE_COIL, WRITE_REGISTER, DIAGNOSTICS})
 RTU, TCP = "rtu", "tcp"
 
 
-@dataclass(frozen=True, slots=True)
-class Profile:
+class Profile(Record):
     """What a device takes: functions with the most items of one request, unit numbers, and its peculiarities.
 
     `broadcast` is the unit number that means all units, `broadcasts` the functions that may be sent to it. `framings`
@@ -36,13 +35,12 @@ class Profile:
     units: tuple[int, int] = (1, 247)
     broadcast: int | None = 0
     pad_coil_bytes_even: bool = False
-    exceptions: Mapping[int, str] = field(default_factory=dict)
+    exceptions: Mapping[int, str] = {}
     broadcasts: Collection[int] = WRITES
     framings: tuple[str, ...] = (RTU, TCP)
 
 
-@dataclass(frozen=True, slots=True)
-class Request:
+class Request(Record):
     """One request. Reads name `count`, writes `values`; a loop-back test (08h) sends values[0] to `address` 0."""
 
     unit: int

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Generator, Mapping, Sequence
-from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar, TypeVar
 
@@ -152,7 +151,7 @@ class UssSession(Session):
 
     def _exchange_steps(self, request: Request, sent: Mapping[int, int]) -> Steps[Reply]:
         """One task with process data, and the reply; a task is repeated until the device answers it."""
-        request = replace(request, words=self._words(sent))
+        request = request.replaced(words=self._words(sent))
         frame = build(request, self.PROFILE, self.link)
         left = self.repeats
         while True:
