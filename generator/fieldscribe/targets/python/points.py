@@ -18,9 +18,9 @@ from fieldscribe.text import python_doc, python_string
 from fieldscribe.wording import codes_text, condition_text, range_text
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Collection, Iterable, Mapping
 
-    from fieldscribe.model import Device, Erratum, Point
+    from fieldscribe.model import Device, Point
 
 _DOC = WIDTH - 4 - 6  # what an indentation and two triple quotes leave
 _BODY = 8  # the indentation of an attribute's arguments
@@ -70,7 +70,7 @@ def points_view(device: Device, names: Identifiers) -> PointsView:
     """All points, group by group."""
     family = FAMILIES[device.family]
     scope = Scope(names, {point.name: point for point in device.points}, device.variants, {"PointTable"})
-    errata = {one.id: one for one in device.errata}
+    errata = frozenset([one.id for one in device.errata if one.facts])
     groups = {group.name: GroupView(comment(f"{group.name}: {group.title['en']}")) for group in device.groups}
     by_name: dict[str, list[Point]] = {}
     for point in device.points:
@@ -115,7 +115,7 @@ def _imports(used: set[str], family: Family) -> list[tuple[str, list[str]]]:
     return [(module, names) for module, names in found if names]
 
 
-def _point(point: Point, family: Family, scope: Scope, errata: Mapping[str, Erratum]) -> PointView:
+def _point(point: Point, family: Family, scope: Scope, errata: Collection[str]) -> PointView:
     maker = family.maker(point)
     scope.used.add(maker)
     old_names = tuple(map(attribute, point.was)) if point.variant is None else ()
@@ -188,7 +188,7 @@ def _by_variant(points: list[Point], scope: Scope) -> PointView:
     return PointView(attribute(points[0].name), "ByVariant", arguments, tuple(doc), old_names)
 
 
-def _doc(point: Point, errata: Mapping[str, Erratum], by_name: Mapping[str, Point]) -> tuple[str, ...]:
+def _doc(point: Point, errata: Collection[str], by_name: Mapping[str, Point]) -> tuple[str, ...]:
     limits = range_text(point, by_name) if point.writable and point.form in ("scaled", "float", "integer") else ""
     first = f"{point.title['en']}: {limits}" if limits else point.title["en"]
     first = first if first.endswith(".") else f"{first}."
@@ -199,11 +199,8 @@ def _doc(point: Point, errata: Mapping[str, Erratum], by_name: Mapping[str, Poin
     if point.specials:
         first += f" {codes_text(point)}."
     lines = _wrapped(python_doc(first))
-    for one in point.errata:
-        erratum = errata[one]
-        facts = f"printed: {erratum.printed.rstrip('.')}; taken: {erratum.taken.rstrip('.')}"
-        text = f"Erratum {erratum.id} ({erratum.certainty}), {facts}."
-        lines += ("", *_wrapped(python_doc(text)))
+    if changing := [one for one in point.errata if one in errata]:
+        lines += ("", *_wrapped(f"Errata: {', '.join(changing)}."))
     return tuple(lines)
 
 
