@@ -28,4 +28,4 @@ def nearest(points: Iterable[PointAttribute[Any, Any]], what: str) -> list[str]:
     from difflib import get_close_matches
 
     known = {name.casefold(): name for point in points for name in (point.facts.item, point.facts.code) if name}
-    return [known[one] for one in get_close_matches(what.casefold(), list(known), 3)]
+    return [known[one] for one in get_close_matches(what.partition("[")[0].casefold(), list(known), 3)]

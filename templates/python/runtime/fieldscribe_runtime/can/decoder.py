@@ -75,9 +75,15 @@ class Decoder(Receiver):
         is_known = not layout.needs or layout.needs <= known.keys()
         values: dict[str, Value] = (layout.decoder if is_known else layout.decode_known)(data, known)
         for point in self._apart[number]:
-            try:
-                by_address = dict(zip(point.facts.at.addresses, self.words(point.facts.at.addresses), strict=True))
-            except TelegramError:
-                continue
-            values[point.facts.name] = point.decode(point.from_words([by_address[at] for at in sorted(by_address)]))
+            if known.keys() >= set(point.scale_needs) and (raw := self._joined(point)) is not None:
+                values[point.facts.name] = point.decode(raw, known)
         return values
+
+    def _joined(self, point: Point) -> int | None:
+        """The raw number of a point in several frames; None while these may not belong together."""
+        addresses = point.facts.at.addresses
+        try:
+            by_address = dict(zip(addresses, self.words(addresses), strict=True))
+        except TelegramError:
+            return None
+        return point.from_words([by_address[at] for at in sorted(by_address)])
