@@ -90,7 +90,8 @@ def check_scales_of_others(package: Package) -> None:
         return runtime.Rule(num=2, offset=(1, 1), factors=tuple([runtime.Factor(name) for name in names]))
 
     for names, raws, value in ((("a",), {"a": 5}, 0.6), (("a", "b"), {"a": 5, "b": 3}, 0.2)):
-        rule, asked = rule_of(*names), []
+        asked: list[float] = []
+        rule = rule_of(*names)
         way = runtime.fast.scaled_by(rule, 0, 9, _Asked(rule, asked))
         for _ in range(2):
             assert (way(7, raws), way(7, {**raws, "a": 1, "b": 1}), way(9, raws) > value) == (value, 3.0, True)

@@ -51,3 +51,5 @@ class Record:
     def replaced(self, **changes: Any) -> Self:
         """The same with some fields changed."""
         return type(self)(**{**self.__dict__, **changes})
+
+    __replace__ = replaced
