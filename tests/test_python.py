@@ -248,7 +248,17 @@ def test_points_may_be_called_like_steps(tmp_path: Path) -> None:
             getattr(drive, name).write(number)
         assert drive.read_many("main") == {name: number for number, name in enumerate(names, 1)}
         own = {name for name in dir(drive) if not name.startswith("_") and name.islower()} - set(names)
-        assert own == {"forget", "layouts", "point", "read_at", "read_many", "transport", "unit", "variants", "write_at"}
+        assert own == {
+            "forget",
+            "layouts",
+            "point",
+            "read_at",
+            "read_many",
+            "transport",
+            "unit",
+            "variants",
+            "write_at",
+        }
 
 
 def test_a_factor_that_needs_a_variant_says_so(package: Any, slave: Slave) -> None:

@@ -70,8 +70,8 @@ class Codes:
         try:
             return self[name]
         except KeyError as error:
-            known = name.startswith("_") or name not in self._spans
-            raise AttributeError(f"there is no special code {name}" if known else error.args[0]) from None
+            text = error.args[0] if name in self._spans else f"there is no special code {name}"
+            raise AttributeError(text) from None
 
     def __iter__(self) -> Iterator[str]:
         """The names."""
