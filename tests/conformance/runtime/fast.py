@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import copy
 import math
+import pickle
 import struct
 from typing import TYPE_CHECKING, Any
 
@@ -159,6 +161,12 @@ def check_points_are_quick(package: Package) -> None:
         )
         assert (form.quick_encode(point.allowed, _slow)(value), point.encode(value)) == (raw, raw), name
         assert (point.decode, point.encode) == (point.decoder, point.encoder), name
+        twins = [copy.deepcopy(point)]
+        if name not in ("named", "closed"):  # an enum that is made here has no module to be found in
+            twins.append(pickle.loads(pickle.dumps(point)))
+        for twin in twins:
+            assert (twin.decode(raw), twin.encode(value), repr(twin)) == (value, raw, repr(point)), name
+            assert twin.facts.at == point.facts.at
     flags = runtime.Flags(runtime.U16, package.runtime.NamedNumber("Bits", {"LOW": 1}))
     assert flags.quick_decode(0, 9, _slow)(5) == 5
     assert _is_slow(flags.quick_decode(0, 9, _slow), 10, -1)

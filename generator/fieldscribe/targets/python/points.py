@@ -39,11 +39,10 @@ class PointView:
 
 @dataclass(slots=True)
 class GroupView:
-    """The points of one group, and comments on those that are only documented."""
+    """The points of one group."""
 
     title: str
     points: list[PointView] = field(default_factory=list)
-    left_out: list[str] = field(default_factory=list)
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,7 +75,6 @@ def points_view(device: Device, names: Identifiers) -> PointsView:
     for point in device.points:
         group = groups.setdefault(point.group, GroupView(comment(point.group)))
         if not point.generated:
-            group.left_out.append(_left_out(point))
             continue
         group.points.append(_point(point, family, scope, errata))
         if point.variant is not None:
@@ -94,7 +92,7 @@ def points_view(device: Device, names: Identifiers) -> PointsView:
         blocks="" if blocks is None else laid_out(blocks, 4),
         variants=laid_out(assigned("VARIANTS: ClassVar", variants(device)), 4) if device.variants else "",
         documented=laid_out(assigned("DOCUMENTED: ClassVar", Group("{", documented, "}")), 4) if documented else "",
-        groups=[group for group in groups.values() if group.points or group.left_out],
+        groups=[group for group in groups.values() if group.points],
         commands=made,
         codes=tuple(laid_out(one, 0) for one in scope.codes.values()),
     )
@@ -207,10 +205,6 @@ def _doc(point: Point, errata: Collection[str], by_name: Mapping[str, Point]) ->
 def _wrapped(text: str) -> list[str]:
     """Docstring text in lines that fit below an attribute; most of it does so as it is."""
     return [text] if len(text) <= _DOC else textwrap.wrap(text, _DOC, break_long_words=False, break_on_hyphens=False)
-
-
-def _left_out(point: Point) -> str:
-    return comment(f"{_labelled(point)} is only documented: {point.reason or 'no reason given'}")
 
 
 def _labelled(point: Point) -> str:

@@ -39,6 +39,9 @@ def _shown(value: object) -> str:
         return "a number of thousands of digits"
 
 
+_SPECIALISED = frozenset({"decode", "decoder", "encode", "encoder", "sure_decoder"})
+
+
 class Point:
     """One addressable datum. Its methods need no device; what can be read or written comes with the subclasses."""
 
@@ -52,6 +55,10 @@ class Point:
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__} {self.label}: {self.facts.where}>"
+
+    def __getstate__(self) -> dict[str, Any]:
+        """What makes the point, without the functions that are specialised for it: a copy makes its own."""
+        return {name: value for name, value in self.__dict__.items() if name not in _SPECIALISED}
 
     @property
     def wire(self) -> Type:

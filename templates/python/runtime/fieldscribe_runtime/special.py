@@ -67,11 +67,12 @@ class Codes:
         return self._made(name, low)
 
     def __getattr__(self, name: str) -> Special:
+        if name not in self.__dict__.get("_spans", ()):  # which a copy has not from the beginning
+            raise AttributeError(f"there is no special code {name}")
         try:
             return self[name]
         except KeyError as error:
-            text = error.args[0] if name in self._spans else f"there is no special code {name}"
-            raise AttributeError(text) from None
+            raise AttributeError(error.args[0]) from None
 
     def __iter__(self) -> Iterator[str]:
         """The names."""
