@@ -141,33 +141,39 @@ class Floating(Form[float, float]):
     def __init__(self, wire: Type, *, units: tuple[tuple[float, float], ...] = ()) -> None:
         self.wire = wire
         self.units = units
-        self._number, self._word = _BINARY32 if wire.bits == 32 else _BINARY64
         self._limits = tuple((self._nearest(low), self._nearest(high)) for low, high in units)
+
+    @property
+    def _structs(self) -> tuple[struct.Struct, struct.Struct]:
+        """What takes the bits for a number, and for an integer."""
+        return _BINARY32 if self.wire.bits == 32 else _BINARY64
 
     def quick_decode(self, low: int, high: int, slow: Way) -> Way:
         """The number that the bits are."""
-        return from_pattern(self._number, self._word, high, slow)
+        return from_pattern(*self._structs, high, slow)
 
     def quick_encode(self, allowed: Allowed, slow: Way) -> Way:
         """The nearest number of the type within one pair of limits, or any finite one."""
         if len(self._limits) > 1:
             return slow
         low, high = self._limits[0] if self._limits else (-sys.float_info.max, sys.float_info.max)
-        return to_pattern(self._number, self._word, low, high, slow)
+        return to_pattern(*self._structs, low, high, slow)
 
     def decode(self, raw: int, raws: Raws) -> float:
         """The number that the bits are."""
-        value: float = self._number.unpack(self._word.pack(raw))[0]
+        number, word = self._structs
+        value: float = number.unpack(word.pack(raw))[0]
         return value
 
     def converted(self, value: float, raws: Raws) -> int | None:
         """The nearest number of the type, ties to even, if that is finite."""
-        number = self._nearest(value)
-        if math.isnan(number):
+        nearest = self._nearest(value)
+        if math.isnan(nearest):
             raise NotANumberError("the value is NaN")
-        if math.isinf(number):
+        if math.isinf(nearest):
             return None
-        pattern: int = self._word.unpack(self._number.pack(number))[0]
+        number, word = self._structs
+        pattern: int = word.unpack(number.pack(nearest))[0]
         return pattern
 
     def _nearest(self, value: float) -> float:
@@ -175,10 +181,11 @@ class Floating(Form[float, float]):
         try:
             if _is_nan(value):
                 return math.nan
-            number: float = self._number.unpack(self._number.pack(value))[0]
+            number, _ = self._structs
+            nearest: float = number.unpack(number.pack(value))[0]
         except OverflowError:
             return math.inf if value > 0 else -math.inf
-        return number
+        return nearest
 
     def _fits(self, number: float) -> bool:
         if math.isnan(number):
