@@ -69,6 +69,8 @@ def check_scales(package: Package) -> None:
         assert (way(raw), fast.unchecked(line)(raw, {}), fast.unchecked(line)(-raw, {}) < 0) == (value, value, True)
         assert way(9) > value
         assert _is_slow(way, 4, 10, 5.0, True)
+        divides = line[:2] == (1, 0)  # which takes a function of its own
+        assert [made.__name__ == "decode" for made in (way, fast.unchecked(line))] == [divides, divides]
 
 
 def check_steps(package: Package) -> None:
