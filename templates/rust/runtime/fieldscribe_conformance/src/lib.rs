@@ -30,7 +30,7 @@ use std::task::{Context, Poll, Wake, Waker};
 
 use fieldscribe_runtime::{
     BitGroup, Code, Coded, CountReadable, CountWritable, Decoded, Documented, Encodable, Error,
-    Flags, Point, Raw, Readable, Reading, Space, Text, Whole, Writable,
+    Flags, Point, Raw, Readable, Reading, Refused, Space, Text, Whole, Writable,
 };
 
 /// Numberings of a point, and what it is in them.
@@ -275,10 +275,38 @@ impl<'a> Vector<'a> {
     }
 
     /// Whether the status, and what is expected beside it, are what came out.
-    fn expect<T: Number>(&self, found: Result<T, Error>, key: &str) -> Outcome {
+    fn expect<T: Number>(&self, found: Result<T, Error>, key: &str, gaps: bool) -> Outcome {
+        self.refuses(found.as_ref().err().copied(), gaps)?;
         let status = found.as_ref().map_or_else(|error| error.name(), |_| "ok");
         same(self.text("status").as_str(), status)?;
         same(self.number(key), found.ok().map(Number::to_number))
+    }
+
+    /// Whether an error tells the point, what was given, and limits beyond which that is, if there are no gaps in them.
+    fn refuses(&self, error: Option<Error>, gaps: bool) -> Outcome {
+        let refused = match error {
+            Some(Error::OutOfRange(refused)) => refused,
+            Some(error) => {
+                let point = error.refused().map(|refused| refused.point().to_owned());
+                return same(point.as_ref().map(|_| self.text("point")), point);
+            }
+            None => return Ok(()),
+        };
+        same(self.text("point").as_str(), refused.point())?;
+        let (ordered, beyond) = match refused {
+            Refused::Value(outside) => {
+                let asked = self.field("value").map(|_| self.float());
+                same(asked.unwrap_or(outside.given), outside.given)?;
+                ends(outside.given, outside.low, outside.high)
+            }
+            Refused::Count(outside) => {
+                same(self.number("count"), Some(outside.given.into()))?;
+                ends(outside.given, outside.low, outside.high)
+            }
+            Refused::Raw(outside) => ends(outside.given, outside.low, outside.high),
+            _ => (true, true),
+        };
+        same((true, true), (ordered || gaps, beyond || gaps))
     }
 
     /// Whether what was read (a value, or the name of a special code) has the status, the code and the value expected.
@@ -322,6 +350,11 @@ impl<'a> Vector<'a> {
         }
         Ok(())
     }
+}
+
+/// Whether the ends are in order, and whether a number is beyond them.
+fn ends<T: PartialOrd>(given: T, low: T, high: T) -> (bool, bool) {
+    (low <= high, given < low || given > high)
 }
 
 /// A text with its escapes undone; a percent sign alone is an empty one.
@@ -496,7 +529,7 @@ where
     P: Encodable<Raw: Number, Value: Meaning<f64>>,
 {
     let found = P::encode_with(P::Value::of(vector.float()), with);
-    vector.expect(found, "raw")
+    vector.expect(found, "raw", !P::CONTIGUOUS)
 }
 
 /// A raw number to a count.
@@ -529,7 +562,7 @@ where
         return same(vector.text("status").as_str(), "out_of_range");
     };
     let found = P::encode_count_with(count, with);
-    vector.expect(found, "raw")
+    vector.expect(found, "raw", !P::CONTIGUOUS)
 }
 
 /// A count to a raw number, and the value that has that number.
@@ -539,7 +572,7 @@ where
 {
     if let Some(raw) = vector.number("count").and_then(P::Raw::from_number) {
         let found = P::encode_with(P::Value::from(raw), with);
-        vector.expect(found, "raw")?;
+        vector.expect(found, "raw", !P::CONTIGUOUS)?;
     }
     encode_count::<P>(vector, with)
 }
@@ -564,7 +597,7 @@ where
 {
     if let Some(raw) = vector.number("count").and_then(P::Raw::from_number) {
         let found = P::encode_with(P::Value::of_raw(raw), with);
-        vector.expect(found, "raw")?;
+        vector.expect(found, "raw", !P::CONTIGUOUS)?;
     }
     encode_count::<P>(vector, with)
 }
@@ -572,6 +605,7 @@ where
 /// Whether a raw number may be written.
 pub fn check<P: Writable<Raw: Number>>(vector: &Vector, with: P::With) -> Outcome {
     let found = P::check_with(vector.raw("raw"), with);
+    vector.refuses(found.err(), !P::CONTIGUOUS)?;
     same(
         vector.text("status").as_str(),
         found.map_or_else(Error::name, |()| "ok"),
@@ -828,7 +862,7 @@ where
     let numbers: Vec<C> = vector.numbers("digits");
     let digits: Vec<E> = numbers.into_iter().map(E::from).collect();
     let digits = <[E; N]>::try_from(digits).map_err(|_| "there are other digits".to_owned())?;
-    vector.expect(P::encode(digits), "raw")
+    vector.expect(P::encode(digits), "raw", true)
 }
 
 /// As `digits_encode`, for a point that has special codes.
@@ -841,7 +875,7 @@ where
     let numbers: Vec<C> = vector.numbers("digits");
     let digits: Vec<E> = numbers.into_iter().map(E::from).collect();
     let digits = <[E; N]>::try_from(digits).map_err(|_| "there are other digits".to_owned())?;
-    vector.expect(P::encode(Reading::Value(digits)), "raw")
+    vector.expect(P::encode(Reading::Value(digits)), "raw", true)
 }
 
 /// A transport that expects what the script of a vector says is sent, in any order, and answers as it says.
