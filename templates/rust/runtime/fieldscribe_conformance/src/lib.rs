@@ -352,9 +352,9 @@ impl<'a> Vector<'a> {
     }
 }
 
-/// Whether the ends are in order, and whether a number is beyond them.
-fn ends<T: PartialOrd>(given: T, low: T, high: T) -> (bool, bool) {
-    (low <= high, given < low || given > high)
+/// Whether the ends are in order, and whether a number is beyond them, or is one that was rounded to it.
+fn ends<T: PartialOrd + Copy>(given: T, low: T, high: T) -> (bool, bool) {
+    (low <= high, given <= low || given >= high)
 }
 
 /// A text with its escapes undone; a percent sign alone is an empty one.

@@ -114,13 +114,19 @@ const fn is_within<C: Count>(number: i64, low: i128, high: i128) -> bool {
 }
 
 /// What is said of a count that becomes no raw number within reach.
+#[allow(
+    clippy::cast_possible_truncation,
+    reason = "counts have 64 bits at most"
+)]
 #[cold]
 fn outside<P: FixedScale, C: Count>(given: i64) -> Error {
-    let decode = Settled::<P, C>::DECODE;
-    let (one, other) = (
-        decode.run(P::RAW_MIN.to_i64()),
-        decode.run(P::RAW_MAX.to_i64()),
-    );
+    let decode = |raw: P::Raw| Settled::<P, C>::DECODE.run(raw.to_i64());
+    let (one, other) = if P::REACH == (P::RAW_MIN.to_i128(), P::RAW_MAX.to_i128()) {
+        let (low, high) = Settled::<P, C>::COUNTS;
+        (low as i64, high as i64)
+    } else {
+        (decode(P::RAW_MIN), decode(P::RAW_MAX))
+    };
     Error::OutOfRange(Refused::Count(Outside {
         point: P::NAME,
         given,
