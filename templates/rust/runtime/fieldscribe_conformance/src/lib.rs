@@ -529,7 +529,7 @@ where
     P: Encodable<Raw: Number, Value: Meaning<f64>>,
 {
     let found = P::encode_with(P::Value::of(vector.float()), with);
-    vector.expect(found, "raw", !P::CONTIGUOUS)
+    vector.expect(found, "raw", !P::IS_CONTIGUOUS)
 }
 
 /// A raw number to a count.
@@ -562,7 +562,7 @@ where
         return same(vector.text("status").as_str(), "out_of_range");
     };
     let found = P::encode_count_with(count, with);
-    vector.expect(found, "raw", !P::CONTIGUOUS)
+    vector.expect(found, "raw", !P::IS_CONTIGUOUS)
 }
 
 /// A count to a raw number, and the value that has that number.
@@ -572,7 +572,7 @@ where
 {
     if let Some(raw) = vector.number("count").and_then(P::Raw::from_number) {
         let found = P::encode_with(P::Value::from(raw), with);
-        vector.expect(found, "raw", !P::CONTIGUOUS)?;
+        vector.expect(found, "raw", !P::IS_CONTIGUOUS)?;
     }
     encode_count::<P>(vector, with)
 }
@@ -597,7 +597,7 @@ where
 {
     if let Some(raw) = vector.number("count").and_then(P::Raw::from_number) {
         let found = P::encode_with(P::Value::of_raw(raw), with);
-        vector.expect(found, "raw", !P::CONTIGUOUS)?;
+        vector.expect(found, "raw", !P::IS_CONTIGUOUS)?;
     }
     encode_count::<P>(vector, with)
 }
@@ -605,7 +605,7 @@ where
 /// Whether a raw number may be written.
 pub fn check<P: Writable<Raw: Number>>(vector: &Vector, with: P::With) -> Outcome {
     let found = P::check_with(vector.raw("raw"), with);
-    vector.refuses(found.err(), !P::CONTIGUOUS)?;
+    vector.refuses(found.err(), !P::IS_CONTIGUOUS)?;
     same(
         vector.text("status").as_str(),
         found.map_or_else(Error::name, |()| "ok"),

@@ -19,10 +19,10 @@ pub fn within<P: Writable>(raw: P::Raw) -> Result<(), Error> {
 /// As [`within`].
 #[inline]
 pub fn listed<P: Writable>(raw: P::Raw, is_listed: bool) -> Result<(), Error> {
-    let kept = P::GROUPED || P::FIXED_MASK == 0 || with_fixed_bits::<P>(raw) == raw;
+    let kept = P::IS_GROUPED || P::FIXED_MASK == 0 || with_fixed_bits::<P>(raw) == raw;
     if is_listed && kept {
         Ok(())
-    } else if P::CLOSED && kept {
+    } else if P::IS_CLOSED && kept {
         Err(unknown::<P>(raw.to_i64()))
     } else {
         Err(outside::<P>(raw, P::RAW_MIN.to_i64(), P::RAW_MAX.to_i64()))
@@ -55,7 +55,7 @@ pub fn limited<P: Writable>(raw: P::Raw, ranges: &[(i64, i64)]) -> Result<(), Er
 #[must_use]
 #[inline]
 pub fn with_fixed_bits<P: Point>(raw: P::Raw) -> P::Raw {
-    if P::GROUPED || P::FIXED_MASK == 0 {
+    if P::IS_GROUPED || P::FIXED_MASK == 0 {
         return raw;
     }
     let mut words = raw.into_words();
@@ -98,7 +98,7 @@ pub(crate) fn unknown<P: Point>(given: i64) -> Error {
 /// What is said of a number that the raw type does not hold.
 #[must_use]
 pub(crate) fn beyond<P: Writable>(number: i128) -> Error {
-    if P::CLOSED {
+    if P::IS_CLOSED {
         return unknown::<P>(saturated(number));
     }
     let (point, given) = (P::NAME, saturated(number));

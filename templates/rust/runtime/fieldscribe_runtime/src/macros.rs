@@ -84,7 +84,7 @@ macro_rules! point {
             $(const DECIMALS: u32 = $decimals;)?
             $(const RAW_MIN: $raw = $low; const RAW_MAX: $raw = $high;)?
             $(
-                const GROUPED: bool = true;
+                const IS_GROUPED: bool = true;
 
                 #[inline]
                 fn from_words([word]: [u16; 1]) -> $raw {
@@ -174,7 +174,7 @@ macro_rules! point {
     )) => {
         impl $crate::Scaled for $name {
             type Factors = $factors;
-            $(const WIDE: bool = $wide;)?
+            $(const IS_WIDE: bool = $wide;)?
             $(
                 #[inline]
                 fn is_beyond(raw: Self::Raw) -> bool {
@@ -190,8 +190,8 @@ macro_rules! point {
     };
     (@form $form:ident $name:ident $kind:ident $reach:tt ()) => {};
 
-    (@reach value ($low:literal $high:literal)) => { const REACH: (i128, i128) = ($low, $high); };
-    (@reach value_or_error ($low:literal $high:literal)) => { const REACH: (i128, i128) = ($low, $high); };
+    (@reach value ($low:literal $high:literal)) => { const RAW_REACH: (i128, i128) = ($low, $high); };
+    (@reach value_or_error ($low:literal $high:literal)) => { const RAW_REACH: (i128, i128) = ($low, $high); };
     (@reach $kind:ident $reach:tt) => {};
 
     (@codes $name:ident $raw:ty, ($all:path)) => {
@@ -269,9 +269,9 @@ macro_rules! point {
             type With = $crate::point!(@first $($with,)? (),);
             $(const WRITE_FUNCTION: Option<u8> = Some($function);)?
             $(const WRITE_ADDRESS: u16 = $address;)?
-            $(const CLOSED: bool = $closed;)?
-            $(const CONTIGUOUS: bool = $crate::point!(@no $allowed);)?
-            $(const CONTIGUOUS: bool = $crate::point!(@no $limits);)?
+            $(const IS_CLOSED: bool = $closed;)?
+            $(const IS_CONTIGUOUS: bool = $crate::point!(@no $allowed);)?
+            $(const IS_CONTIGUOUS: bool = $crate::point!(@no $limits);)?
 
             #[inline]
             fn check_with(raw: $raw, with: Self::With) -> Result<(), $crate::Error> {

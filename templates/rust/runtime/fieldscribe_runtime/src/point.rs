@@ -106,7 +106,7 @@ pub trait Point {
     const RAW_MAX: Self::Raw = <Self::Raw as Raw>::MAX;
 
     /// Whether the point is a group of bits in a word which it shares with others.
-    const GROUPED: bool = false;
+    const IS_GROUPED: bool = false;
 
     /// The raw number from the point's words, in the order of their addresses.
     #[inline]
@@ -187,7 +187,7 @@ pub trait FixedScale: Point {
     /// The scale.
     const SCALE: Scale;
     /// The least and the greatest raw number that a value may become, special codes and all.
-    const REACH: (i128, i128) = <Self::Raw as Raw>::ENDS;
+    const RAW_REACH: (i128, i128) = <Self::Raw as Raw>::ENDS;
 }
 
 /// A point whose numbers, or whose digits, have names.
@@ -202,7 +202,7 @@ pub trait Scaled: Point {
     type Factors: Copy + Send;
 
     /// Whether it takes divisions of 128 bits to tell a value.
-    const WIDE: bool = false;
+    const IS_WIDE: bool = false;
 
     /// Whether the raw number is too large for the scale.
     #[must_use]
@@ -268,9 +268,9 @@ pub trait Writable: Point {
     /// The address that takes the point.
     const WRITE_ADDRESS: u16 = Self::ADDRESS;
     /// Whether the numbers that have names, or the digits that a word may have, are all that is taken.
-    const CLOSED: bool = false;
+    const IS_CLOSED: bool = false;
     /// Whether every number from [`Point::RAW_MIN`] to [`Point::RAW_MAX`] may be written.
-    const CONTIGUOUS: bool = Self::GROUPED || Self::FIXED_MASK == 0;
+    const IS_CONTIGUOUS: bool = Self::IS_GROUPED || Self::FIXED_MASK == 0;
 
     /// Whether the raw number may be written.
     ///

@@ -16,7 +16,7 @@ pub fn decode<P: Scaled, V: From<f64>>(raw: P::Raw, with: P::Factors) -> Result<
     if P::is_beyond(raw) {
         return Err(Error::Overflow);
     }
-    let value = if P::WIDE {
+    let value = if P::IS_WIDE {
         rule.decode_wide(raw.to_i128())
     } else {
         rule.decode(raw.to_i64())

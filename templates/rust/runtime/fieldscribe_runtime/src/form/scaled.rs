@@ -25,7 +25,7 @@ impl<P: FixedScale, C: Count> Settled<P, C> {
     const LINE: Line = P::SCALE.encoding(Self::PER_UNIT);
     /// The counts that the type holds and that become raw numbers within reach.
     const COUNTS: (i128, i128) = {
-        let (low, high) = Self::LINE.reach(P::REACH.0, P::REACH.1);
+        let (low, high) = Self::LINE.reach(P::RAW_REACH.0, P::RAW_REACH.1);
         let (least, most) = C::ENDS;
         (
             if low < least { least } else { low },
@@ -87,7 +87,7 @@ pub fn encode_count<P: FixedScale + Writable, C: Count>(
     }
     let raw = P::Raw::truncated(Settled::<P, C>::ENCODE.run(number));
     let all = (P::RAW_MIN.to_i128(), P::RAW_MAX.to_i128());
-    if P::CONTIGUOUS && P::REACH == all {
+    if P::IS_CONTIGUOUS && P::RAW_REACH == all {
         return Ok(raw);
     }
     match P::check_with(raw, with) {
@@ -121,7 +121,7 @@ const fn is_within<C: Count>(number: i64, low: i128, high: i128) -> bool {
 #[cold]
 fn outside<P: FixedScale, C: Count>(given: i64) -> Error {
     let decode = |raw: P::Raw| Settled::<P, C>::DECODE.run(raw.to_i64());
-    let (one, other) = if P::REACH == (P::RAW_MIN.to_i128(), P::RAW_MAX.to_i128()) {
+    let (one, other) = if P::RAW_REACH == (P::RAW_MIN.to_i128(), P::RAW_MAX.to_i128()) {
         let (low, high) = Settled::<P, C>::COUNTS;
         (low as i64, high as i64)
     } else {
