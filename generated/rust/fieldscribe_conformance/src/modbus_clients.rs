@@ -12,12 +12,11 @@ use fieldscribe_runtime::modbus::{
 use fieldscribe_runtime::{BitGroup, Error, Space, Whole};
 
 use super::now;
-use super::runtime::{at_once, tells, Line, Lost};
+use super::runtime::{at_once, tells, Line, Lost, REFUSED};
 
 made_up!(Word u16, Holding 0x10, &[0x10], 1);
 made_up!(Long u32, Holding 0x20, &[0x20, 0x21], 2);
 made_up!(Group u16, Holding 0x30, &[0x30], 1);
-made_up!(Last u16, Holding 0xFFFF, &[0xFFFF], 1);
 made_up!(Beyond u32, Holding 0xFFFF, &[0xFFFF], 2);
 made_up!(Relay bool, Coil 0x40, &[0x40], 1);
 
@@ -483,7 +482,7 @@ macro_rules! conversations {
             assert_eq!(client.transport().space, 260);
             assert_eq!(
                 $wait(client.read::<Word>()),
-                Err(ClientError::Point(Error::OutOfRange))
+                Err(ClientError::Point(REFUSED))
             );
             client.into_transport().done();
         }
@@ -510,7 +509,7 @@ macro_rules! conversations {
             assert_eq!($wait(client.write_with::<Word>(7, ())), long);
             let refused = Err(ClientError::Reply(ReplyError::Exception(2)));
             assert_eq!($wait(client.write::<Word>(8)), refused);
-            let wrong = Err(ClientError::Point(Error::OutOfRange));
+            let wrong = Err(ClientError::Point(REFUSED));
             assert_eq!($wait(client.write::<Word>(0xFFFF)), wrong);
             assert_eq!($wait(client.update::<Group>(0xFFFF)), wrong);
             assert_eq!($wait(client.update::<Group>(7)), lost);

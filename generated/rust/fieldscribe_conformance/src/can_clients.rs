@@ -14,7 +14,7 @@ use fieldscribe_runtime::can::{
 use fieldscribe_runtime::{BitGroup, Error, Whole};
 
 use super::now;
-use super::runtime::{at_once, tells, Lost};
+use super::runtime::{at_once, tells, Lost, REFUSED};
 
 made_up!(Word u16, Parameter 0x0102, &[0x0102], 1);
 made_up!(Long u32, Parameter 0x0201, &[0x0202, 0x0201], 2);
@@ -383,7 +383,7 @@ fn receivers() {
     assert_eq!(receiver.raw::<Whole3>(), Ok(0x0008_0007));
     assert_eq!(receiver.raw::<Date>(), Ok(0x0506_0007_0008_0009));
     assert!(receiver.take(&part(0, [0, 0xFFFF, 0])));
-    let wrong = ReceiveError::Point(Error::OutOfRange);
+    let wrong = ReceiveError::Point(REFUSED);
     assert_eq!(
         (receiver.value::<Speed>(), receiver.value_with::<Speed>(())),
         (Err(wrong), Err(wrong))
@@ -530,7 +530,7 @@ macro_rules! conversations {
                 *heard,
                 [noise, answered(0x0102, 6), noise, answered(0x0103, 8)]
             );
-            let wrong = ClientError::Point(Error::OutOfRange);
+            let wrong = ClientError::Point(REFUSED);
             assert_eq!($wait(client.read::<Word>()), Err(wrong));
             assert_eq!($wait(client.read_with::<Long>(())), Ok(0x0001_0002));
             assert_eq!($wait(client.write::<Word>(8)), Ok(()));
@@ -596,7 +596,7 @@ macro_rules! conversations {
             assert_eq!($wait(client.receive::<Speed>()), Ok(5));
             assert_eq!(client.listener().raw::<Speed>(), Ok(5));
             assert_eq!($wait(client.receive_with::<Speed>(())), Ok(7));
-            let wrong = ClientError::Point(Error::OutOfRange);
+            let wrong = ClientError::Point(REFUSED);
             assert_eq!($wait(client.receive::<Speed>()), Err(wrong));
             assert_eq!($wait(client.receive::<Hours>()), Ok(0x0001_FFFF));
             let torn = ClientError::Telegram(ReceiveError::Missing);

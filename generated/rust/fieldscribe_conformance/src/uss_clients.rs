@@ -12,7 +12,7 @@ use fieldscribe_runtime::uss::{
 use fieldscribe_runtime::{BitGroup, Error, Point, Space, Whole};
 
 use super::now;
-use super::runtime::{at_once, tells, Line, Lost};
+use super::runtime::{at_once, tells, Line, Lost, REFUSED};
 
 made_up!(Word u16, Parameter 700, &[700], 1);
 made_up!(Long u32, Parameter 2001, &[2001], 2);
@@ -542,7 +542,7 @@ macro_rules! conversations {
                 step("12bc 0000 0000 0000 0000", "!"),
             ]);
             let mut client = $client::new(line, &PROFILE, Link::new(127, 1), 3);
-            let wrong = ClientError::Point(Error::OutOfRange);
+            let wrong = ClientError::Point(REFUSED);
             assert_eq!($wait(client.read::<Word>()), Ok(7));
             assert_eq!(client.transport().space, 256);
             assert_eq!($wait(client.read::<Word>()), Err(wrong));
@@ -606,8 +606,8 @@ macro_rules! conversations {
                 (Ok(0xB2), Ok(0x00C3_00B2))
             );
             assert_eq!(client.heard::<Far>(), Err(Error::WrongLength));
-            assert_eq!(client.set::<Speed>(0xFFFF), Err(Error::OutOfRange));
-            assert_eq!(client.set_bits::<Jog>(0xFFFF), Err(Error::OutOfRange));
+            assert_eq!(client.set::<Speed>(0xFFFF), Err(REFUSED));
+            assert_eq!(client.set_bits::<Jog>(0xFFFF), Err(REFUSED));
             assert_eq!(client.set::<Far>(1), Err(Error::WrongLength));
             assert_eq!(client.set_word(3, 1), Err(Error::WrongLength));
             assert_eq!(client.words(), [0, 0, 0]);
@@ -624,7 +624,7 @@ macro_rules! conversations {
             // Words that the drive has already stay when an answer is lost.
             assert_eq!($wait(client.cycle()), Err(lost));
             assert_eq!(client.words(), [0, 9, 8]);
-            let wrong = ClientError::Point(Error::OutOfRange);
+            let wrong = ClientError::Point(REFUSED);
             assert_eq!($wait(client.receive_with::<Speed>(())), Err(wrong));
             assert_eq!(client.set_word(2, 1), Ok(()));
             let short = ClientError::Reply(ParseError::WrongLength);

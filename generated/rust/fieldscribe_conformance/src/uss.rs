@@ -7,29 +7,20 @@ use fieldscribe_runtime::uss::{
 };
 use fieldscribe_runtime::{BitGroup, Decoded, Encodable, Error, Readable, Whole, Writable};
 
+pub use super::uss_clients::check;
 use super::{exchanged, now, same, Number, Outcome, Script, Vector};
 
 /// The same operation with the client that blocks and the one that does not, each over a script of its own.
 macro_rules! both {
     ($vector:ident, $profile:ident, |$client:ident| $call:expr) => {{
         let found = {
-            let mut $client = Client::new(
-                Script::new($vector),
-                $profile,
-                link($vector),
-                $vector.raw("unit"),
-            );
+            let mut $client = blocking($vector, $profile);
             let found = $call;
             let script = $client.into_transport();
             exchanged($vector, found, name, &script)?
         };
         let again = {
-            let mut $client = AsyncClient::new(
-                Script::new($vector),
-                $profile,
-                link($vector),
-                $vector.raw("unit"),
-            );
+            let mut $client = waiting($vector, $profile);
             let found = now($call);
             let script = $client.into_transport();
             exchanged($vector, found, name, &script)?
@@ -37,6 +28,24 @@ macro_rules! both {
         same(true, found == again)?;
         found
     }};
+}
+
+fn blocking(vector: &Vector, profile: &'static Profile) -> Client<Script> {
+    Client::new(
+        Script::new(vector),
+        profile,
+        link(vector),
+        vector.raw("unit"),
+    )
+}
+
+fn waiting(vector: &Vector, profile: &'static Profile) -> AsyncClient<Script> {
+    AsyncClient::new(
+        Script::new(vector),
+        profile,
+        link(vector),
+        vector.raw("unit"),
+    )
 }
 
 /// A request into bytes. What a value cannot be in Rust is refused here.

@@ -9,6 +9,7 @@ use fieldscribe_runtime::can::{
 };
 use fieldscribe_runtime::{BitGroup, Decoded, Encodable, Error, Readable, Whole, Writable};
 
+pub use super::can_clients::check;
 use super::{bytes, exchanged, now, same, Number, Outcome, Script, Vector};
 
 /// The same operation with the client that blocks and the one that does not, each over a script of its own.

@@ -6,12 +6,13 @@
 use std::collections::VecDeque;
 use std::fmt;
 
-use fieldscribe_runtime::arithmetic::{self, Rule};
+use fieldscribe_runtime::arithmetic;
 use fieldscribe_runtime::client::{AsyncTransport, Transport};
 use fieldscribe_runtime::flags::{show, Flag, Flags};
+use fieldscribe_runtime::form::floating::Pattern;
 use fieldscribe_runtime::{
-    digits, factor, in_address_order, in_reading_order, listed, quantity, text, written, Code,
-    Coded, Digits, Error, Raw, Reading, Space, Special, Text, Whole,
+    digits, in_address_order, in_reading_order, quantity, text, written, Code, Coded, Digits,
+    Error, Outside, Raw, Reading, Refused, Rule, Space, Special, Text, Whole,
 };
 
 /// A point that is a plain number; the greatest of its type may not be.
@@ -35,8 +36,7 @@ macro_rules! made_up {
             type Output<V> = Result<V, fieldscribe_runtime::Error>;
 
             fn decode_with(raw: $raw, (): ()) -> Result<$raw, fieldscribe_runtime::Error> {
-                fieldscribe_runtime::allowed(raw != <$raw as fieldscribe_runtime::Raw>::MAX)
-                    .map(|()| raw)
+                <Self as fieldscribe_runtime::Writable>::check_with(raw, ()).map(|()| raw)
             }
         }
 
@@ -44,7 +44,11 @@ macro_rules! made_up {
             type With = ();
 
             fn check_with(raw: $raw, (): ()) -> Result<(), fieldscribe_runtime::Error> {
-                fieldscribe_runtime::allowed(raw != <$raw as fieldscribe_runtime::Raw>::MAX)
+                if raw == <$raw as fieldscribe_runtime::Raw>::MAX {
+                    Err(super::runtime::REFUSED)
+                } else {
+                    Ok(())
+                }
             }
         }
 
@@ -55,6 +59,14 @@ macro_rules! made_up {
         }
     };
 }
+
+/// What made-up points say of the greatest number.
+pub const REFUSED: Error = Error::OutOfRange(Refused::Raw(Outside {
+    point: "made_up",
+    given: 7,
+    low: 0,
+    high: 6,
+}));
 
 /// What a transport says when nothing came.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,8 +80,9 @@ impl fmt::Display for Lost {
 
 impl std::error::Error for Lost {}
 
-/// A line on which this is sent in this order, and that comes back; a question mark is no answer in time, an exclamation
-/// mark one that is longer than its space.
+/// A line on which this is sent in this order, and that comes back.
+///
+/// A question mark is no answer in time, an exclamation mark one that is longer than its space.
 pub struct Line {
     steps: VecDeque<(Vec<u8>, String)>,
     /// The space that was there for the last answer.
@@ -148,14 +161,49 @@ pub fn check() {
     texts();
 }
 
+const COUNT: Outside<i64> = Outside {
+    point: "speed",
+    given: -5,
+    low: 1,
+    high: 9,
+};
+
 fn errors() {
+    assert_eq!(
+        (
+            REFUSED.refused().map(Refused::point),
+            Error::NoCase.refused()
+        ),
+        (Some("made_up"), None)
+    );
     tells(
         Error::name,
         &[
+            (REFUSED, "out_of_range", "made_up: raw 7 is outside 0 to 6"),
             (
-                Error::OutOfRange,
+                Error::OutOfRange(Refused::Count(COUNT)),
                 "out_of_range",
-                "the raw number is outside what is allowed",
+                "speed: count -5 is outside 1 to 9",
+            ),
+            (
+                Error::OutOfRange(Refused::Value(Outside {
+                    point: "level",
+                    given: 7.5,
+                    low: -1.0,
+                    high: 2.5,
+                })),
+                "out_of_range",
+                "level: 7.5 is outside -1 to 2.5",
+            ),
+            (
+                Error::UnknownValue(Refused::Raw(COUNT)),
+                "unknown_value",
+                "speed: nothing has the number -5",
+            ),
+            (
+                Error::BadText,
+                "out_of_range",
+                "the text is too long, or has a character that is none of its encoding",
             ),
             (
                 Error::NotANumber,
@@ -163,7 +211,7 @@ fn errors() {
                 "the value is not a number",
             ),
             (
-                Error::UnknownValue,
+                Error::UnknownValue(Refused::Count(COUNT)),
                 "unknown_value",
                 "the enum has no such number",
             ),
@@ -245,21 +293,21 @@ fn rounding() {
     for dividend in -20_i8..20 {
         let away = |half: i8| dividend.signum() * ((dividend.abs() + half) / (2 * half));
         assert_eq!(
-            arithmetic::div_round_i32::<8>(dividend.into()),
+            arithmetic::div_round_i64(dividend.into(), 8),
             away(4).into()
         );
         assert_eq!(
-            arithmetic::div_round_i64::<6>(dividend.into()),
+            arithmetic::div_round_i64(dividend.into(), 6),
             away(3).into()
         );
         assert_eq!(
-            arithmetic::div_round_i128::<4>(dividend.into()),
+            arithmetic::div_round_i128(dividend.into(), 4),
             away(2).into()
         );
     }
-    assert_eq!(arithmetic::div_round_i32::<1>(i32::MIN), i32::MIN);
-    assert_eq!(arithmetic::div_round_i64::<3>(8), 3);
-    assert_eq!(arithmetic::div_round_i32::<0>(8), 0);
+    assert_eq!(arithmetic::div_round_i64(i64::MIN, 1), i64::MIN);
+    assert_eq!(arithmetic::div_round_i64(8, 3), 3);
+    assert_eq!(arithmetic::div_round_i64(8, 0), 0);
     assert_eq!(arithmetic::to_f64(-3).to_bits(), (-3.0_f64).to_bits());
     for (dividend, divisor, value) in [
         (0, 7, 0.0),
@@ -280,20 +328,12 @@ fn rounding() {
 }
 
 fn bits() {
-    assert_eq!(
-        [0, 1, 2, -1].map(arithmetic::bit).map(Result::ok),
-        [Some(false), Some(true), None, None]
-    );
-    assert_eq!(
-        [1, 2, 5, 6].map(|one| arithmetic::within(one, 2, 5).is_ok()),
-        [false, true, true, false]
-    );
-    let exponents = [-3, -2, 4, 5].map(|raw| arithmetic::exponent(raw, -2, 4));
+    let exponents = [-3_i16, -2, 4, 5].map(|raw| arithmetic::exponent(raw, -2, 4));
     assert_eq!(
         exponents,
         [Err(Error::Overflow), Ok(-2), Ok(4), Err(Error::Overflow)]
     );
-    assert_eq!(arithmetic::line(5, -3, 7), Ok(-8));
+    assert_eq!(arithmetic::line(5_u16, -3, 7), Ok(-8));
     assert_eq!(arithmetic::line(i64::MAX, 2, 0), Err(Error::Overflow));
     assert_eq!(arithmetic::line(i64::MAX, 1, 1), Err(Error::Overflow));
     assert_eq!(arithmetic::extract(0xABCD, 4, 0x0FF0), 0xBC);
@@ -304,18 +344,6 @@ fn bits() {
     assert_eq!(arithmetic::extract_signed(0xF7FF, 16, 0xFFFF), 0);
     assert_eq!(arithmetic::insert(0xA5C3, 4, 0x0FF0, 0x1E7), 0xAE73);
     assert_eq!(arithmetic::insert(0xA5C3, 16, 0xFFFF, 1), 0xA5C3);
-    assert_eq!(arithmetic::narrow(-5), Ok(-5));
-    assert_eq!(arithmetic::narrow(1 << 63), Err(Error::Overflow));
-    assert_eq!(arithmetic::f32_bits(-0.1), Ok((-0.1_f32).to_bits()));
-    assert_eq!(arithmetic::f32_bits(f64::NAN), Err(Error::NotANumber));
-    assert_eq!(arithmetic::f32_bits(1e39), Err(Error::OutOfRange));
-    assert_eq!(arithmetic::f64_bits(-0.1), Ok((-0.1_f64).to_bits()));
-    assert_eq!(arithmetic::f64_bits(f64::NAN), Err(Error::NotANumber));
-    assert_eq!(arithmetic::f64_bits(f64::INFINITY), Err(Error::OutOfRange));
-    assert_eq!(arithmetic::f32_number(0xC060_0000), Ok(-3.5));
-    assert_eq!(arithmetic::f32_number(0x7FC0_0000), Err(Error::NotANumber));
-    assert_eq!(arithmetic::f64_number(0xC00C << 48), Ok(-3.5));
-    assert_eq!(arithmetic::f64_number(0x7FF8 << 48), Err(Error::NotANumber));
 }
 
 /// A type of raw numbers: its words, its ends, and what is rounded to it.
@@ -430,12 +458,12 @@ fn rule_with(
             )
         };
         let (total, by) = sum(raw, 10);
-        assert_eq!(rule.encode_count::<10>(raw), Ok(nearest(total, by)));
+        assert_eq!(rule.encode_count(raw, 10), Some(nearest(total, by)));
         let (total, by) = sum(1, 1);
         assert_eq!(rule.limit(), Ok(nearest(total, by)));
         let back = (raw * over - offset) * below;
         assert_eq!(
-            rule.decode_count::<10>(raw),
+            rule.decode_count(raw, 10),
             Ok(nearest(back * 10, above * over))
         );
         let value = rule.decode(raw).expect("a value");
@@ -452,7 +480,7 @@ fn rule_with(
 
 fn rules_at_their_ends() {
     let (one, most) = (Rule::new(1, 1), Rule::new(i64::MAX, 1));
-    let power = |exponent: i16| arithmetic::f32_bits(2_f64.powi(exponent.into())).expect("finite");
+    let power = |exponent: i16| u32::nearest(2_f64.powi(exponent.into()));
     let ten = (one.times(1000), one.over(1000));
     assert_eq!((one.times_ten_to(3), one.times_ten_to(-3)), ten);
     assert_eq!((one.over_ten_to(-3), one.over_ten_to(3)), ten);
@@ -490,57 +518,57 @@ fn rules_at_their_ends() {
         (nothing.limit(), nothing.decode(1)),
         (Ok(0), Err(Error::ZeroFactor))
     );
-    assert_eq!(nothing.decode_count::<1>(1), Err(Error::ZeroFactor));
+    assert_eq!(nothing.decode_count(1, 1), Err(Error::ZeroFactor));
     let nothing = nothing.times_f32(power(0)).expect("a limit");
     assert_eq!(
-        (nothing.limit(), nothing.decode_count::<1>(1)),
+        (nothing.limit(), nothing.decode_count(1, 1)),
         (Ok(0), Err(Error::ZeroFactor))
     );
     for end in [i64::MIN, -1, i64::MAX] {
         assert_eq!(
-            (one.encode_count::<1>(end), one.decode_count::<1>(end)),
-            (Ok(end), Ok(end))
+            (one.encode_count(end, 1), one.decode_count(end, 1)),
+            (Some(end), Ok(end))
         );
         let same = one.times_f32(power(0)).expect("a factor");
         assert_eq!(
-            (same.encode_count::<1>(end), same.decode_count::<1>(end)),
-            (Ok(end), Ok(end))
+            (same.encode_count(end, 1), same.decode_count(end, 1)),
+            (Some(end), Ok(end))
         );
     }
-    assert_eq!(most.encode_count::<1>(2), Err(Error::OutOfRange));
-    assert_eq!(most.plus(1, 1).encode_count::<1>(1), Err(Error::OutOfRange));
+    assert_eq!(most.encode_count(2, 1), None);
+    assert_eq!(most.plus(1, 1).encode_count(1, 1), None);
     assert_eq!(most.plus(1, 1).limit(), Err(Error::Overflow));
     assert_eq!(
-        Rule::new(1, 2).decode_count::<1>(i64::MAX),
+        Rule::new(1, 2).decode_count(i64::MAX, 1),
         Err(Error::Overflow)
     );
     assert_eq!(Rule::new(1, 2).decode(i64::MAX), Err(Error::Overflow));
     assert_eq!(one.plus(-1, 1).decode(i64::MAX), Err(Error::Overflow));
     assert_eq!(
-        Rule::new(-1, 1).decode_count::<1>(i64::MIN),
+        Rule::new(-1, 1).decode_count(i64::MIN, 1),
         Err(Error::Overflow)
     );
     let large = one.times_f32(power(63)).expect("a factor");
     assert_eq!(
-        (large.encode_count::<1>(1), large.limit()),
-        (Err(Error::OutOfRange), Err(Error::Overflow))
+        (large.encode_count(1, 1), large.limit()),
+        (None, Err(Error::Overflow))
     );
     assert_eq!(
-        (large.encode_count::<1>(-1), large.encode_count::<1>(0)),
-        (Ok(i64::MIN), Ok(0))
+        (large.encode_count(-1, 1), large.encode_count(0, 1)),
+        (Some(i64::MIN), Some(0))
     );
     let largest = one
         .times_f32(power(127))
         .and_then(|rule| rule.times_f32(power(127)))
         .expect("factors");
     assert_eq!(
-        (largest.encode_count::<1>(0), largest.encode_count::<1>(1)),
-        (Ok(0), Err(Error::OutOfRange))
+        (largest.encode_count(0, 1), largest.encode_count(1, 1)),
+        (Some(0), None)
     );
-    assert_eq!(largest.decode_count::<1>(i64::MAX), Ok(0));
+    assert_eq!(largest.decode_count(i64::MAX, 1), Ok(0));
     let divided = one.over_f32(power(63)).expect("a divisor");
     assert_eq!(
-        (divided.decode_count::<1>(-1), divided.decode_count::<1>(1)),
+        (divided.decode_count(-1, 1), divided.decode_count(1, 1)),
         (Ok(i64::MIN), Err(Error::Overflow))
     );
     for (count, offset, found) in [
@@ -556,16 +584,16 @@ fn rules_at_their_ends() {
             .plus(offset, 2)
             .times_f32(power(-149))
             .expect("a factor");
-        assert_eq!(tiny.encode_count::<1>(count), Ok(found));
+        assert_eq!(tiny.encode_count(count, 1), Some(found));
         let third = Rule::new(1, 3)
             .plus(offset, 2)
             .times_f32(power(-40))
             .expect("a factor");
-        assert_eq!(third.encode_count::<1>(count), Ok(found));
+        assert_eq!(third.encode_count(count, 1), Some(found));
     }
     let third = Rule::new(1, 3).times_f32(power(62)).expect("a factor");
-    assert_eq!(third.encode_count::<1>(1), Ok(1_537_228_672_809_129_301));
-    assert_eq!(third.encode_count::<1>(-2), Ok(-3_074_457_345_618_258_603));
+    assert_eq!(third.encode_count(1, 1), Some(1_537_228_672_809_129_301));
+    assert_eq!(third.encode_count(-2, 1), Some(-3_074_457_345_618_258_603));
     let repeated = |bits: u32| {
         (0..9)
             .try_fold(one, |rule, _| rule.times_f32(bits))
@@ -606,27 +634,26 @@ fn words_of_digits() {
     assert_eq!(digits::split(40_567), [405, 6, 7]);
     assert_eq!(digits::split::<0>(40_567), []);
     assert_eq!(digits::join::<Number>(&[5_u16, 0, 6]), Ok(506));
-    assert_eq!(
-        digits::join::<Number>(&[5_u16, 3]),
-        Err(Error::UnknownValue)
-    );
+    let unknown = |given| {
+        Err(Error::UnknownValue(Refused::Raw(Outside {
+            point: "Number",
+            given,
+            low: 0,
+            high: 65_535,
+        })))
+    };
+    assert_eq!(digits::join::<Number>(&[5_u16, 3]), unknown(3));
     assert_eq!(digits::join::<Number>(&[6_u16, 5, 5, 1, 6]), Ok(65_516));
+    assert_eq!(digits::join::<Number>(&[7_u16, 0, 0, 0, 0]), unknown(0));
+    assert_eq!(digits::join::<Number>(&[6_u16, 5, 5, 5, 0]), unknown(0));
+    assert_eq!(digits::join::<Number>(&[-1_i32]), unknown(-1));
     assert_eq!(
-        digits::join::<Number>(&[7_u16, 0, 0, 0, 0]),
-        Err(Error::UnknownValue)
+        digits::join::<Number>(&[i128::MAX, i128::MIN]),
+        unknown(i64::MAX)
     );
-    assert_eq!(
-        digits::join::<Number>(&[6_u16, 5, 5, 5, 0]),
-        Err(Error::UnknownValue)
-    );
-    assert_eq!(digits::join::<Number>(&[-1_i32]), Err(Error::UnknownValue));
     assert_eq!(digits::check::<Number, 2>(57), Ok(()));
-    assert_eq!(digits::check::<Number, 2>(37), Err(Error::UnknownValue));
-    assert_eq!(digits::check::<Number, 2>(53), Err(Error::UnknownValue));
-    assert_eq!(
-        (listed(true), listed(false)),
-        (Ok(()), Err(Error::UnknownValue))
-    );
+    let failed = |raw| digits::check::<Number, 2>(raw).map_err(Error::name);
+    assert_eq!([37, 53].map(failed), [Err("unknown_value"); 2]);
 }
 
 /// A word with a bit of each kind.
@@ -715,21 +742,20 @@ fn codes() {
         written::<Number>(Special::new("odd", 7)),
         Err(Error::Special)
     );
+    let wrong = [("odd", 11), ("band", 13)]
+        .map(|(name, raw)| written::<Number>(Special::writable(name, raw)));
     assert_eq!(
-        written::<Number>(Special::writable("odd", 11)),
-        Err(Error::UnknownValue)
-    );
-    assert_eq!(
-        written::<Number>(Special::writable("band", 13)),
-        Err(Error::UnknownValue)
+        wrong.map(|found| found.map_err(Error::name)),
+        [Err("unknown_value"); 2]
     );
     assert_eq!(
         (quantity::<Number>(7), quantity::<Number>(8)),
         (Err(Error::Special), Ok(8))
     );
+    let rule = Rule::new(1, 1);
     assert_eq!(
-        (factor(true), factor(false)),
-        (Ok(()), Err(Error::ZeroFactor))
+        (rule.unless(false), rule.unless(true)),
+        (Ok(rule), Err(Error::ZeroFactor))
     );
     let (value, code): (Reading<u16, u16>, _) =
         (Reading::from(5), Reading::Special::<u16, u16>(band));
@@ -761,9 +787,9 @@ fn texts() {
     );
     assert_eq!(
         (Text::<2>::new("abc"), Text::<2>::new("€")),
-        (Err(Error::OutOfRange), Err(Error::OutOfRange))
+        (Err(Error::BadText), Err(Error::BadText))
     );
-    assert_eq!(Text::<2>::from_bytes(b"abc"), Err(Error::OutOfRange));
+    assert_eq!(Text::<2>::from_bytes(b"abc"), Err(Error::BadText));
     assert_eq!(
         (Text::<2>::default(), Text::<2>::EMPTY.as_bytes()),
         (Text::EMPTY, &b""[..])

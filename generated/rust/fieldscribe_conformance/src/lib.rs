@@ -1,25 +1,40 @@
 // SPDX-License-Identifier: 0BSD
-//! Runs conformance vectors: what each kind means, for any point. The tables of a device's points stand beside it.
+//! Runs conformance vectors: what each kind means, for any point.
+//!
+//! The tables of a device's points stand in its own test.
 
-#![allow(dead_code, reason = "not every device has points of every kind")]
+#![forbid(unsafe_code)]
+#![allow(
+    clippy::missing_errors_doc,
+    clippy::missing_panics_doc,
+    clippy::must_use_candidate,
+    reason = "it is for tests, which end by it"
+)]
 
 #[macro_use]
 mod runtime;
 
-mod clients;
-pub mod frames;
+pub mod can;
+mod can_clients;
+pub mod modbus;
+mod modbus_clients;
+pub mod uss;
+mod uss_clients;
 
 use std::cell::Cell;
 use std::future::Future;
-use std::pin::pin;
+use std::pin::{pin, Pin};
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::task::{Context, Poll, Wake, Waker};
 
 use fieldscribe_runtime::{
     BitGroup, Code, Coded, CountReadable, CountWritable, Decoded, Documented, Encodable, Error,
-    Flags, Point, Raw, Readable, Reading, Text, Whole, Writable,
+    Flags, Point, Raw, Readable, Reading, Refused, Space, Text, Whole, Writable,
 };
+
+/// Numberings of a point, and what it is in them.
+pub type References<'a> = &'a [(&'a str, &'a dyn std::fmt::Display)];
 
 /// Nothing, or what differs.
 pub type Outcome = Result<(), String>;
@@ -28,82 +43,82 @@ pub type Outcome = Result<(), String>;
 #[macro_export]
 macro_rules! table {
     ($kind:ident $run:ident {}) => {
-        fn $kind(_: &runner::Vector) -> Option<runner::Outcome> {
+        fn $kind(_: &$crate::Vector) -> Option<$crate::Outcome> {
             None
         }
     };
     ($kind:ident $run:ident { $($item:literal $point:ident $with:tt;)+ }) => {
-        fn $kind(vector: &runner::Vector) -> Option<runner::Outcome> {
+        fn $kind(vector: &$crate::Vector) -> Option<$crate::Outcome> {
             Some(match vector.subject().as_str() {
-                $($item => table!($run $point $with vector),)+
+                $($item => $crate::table!($run $point $with vector),)+
                 _ => return None,
             })
         }
     };
     ($run:ident $point:ident () $vector:ident) => {
-        runner::$run::<device::points::$point>($vector, ())
+        $crate::$run::<device::points::$point>($vector, ())
     };
     ($run:ident $point:ident ($with:ident: $($field:ident $name:literal)+) $vector:ident) => {
-        runner::$run::<device::points::$point>(
+        $crate::$run::<device::points::$point>(
             $vector,
             device::with::$with { $($field: $vector.with($name)),+ },
         )
     };
     ($run:ident $point:ident (alone) $vector:ident) => {
-        runner::$run::<device::points::$point>($vector)
+        $crate::$run::<device::points::$point>($vector)
     };
     ($run:ident $point:ident (at $($constant:ident $key:literal)*) $vector:ident) => {
-        runner::$run::<device::points::$point>(
+        $crate::$run::<device::points::$point>(
             $vector,
-            &[$(($key, device::points::$point::$constant.to_string())),*],
+            &[$(($key, &device::points::$point::$constant)),*],
         )
     };
     ($run:ident $point:ident (text $($constant:ident $key:literal)*) $vector:ident) => {
-        runner::place_of::<device::points::$point>(
+        $crate::place_of::<device::points::$point>(
             $vector,
-            &[$(($key, device::points::$point::$constant.to_string())),*],
+            &[$(($key, &device::points::$point::$constant)),*],
         )
     };
     ($run:ident $point:ident (sizes $characters:literal $words:literal) $vector:ident) => {
-        runner::$run::<device::points::$point, $characters, $words>($vector)
+        $crate::$run::<device::points::$point, $characters, $words>($vector)
     };
     ($run:ident $point:ident (digits $count:literal $number:ident) $vector:ident) => {
-        runner::$run::<device::points::$point, _, $number, $count>($vector)
+        $crate::$run::<device::points::$point, _, $number, $count>($vector)
     };
     ($run:ident $point:ident (frames) $vector:ident) => {
-        runner::frames::$run::<device::points::$point>($vector)
+        frames::$run::<device::points::$point>($vector)
     };
     ($run:ident $module:ident (telegram $name:ident) $vector:ident) => {
-        runner::frames::$run::<device::$module::$name>($vector)
+        frames::$run::<device::$module::$name>($vector)
     };
     ($run:ident $module:ident (documented $name:ident) $vector:ident) => {
-        runner::documented($vector, &device::$module::documented::$name)
+        $crate::documented($vector, &device::$module::documented::$name)
     };
     ($run:ident $module:ident (code $constant:ident) $vector:ident) => {
-        runner::code(
+        $crate::code(
             $vector,
             u64::from(device::$module::$constant),
             $vector.said("name").as_deref(),
         )
     };
     ($run:ident $module:ident (named $constant:ident) $vector:ident) => {
-        runner::code(
+        $crate::code(
             $vector,
             u64::from(device::$module::$constant),
             device::$module::name(device::$module::$constant),
         )
     };
     ($run:ident $module:ident (sent $constant:ident) $vector:ident) => {
-        runner::frames::command($vector, &device::PROFILE, device::$module::$constant)
+        frames::command($vector, &device::PROFILE, device::$module::$constant)
     };
     ($run:ident $point:ident (wire) $vector:ident) => {
-        runner::frames::$run::<device::points::$point>($vector, &device::PROFILE)
+        frames::$run::<device::points::$point>($vector, &device::PROFILE)
     };
     ($run:ident $point:ident (wire $($with:tt)+) $vector:ident) => {
-        runner::frames::$run::<device::points::$point>(
+        frames::$run::<device::points::$point>(
             $vector,
             &device::PROFILE,
-            $(table!(struct $with $vector)),+
+            $($crate::table!(struct $with $vector)),+
         )
     };
     (struct () $vector:ident) => {
@@ -113,18 +128,18 @@ macro_rules! table {
         device::with::$with { $($field: $vector.with($name)),+ }
     };
     ($run:ident $word:ident (value $constant:ident) $vector:ident) => {
-        runner::$run($vector, u64::from(device::flags::$word::$constant))
+        $crate::$run($vector, u64::from(device::flags::$word::$constant))
     };
     ($run:ident $enum:ident (enum $raw:ident) $vector:ident) => {{
         let raw: $raw = $vector.raw("raw");
         let value = device::enums::$enum::from(raw);
-        runner::name($vector, value.name(), $raw::from(value) == raw)
+        $crate::name($vector, value.name(), $raw::from(value) == raw)
     }};
     ($run:ident $word:ident (flag $raw:ident $get:ident $set:ident) $vector:ident) => {{
         let word = device::flags::$word::from($vector.raw::<$raw>("raw"));
         let set = [word.$get(), !word.$get()].map(|state| word.$set(state));
-        runner::same($raw::from(word), $vector.raw("raw"))
-            .and_then(|()| runner::flag($vector, word, u64::from(word.$get()), set))
+        $crate::same($raw::from(word), $vector.raw("raw"))
+            .and_then(|()| $crate::flag($vector, word, u64::from(word.$get()), set))
     }};
 }
 
@@ -260,10 +275,38 @@ impl<'a> Vector<'a> {
     }
 
     /// Whether the status, and what is expected beside it, are what came out.
-    fn expect<T: Number>(&self, found: Result<T, Error>, key: &str) -> Outcome {
+    fn expect<T: Number>(&self, found: Result<T, Error>, key: &str, gaps: bool) -> Outcome {
+        self.refuses(found.as_ref().err().copied(), gaps)?;
         let status = found.as_ref().map_or_else(|error| error.name(), |_| "ok");
         same(self.text("status").as_str(), status)?;
         same(self.number(key), found.ok().map(Number::to_number))
+    }
+
+    /// Whether an error tells the point, what was given, and limits beyond which that is, if there are no gaps in them.
+    fn refuses(&self, error: Option<Error>, gaps: bool) -> Outcome {
+        let refused = match error {
+            Some(Error::OutOfRange(refused)) => refused,
+            Some(error) => {
+                let point = error.refused().map(|refused| refused.point().to_owned());
+                return same(point.as_ref().map(|_| self.text("point")), point);
+            }
+            None => return Ok(()),
+        };
+        same(self.text("point").as_str(), refused.point())?;
+        let (ordered, beyond) = match refused {
+            Refused::Value(outside) => {
+                let asked = self.field("value").map(|_| self.float());
+                same(asked.unwrap_or(outside.given), outside.given)?;
+                ends(outside.given, outside.low, outside.high)
+            }
+            Refused::Count(outside) => {
+                same(self.number("count"), Some(outside.given.into()))?;
+                ends(outside.given, outside.low, outside.high)
+            }
+            Refused::Raw(outside) => ends(outside.given, outside.low, outside.high),
+            _ => (true, true),
+        };
+        same((true, true), (ordered || gaps, beyond || gaps))
     }
 
     /// Whether what was read (a value, or the name of a special code) has the status, the code and the value expected.
@@ -285,6 +328,20 @@ impl<'a> Vector<'a> {
         }
     }
 
+    /// The same for a value; which of the numbers that are none it is, is not told.
+    fn reads_value(&self, found: Result<Result<f64, &str>, Error>) -> Outcome {
+        self.reads(found, |value| {
+            let expected = self.float();
+            let nans = expected.is_nan() && value.is_nan();
+            same(true, nans || expected.to_bits() == value.to_bits())
+        })
+    }
+
+    /// The same for a count.
+    fn reads_count(&self, found: Result<Result<i128, &str>, Error>) -> Outcome {
+        self.reads(found, |count| same(self.number("count"), Some(count)))
+    }
+
     /// That every field was held against something, but for those that are for people alone.
     fn complete(&self, shape: &Shape) -> Outcome {
         for (place, (key, note)) in shape.keys.iter().enumerate() {
@@ -293,6 +350,11 @@ impl<'a> Vector<'a> {
         }
         Ok(())
     }
+}
+
+/// Whether the ends are in order, and whether a number is beyond them, or is one that was rounded to it.
+fn ends<T: PartialOrd + Copy>(given: T, low: T, high: T) -> (bool, bool) {
+    (low <= high, given <= low || given >= high)
 }
 
 /// A text with its escapes undone; a percent sign alone is an empty one.
@@ -458,11 +520,7 @@ where
     P: Readable<Raw: Number, Value: Meaning<f64>>,
 {
     let found = P::decode_with(vector.raw("raw"), with).into_result();
-    vector.reads(found.map(Meaning::read), |value: f64| {
-        let expected = vector.float();
-        let nans = expected.is_nan() && value.is_nan(); // which of them is not told
-        same(true, nans || expected.to_bits() == value.to_bits())
-    })
+    vector.reads_value(found.map(Meaning::read))
 }
 
 /// A value to a raw number.
@@ -471,7 +529,7 @@ where
     P: Encodable<Raw: Number, Value: Meaning<f64>>,
 {
     let found = P::encode_with(P::Value::of(vector.float()), with);
-    vector.expect(found, "raw")
+    vector.expect(found, "raw", !P::IS_CONTIGUOUS)
 }
 
 /// A raw number to a count.
@@ -480,9 +538,7 @@ where
     P: CountReadable<Raw: Number, Count: Counted>,
 {
     let found = P::decode_count_with(vector.raw("raw"), with).into_result();
-    vector.reads(found.map(Counted::read_count), |count| {
-        same(vector.number("count"), Some(count))
-    })
+    vector.reads_count(found.map(Counted::read_count))
 }
 
 /// A raw number to a count, which is itself, and to the value that has that number.
@@ -506,7 +562,7 @@ where
         return same(vector.text("status").as_str(), "out_of_range");
     };
     let found = P::encode_count_with(count, with);
-    vector.expect(found, "raw")
+    vector.expect(found, "raw", !P::IS_CONTIGUOUS)
 }
 
 /// A count to a raw number, and the value that has that number.
@@ -516,7 +572,7 @@ where
 {
     if let Some(raw) = vector.number("count").and_then(P::Raw::from_number) {
         let found = P::encode_with(P::Value::from(raw), with);
-        vector.expect(found, "raw")?;
+        vector.expect(found, "raw", !P::IS_CONTIGUOUS)?;
     }
     encode_count::<P>(vector, with)
 }
@@ -541,7 +597,7 @@ where
 {
     if let Some(raw) = vector.number("count").and_then(P::Raw::from_number) {
         let found = P::encode_with(P::Value::of_raw(raw), with);
-        vector.expect(found, "raw")?;
+        vector.expect(found, "raw", !P::IS_CONTIGUOUS)?;
     }
     encode_count::<P>(vector, with)
 }
@@ -549,6 +605,7 @@ where
 /// Whether a raw number may be written.
 pub fn check<P: Writable<Raw: Number>>(vector: &Vector, with: P::With) -> Outcome {
     let found = P::check_with(vector.raw("raw"), with);
+    vector.refuses(found.err(), !P::IS_CONTIGUOUS)?;
     same(
         vector.text("status").as_str(),
         found.map_or_else(Error::name, |()| "ok"),
@@ -650,28 +707,27 @@ where
     let raw: P::Raw = vector.raw("raw");
     let words: Vec<u16> = vector.numbers("words");
     same(words.as_slice(), P::to_words(raw).as_ref())?;
-    if P::ADDRESSES.len() > 1 {
-        let read = raw.into_words();
-        let mut parts: Vec<_> = P::ADDRESSES.iter().zip(read.as_ref()).collect();
-        parts.sort();
-        same(
-            words.clone(),
-            parts.into_iter().map(|(_, word)| *word).collect(),
-        )?;
+    in_order(&words, P::ADDRESSES, raw.into_words().as_ref())?;
+    let more = [words.as_slice(), &[0]].concat();
+    let received = |words: &[u16]| P::from_received(words.iter().copied());
+    same(Ok(raw), received(&words))?;
+    same(Err(Error::WrongLength), received(&words[1..]))?;
+    same(Err(Error::WrongLength), received(&more))
+}
+
+/// The words by address are those in reading order.
+fn in_order(words: &[u16], addresses: &[u16], read: &[u16]) -> Outcome {
+    if addresses.len() == 1 {
+        return Ok(());
     }
-    same(Ok(raw), P::from_received(words.iter().copied()))?;
-    same(
-        Err(Error::WrongLength),
-        P::from_received(words.iter().skip(1).copied()),
-    )?;
-    same(
-        Err(Error::WrongLength),
-        P::from_received(words.iter().chain([&0]).copied()),
-    )
+    let mut parts: Vec<_> = addresses.iter().zip(read).collect();
+    parts.sort();
+    let found: Vec<u16> = parts.into_iter().map(|(_, word)| *word).collect();
+    same(words, found.as_slice())
 }
 
 /// Where a point is, and what stands beside it: the manual's code and other numberings, the outer limits, decimals.
-pub fn address<P>(vector: &Vector, references: &[(&str, String)]) -> Outcome
+pub fn address<P>(vector: &Vector, references: References) -> Outcome
 where
     P: Point<Raw: Number + PartialEq + std::fmt::Debug>,
 {
@@ -679,26 +735,42 @@ where
         same(vector.raw("raw_min"), P::RAW_MIN)?;
         same(vector.raw("raw_max"), P::RAW_MAX)?;
     }
-    if P::ADDRESSES.len() > 1 {
-        let mut addresses = P::ADDRESSES.to_vec();
-        addresses.sort_unstable();
-        same((P::ADDRESS..).take(P::WORDS.into()).collect(), addresses)?;
-    }
+    ascending(P::ADDRESS, P::ADDRESSES, P::WORDS, P::SPACE)?;
     place_of::<P>(vector, references)
 }
 
+/// The addresses of several words follow each other from the lowest one on, but for a parameter that has one for all.
+fn ascending(lowest: u16, addresses: &[u16], words: u16, space: Space) -> Outcome {
+    let mut found = addresses.to_vec();
+    found.sort_unstable();
+    let is_one_for_all = space == Space::Parameter && addresses.len() == 1;
+    let words = if is_one_for_all { 1 } else { words };
+    same(found, (lowest..).take(words.into()).collect())
+}
+
 /// The same but for the limits, which a text has not.
-pub fn place_of<P: Point>(vector: &Vector, references: &[(&str, String)]) -> Outcome {
-    same(vector.text("space").as_str(), P::SPACE.name())?;
-    same(vector.text("point").as_str(), P::NAME)?;
+pub fn place_of<P: Point>(vector: &Vector, references: References) -> Outcome {
     same(vector.raw("address"), P::ADDRESS)?;
     same(vector.raw("words"), P::WORDS)?;
-    same(vector.said("code").as_deref(), P::CODE)?;
+    let names = [Some(P::SPACE.name()), Some(P::NAME), P::CODE];
+    placed(vector, names, P::DECIMALS, references)
+}
+
+fn placed(
+    vector: &Vector,
+    names: [Option<&str>; 3],
+    found: u32,
+    references: References,
+) -> Outcome {
+    let expected = [vector.text("space"), vector.text("point")].map(Some);
+    let [space, point] = expected;
+    let expected = [space, point, vector.said("code")];
+    same(expected, names.map(|name| name.map(str::to_owned)))?;
     let decimals = vector.number("decimals").unwrap_or_default();
-    same(decimals, i128::from(P::DECIMALS))?;
+    same(decimals, i128::from(found))?;
     let references = references
         .iter()
-        .map(|(key, text)| ((*key).to_owned(), text.clone()));
+        .map(|(key, text)| ((*key).to_owned(), text.to_string()));
     same(vector.pairs("references"), references.collect())
 }
 
@@ -790,7 +862,7 @@ where
     let numbers: Vec<C> = vector.numbers("digits");
     let digits: Vec<E> = numbers.into_iter().map(E::from).collect();
     let digits = <[E; N]>::try_from(digits).map_err(|_| "there are other digits".to_owned())?;
-    vector.expect(P::encode(digits), "raw")
+    vector.expect(P::encode(digits), "raw", true)
 }
 
 /// As `digits_encode`, for a point that has special codes.
@@ -803,7 +875,7 @@ where
     let numbers: Vec<C> = vector.numbers("digits");
     let digits: Vec<E> = numbers.into_iter().map(E::from).collect();
     let digits = <[E; N]>::try_from(digits).map_err(|_| "there are other digits".to_owned())?;
-    vector.expect(P::encode(Reading::Value(digits)), "raw")
+    vector.expect(P::encode(Reading::Value(digits)), "raw", true)
 }
 
 /// A transport that expects what the script of a vector says is sent, in any order, and answers as it says.
@@ -872,8 +944,13 @@ impl Wake for Idle {
 
 /// The result of a future that never really waits.
 pub fn now<F: Future>(future: F) -> F::Output {
+    polled(pin!(future))
+}
+
+/// The same, once for all futures of a result.
+fn polled<T>(future: Pin<&mut dyn Future<Output = T>>) -> T {
     let waker = Waker::from(Arc::new(Idle));
-    match pin!(future).poll(&mut Context::from_waker(&waker)) {
+    match future.poll(&mut Context::from_waker(&waker)) {
         Poll::Ready(result) => result,
         Poll::Pending => panic!("it waits for something else than its transport"),
     }
@@ -900,6 +977,7 @@ pub fn main(
     default: &str,
     device: [&str; 3],
     run: impl Fn(&str, &Vector) -> Option<Outcome>,
+    check: impl Fn(),
 ) -> ExitCode {
     let path = std::env::var("FIELDSCRIBE_VECTORS").unwrap_or_else(|_| default.to_owned());
     let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"));
@@ -931,7 +1009,7 @@ pub fn main(
     }
     let result = report(&kinds);
     runtime::check();
-    clients::check();
+    check();
     result
 }
 
