@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import keyword
 import os
 import sys
 from dataclasses import dataclass
@@ -12,6 +13,7 @@ from fieldscribe.language.hints import nearest
 from fieldscribe.language.load import load
 from fieldscribe.language.shape import check_shape
 from fieldscribe.language.source import read_source, shown
+from fieldscribe.names import RUST_RESERVED
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -118,6 +120,8 @@ def _safe_name(header: Map, report: Report) -> None:
         taken = "is a module of Python's own, which the generated package would hide"
     elif name in _HEADERS:
         taken = f"would make a header `{name}.h`, which hides the one of the C library"
+    elif name in RUST_RESERVED or keyword.iskeyword(name):
+        taken = "is a word that Rust or Python reserves, so that no program could name its crate or package"
     elif name in _CRATES:
         taken = "is a crate of Rust's own, which the generated crate would hide"
     if taken is not None:

@@ -7,7 +7,7 @@
 use fieldscribe_conformance::modbus as frames;
 use fieldscribe_conformance::{self as runner, table};
 
-use hitachi_l200 as device;
+use ::hitachi_l200 as device;
 
 table! { decode decode {
     "network_frequency_setpoint" NetworkFrequencySetpoint ();

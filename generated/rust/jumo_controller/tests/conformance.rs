@@ -7,7 +7,7 @@
 use fieldscribe_conformance::modbus as frames;
 use fieldscribe_conformance::{self as runner, table};
 
-use jumo_controller as device;
+use ::jumo_controller as device;
 
 table! { decode decode {
     "setpoint_1" Setpoint1 ();

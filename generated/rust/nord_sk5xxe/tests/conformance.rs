@@ -7,7 +7,7 @@
 use fieldscribe_conformance::modbus as frames;
 use fieldscribe_conformance::{self as runner, table};
 
-use nord_sk5xxe as device;
+use ::nord_sk5xxe as device;
 
 table! { decode decode {
 } }

@@ -7,7 +7,7 @@
 use fieldscribe_conformance::uss as frames;
 use fieldscribe_conformance::{self as runner, table};
 
-use siemens_mm4 as device;
+use ::siemens_mm4 as device;
 
 table! { decode decode {
     "main_actual_value" MainActualValue (MainActualValue: uss_normalisation "uss_normalisation"

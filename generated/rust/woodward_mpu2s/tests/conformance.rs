@@ -7,7 +7,7 @@
 use fieldscribe_conformance::can as frames;
 use fieldscribe_conformance::{self as runner, table};
 
-use woodward_mpu2s as device;
+use ::woodward_mpu2s as device;
 
 table! { decode decode {
     "generator_frequency" GeneratorFrequency ();

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from fieldscribe.names import upper
 from fieldscribe.targets.identifiers import Identifier, Owner
 from fieldscribe.targets.rust.families import family_identifiers
-from fieldscribe.targets.rust.literals import type_name
+from fieldscribe.targets.rust.literals import type_name, variant_name
 from fieldscribe.targets.rust.subjects import Subject, scope_of
 from fieldscribe.targets.rust.words import constant_name, getter_name
 
@@ -39,7 +39,7 @@ def identifiers(device: Device) -> Iterator[Identifier]:
             yield Identifier("Rust, enums", type_name(enum.name), owner)
             for entry in enum.entries:
                 part = Owner("enum", enum.name, f"entry {entry.name}")
-                yield Identifier(f"Rust, enums::{enum.name}", type_name(entry.name), part)
+                yield Identifier(f"Rust, enums::{enum.name}", variant_name(entry.name), part)
     for command in device.commands:
         yield Identifier("Rust, commands", command.name.upper(), Owner("command", command.name))
     for group in device.blocks:

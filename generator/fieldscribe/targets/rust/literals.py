@@ -23,7 +23,18 @@ RAW_TYPES = {
 FLOAT_GREATEST = {32: 3.4028234663852886e38, 64: 1.7976931348623157e308}
 """The greatest finite number of a binary floating-point type by its bits."""
 
-_PRELUDE = frozenset({"Err", "None", "Ok", "Option", "Result", "Some", "Self"})
+_HIDDEN = frozenset({"Err", "None", "Ok", "Option", "Result", "Some", "Self"})
+"""What generated code means by these names, wherever it stands."""
+
+_PRELUDE = (
+    _HIDDEN
+    | {"AsMut", "AsRef", "Box", "Clone", "Copy", "Debug", "Default", "DoubleEndedIterator", "Drop", "Eq", "Extend"}
+    | {"ExactSizeIterator", "Fn", "FnMut", "FnOnce", "From", "FromIterator", "Hash", "Into", "IntoIterator", "Iterator"}
+    | {"Ord", "PartialEq", "PartialOrd", "Send", "Sized", "String", "Sync", "ToOwned", "ToString", "TryFrom", "TryInto"}
+    | {"Unpin", "Vec"}
+)
+"""What a type of that name would hide from the code beside it."""
+
 _NOT_RAW = frozenset({"crate", "self", "super", "Self"})
 _UNGROUPED = 10_000
 
@@ -46,9 +57,16 @@ def type_range(rust_type: str) -> tuple[int, int]:
 
 @lru_cache(maxsize=65536)
 def type_name(name: str) -> str:
-    """A type or a variant: `BaseFrequency`; what the prelude means by that name keeps it."""
+    """A type: `BaseFrequency`; what the prelude means by that name keeps it."""
     result = pascal(name)
     return f"{result}_" if result in _PRELUDE else result
+
+
+@lru_cache(maxsize=65536)
+def variant_name(name: str) -> str:
+    """A variant of an enum: `ForwardAndReverse`; it stands behind the name of its enum, so that it hides little."""
+    result = pascal(name)
+    return f"{result}_" if result in _HIDDEN else result
 
 
 @lru_cache(maxsize=65536)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.targets.rust.documentation import sentence, wrapped
 from fieldscribe.targets.rust.layout import arm, binding, calls, comparison, fields_of, signature
-from fieldscribe.targets.rust.literals import integer, mask, type_name, value_name
+from fieldscribe.targets.rust.literals import integer, mask, type_name, value_name, variant_name
 from fieldscribe.targets.rust.views import ArgumentsView, EntryView, EnumView, FlagsView, FlagView
 from fieldscribe.text import rust_string
 
@@ -126,7 +126,7 @@ def _enum(enum: Enum, raw: str) -> EnumView:
 
 
 def _entry(entry: Entry, enum: str) -> EntryView:
-    name, literal = type_name(entry.name), integer(entry.raw)
+    name, literal = variant_name(entry.name), integer(entry.raw)
     named = arm(12, f"Self::{name}", f"Some({rust_string(entry.name)})")
     return EntryView(sentence(entry.name), name, literal, named, arm(12, f"{enum}::{name}", literal))
 
