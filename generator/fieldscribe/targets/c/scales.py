@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import gcd
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -9,7 +10,9 @@ from fieldscribe.targets.c.literals import (
     EXACT_FLOAT,
     INT32,
     INT64,
+    UINT64,
     bare,
+    cast,
     raw_bounds,
     raw_type,
     real,
@@ -17,12 +20,10 @@ from fieldscribe.targets.c.literals import (
     signed,
     unsigned,
 )
-from fieldscribe.targets.c.views import ScaledView
+from fieldscribe.targets.c.reciprocals import reciprocal
 
 if TYPE_CHECKING:
     from fieldscribe.model import Linear, Point
-    from fieldscribe.targets.c.scope import Scope
-
 
 _EXACT = 1 << 53
 
@@ -31,7 +32,7 @@ class Plan(NamedTuple):
     """The integers of a scale: raw = (count * p + q) / r and value = (raw * a - b) / c, with r and c above 0.
 
     `counts` are the counts whose raw numbers lie in the outer limits, `numerator` is the largest that decoding to a
-    value meets; each `_wide` says that 32 bits do not suffice.
+    value meets, `beyond` the raw numbers whose counts fit; each `_wide` says that 32 bits do not suffice.
     """
 
     p: int
@@ -40,52 +41,70 @@ class Plan(NamedTuple):
     a: int
     b: int
     c: int
+    raws: tuple[int, int]
     count_wide: bool
     encode_wide: bool
     decode_wide: bool
     numerator: int
     counts: tuple[int, int]
-    wide_raw: bool
     beyond: tuple[int, int] | None
 
 
-def scaled_view(point: Point, scope: Scope, low: int, high: int) -> ScaledView:
-    """The functions' expressions for a scale without run-time factors; `low` and `high` are the outer raw limits."""
+@dataclass(frozen=True, slots=True)
+class Scaled:
+    """The expressions of a scale: `raw_of_count` of `count`, `whole` of `value`, the others of `raw`.
+
+    `count_inside` tests whether a count is one of a raw number that may be written, `count_fits` whether a raw number
+    has a count; both are empty where all do. `direct` says that a count is its raw number.
+    """
+
+    count_type: str
+    count_inside: str
+    count_fits: str
+    counts: tuple[int, int]
+    direct: bool
+    raw_of_count: str
+    count_of_raw: str
+    wide: bool
+    steps: str
+    value_of_raw: str
+
+
+def scaled(point: Point, low: int, high: int) -> Scaled:
+    """The expressions of a scale without run-time factors; `low` and `high` are the outer raw limits."""
     assert point.scale is not None
     rule = point.scale[0].rule
-    ratio, offset = rule.ratio, rule.offset
-    numbers = ratio.numerator, ratio.denominator, offset.numerator, offset.denominator  # hashed faster than fractions
-    key = (*numbers, point.decimals, point.encodes_values, point.type, point.access, low, high)
-    known = scope.scales.get(key)
-    if known is None:
-        known = scope.scales[key] = _scaled_view(point, rule, scope, low, high)
-    return known
-
-
-def _scaled_view(point: Point, rule: Linear, scope: Scope, low: int, high: int) -> ScaledView:
     plan = _plan(rule, point.decimals or 0, raw_bounds(point), low, high)
-    limits = INT64 if plan.count_wide else INT32
-    tests = [f"count < {bare(plan.counts[0])}"] if plan.counts[0] > limits[0] else []
-    tests += [f"count > {bare(plan.counts[1])}"] if plan.counts[1] < limits[1] else []
-    narrow = _is_float(plan, rule, low, high)
-    wide = not narrow
-    if wide:
-        scope.used.add("double")
-    counted, encodes = point.decimals is not None, point.writable and point.encodes_values
-    if encodes:
-        scope.used.add("round_wide" if wide else "round")
-    return ScaledView(
-        count_type="int64_t" if plan.count_wide else "int32_t",
-        count_beyond=_beyond(plan, raw_bounds(point)) if counted and point.readable else "",
-        count_outside=" || ".join(tests),
-        raw_of_count=_raw_of_count(plan, scope, raw_type(point)) if counted and point.writable else "",
-        count_of_raw=_count_of_raw(plan, scope) if counted and point.readable else "",
-        real="double" if wide else scope.helper("real"),
-        round=f"{scope.prefix}_round_wide" if wide else f"{scope.prefix}_round",
-        whole_type="int64_t" if wide else "int32_t",
-        scaled=_scaled(rule, scope, wide) if encodes else "",
-        value_of_raw=_value_of_raw(plan, point, scope, "double" if wide else f"{scope.prefix}_real"),
+    kind = "int64_t" if plan.count_wide else "int32_t"
+    first, last = plan.counts
+    open_ended = (first, last) == (INT64 if plan.count_wide else INT32)
+    wide, counted = not _is_float(plan, rule, low, high), _count_of_raw(plan)
+    return Scaled(
+        count_type=kind,
+        count_inside="" if open_ended else f"fieldscribe_within{_wide(plan.count_wide)}(count, {bare(first)}, {bare(last)})",
+        count_fits=_fits(plan),
+        counts=plan.counts,
+        direct=(plan.p, plan.q, plan.r) == (1, 0, 1),
+        raw_of_count=cast(raw_type(point), _raw_of_count(plan)),
+        count_of_raw=cast(kind, counted) if plan.decode_wide and not plan.count_wide or plan.raws == UINT64 else counted,
+        wide=wide,
+        steps=_steps(rule, wide=wide),
+        value_of_raw=_value_of_raw(plan, point, wide=wide),
     )
+
+
+def is_double(point: Point, low: int, high: int) -> bool:
+    """Whether the values of a scaled point are always double."""
+    assert point.scale is not None
+    rule = point.scale[0].rule
+    return not _is_float(_plan(rule, point.decimals or 0, raw_bounds(point), low, high), rule, low, high)
+
+
+def count_type(point: Point, low: int, high: int) -> str:
+    """The C type of the counts of a scaled point."""
+    assert point.scale is not None
+    plan = _plan(point.scale[0].rule, point.decimals or 0, raw_bounds(point), low, high)
+    return "int64_t" if plan.count_wide else "int32_t"
 
 
 def _plan(rule: Linear, decimals: int, raws: tuple[int, int], low: int, high: int) -> Plan:
@@ -108,12 +127,11 @@ def _plan(rule: Linear, decimals: int, raws: tuple[int, int], low: int, high: in
     decoded = [abs(value) for raw in raws for value in (raw, raw * r, raw * r - q)]
     numerators = [abs(value) for raw in raws for value in (raw, raw * a, raw * a - b)]
     return Plan(
-        p, q, r, a, b, c, count_wide,
+        p, q, r, a, b, c, raws, count_wide,
         encode_wide=max(encoded) + r > INT32[1],
         decode_wide=max(decoded) + abs(p) > INT32[1],
         numerator=max(numerators),
         counts=counts,
-        wide_raw=max(raws) > INT64[1],
         beyond=_countable(p, q, r, raws),
     )  # fmt: skip
 
@@ -165,74 +183,113 @@ def _linear(name: str, factor: int, add: int, cast: str) -> str:
         start = f"-{start}"
     elif factor != 1:
         start = f"{start} * {signed(factor)}"
-    return start if add == 0 else f"{start} {'-' if add < 0 else '+'} {abs(add)}"
+    if add == 0:
+        return start
+    start = f"({start})" if " * " in start else start
+    return f"{start} {'-' if add < 0 else '+'} {abs(add)}"
 
 
-def _raw_of_count(plan: Plan, scope: Scope, target: str) -> str:
-    cast = ""
-    if plan.encode_wide and not plan.count_wide:
-        cast = "int64_t"
-    elif plan.count_wide and not plan.encode_wide and plan.r != 1:
-        cast = "int32_t"
-    number = _linear("count", plan.p, plan.q, cast)
-    if plan.r != 1:
-        helper = scope.helper("divide_wide" if plan.encode_wide else "divide")
-        return f"({target}){helper}({number}, {plan.r})"
-    return f"({target})({number})" if " " in number else f"({target}){number}"
+def _raw_of_count(plan: Plan) -> str:
+    """The raw number of a count that lies in the limits."""
+    first, last = plan.counts
+    if plan.r == 1:
+        cast = "int64_t" if plan.encode_wide and not plan.count_wide else ""
+        return _linear("count", plan.p, plan.q, cast)
+    number = "(int64_t)count" if not plan.count_wide else "count"
+    if plan.q == 0:
+        narrow = number if plan.count_wide else "count"
+        found = _quotient("(int32_t)count" if plan.count_wide else "count", first, last, plan.p, plan.r, wide=False)
+        return found or _quotient(narrow, first, last, plan.p, plan.r, wide=True) or _divided_by(plan, number)
+    ends = sorted(count * plan.p + plan.q for count in plan.counts)
+    cast = "int64_t" if plan.encode_wide and not plan.count_wide else ""
+    line = _linear("count", plan.p, plan.q, cast)
+    found = "" if plan.encode_wide or plan.count_wide else _quotient(line, *ends, 1, plan.r, wide=False)
+    return found or _quotient(line, *ends, 1, plan.r, wide=True) or f"fieldscribe_divide({line}, {plan.r})"
 
 
-def _beyond(plan: Plan, raws: tuple[int, int]) -> str:
-    """The test of raw numbers, which no range allows, whose counts need more than 64 bits."""
+def _divided_by(plan: Plan, number: str) -> str:
+    return f"fieldscribe_divide({_linear(number, plan.p, 0, '')}, {plan.r})"
+
+
+def _quotient(number: str, first: int, last: int, num: int, den: int, *, wide: bool) -> str:
+    """number * num / den to the nearest integer by a multiplication and a shift; empty where that is not proven."""
+    most, sign = (INT64 if wide else INT32)[1], 1
+    if max(abs(first), abs(last)) > most:
+        return ""
+    if num < 0:
+        number, first, last, sign = f"-{number}", -last, -first, -1
+    bits = den.bit_length() - 1
+    size = max(abs(first), abs(last)) * abs(num) + den
+    if den == 1 << bits and size <= most:
+        return f"fieldscribe_halves{_wide(wide)}({_linear(number, num * sign, 0, '')}, {bits}U)"
+    found = reciprocal(first, last, num * sign, den, most)
+    if found is None:
+        return ""
+    much, little, fine, shift = found
+    return f"fieldscribe_nearly{_wide(wide)}({number}, {much}, {little}, {fine}U, {shift}U)"
+
+
+def _wide(wide: bool) -> str:  # noqa: FBT001 - what it says is its name
+    return "_wide" if wide else ""
+
+
+def _fits(plan: Plan) -> str:
+    """Whether the count of a raw number, which no range allows, needs no more than 64 bits."""
     if plan.beyond is None:
         return ""
     low, high = plan.beyond
-    tests = [f"raw < {bare(low)}"] if low > raws[0] else []
-    literal = unsigned(high) if plan.wide_raw else bare(high)
-    return " || ".join(tests + ([f"raw > {literal}"] if high < raws[1] else []))
+    if max(plan.raws) > INT64[1]:
+        return f"fieldscribe_within_u64(raw, {unsigned(low)}, {unsigned(high)})"
+    return f"fieldscribe_within_wide(raw, {bare(low)}, {bare(high)})"
 
 
-def _count_of_raw(plan: Plan, scope: Scope) -> str:
+def _count_of_raw(plan: Plan) -> str:
+    """The count of a raw number."""
+    if (plan.p, plan.q, plan.r) == (1, 0, 1):
+        return "raw"
     sign = 1 if plan.p > 0 else -1
-    if plan.p == plan.r == 1 and plan.q == 0:
-        return "(int64_t)raw" if plan.wide_raw else "raw"
-    number = _linear("raw", plan.r * sign, -plan.q * sign, "int64_t" if plan.decode_wide else "int32_t")
-    if abs(plan.p) != 1:
-        number = f"{scope.helper('divide_wide' if plan.decode_wide else 'divide')}({number}, {abs(plan.p)})"
-    return f"(int32_t)({number})" if plan.decode_wide and not plan.count_wide else number
+    wide = plan.decode_wide
+    low, high = plan.beyond or plan.raws
+    line = _linear("raw", plan.r * sign, -plan.q * sign, "int64_t" if wide else "int32_t")
+    if abs(plan.p) == 1:
+        return line
+    ends = sorted(raw * plan.r * sign - plan.q * sign for raw in (low, high))
+    found = "" if wide else _quotient(line, *ends, 1, abs(plan.p), wide=False)
+    return found or _quotient(line, *ends, 1, abs(plan.p), wide=True) or f"fieldscribe_divide({line}, {abs(plan.p)})"
 
 
-def _scaled(rule: Linear, scope: Scope, wide: bool) -> str:
+def _steps(rule: Linear, *, wide: bool) -> str:
     """The value in raw steps, before rounding: times, divided by, plus, each rounded by itself."""
+    kind, tail = ("double", "_wide") if wide else ("fieldscribe_real", "")
     text = "value"
     if rule.ratio.numerator != 1:
-        text = f"{scope.helper('times_wide' if wide else 'times')}(value, {_constant(rule.ratio.numerator)})"
+        text = f"fieldscribe_times{tail}(value, {_constant(rule.ratio.numerator)})"
     if rule.ratio.denominator != 1:
-        text = f"{text} / {_constant(rule.ratio.denominator)}"
+        text = f"{text} / ({kind}){_constant(rule.ratio.denominator)}"
     if rule.offset:
         offset = abs(rule.offset)
         number = real(offset) if offset.denominator != 1 else str(offset.numerator)
-        text += f" {'-' if rule.offset < 0 else '+'} ({'double' if wide else scope.prefix + '_real'}){number}"
+        text = f"({text})" if " / " in text else text
+        text += f" {'-' if rule.offset < 0 else '+'} ({kind}){number}"
     return text
 
 
 def _constant(number: int) -> str:
     """An integer as the double that is nearest to it, where none is equal."""
-    return signed(number) if abs(number) <= _EXACT else f"{number}.0"
+    return bare(number) if abs(number) <= _EXACT else f"{number}.0"
 
 
-def _value_of_raw(plan: Plan, point: Point, scope: Scope, real_type: str) -> str:
-    if point.readable and max(plan.numerator, plan.c) > _EXACT:
-        return _quotient(plan, point, scope)
-    plain = plan.a == 1 and plan.b == 0
-    cast = "int64_t" if plan.numerator > INT32[1] else "int32_t"
-    number = "raw" if plain else f"({_linear('raw', plan.a, -plan.b, cast)})"
-    text = f"({real_type}){number}"
-    return text if plan.c == 1 else f"{text} / {plan.c}"
+def _value_of_raw(plan: Plan, point: Point, *, wide: bool) -> str:
+    if max(plan.numerator, plan.c) > _EXACT:
+        return _long_quotient(plan, point)
+    line = _linear("raw", plan.a, -plan.b, "int64_t" if plan.numerator > INT32[1] else "int32_t")
+    number = "raw" if plan.a == 1 and plan.b == 0 else line
+    return f"fieldscribe_ratio{_wide(wide)}({number}, {plan.c})"
 
 
-def _quotient(plan: Plan, point: Point, scope: Scope) -> str:
+def _long_quotient(plan: Plan, point: Point) -> str:
     """(raw * a - b) / c to the nearest double, where a double does not hold the numerator."""
     below, size = sign_and_size(point)
     above = "raw >= 0" if point.info.signed else "true"
     numbers = [unsigned(abs(plan.a)), "true" if plan.b > 0 else "false", unsigned(abs(plan.b)), unsigned(plan.c)]
-    return f"{scope.helper('quotient')}({above if plan.a < 0 else below}, {size}, {', '.join(numbers)})"
+    return f"fieldscribe_quotient({above if plan.a < 0 else below}, {size}, {', '.join(numbers)})"
