@@ -30,8 +30,8 @@ def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
 
 def runtime(device: Device) -> Iterator[tuple[str, str]]:
     """The real source files beside the output: output path, and path under the templates."""
-    yield f"c/fieldscribe_{device.family}.h", f"c/runtime/fieldscribe_{device.family}.h"
-    yield "c/fieldscribe_conformance.h", "c/runtime/fieldscribe_conformance.h"
+    for name in ("", f"_{device.family}", "_conformance", f"_conformance_{device.family}"):
+        yield f"c/fieldscribe{name}.h", f"c/runtime/fieldscribe{name}.h"
 
 
 __all__ = ["identifiers", "outputs", "runtime"]
