@@ -13,9 +13,9 @@
  *     fits = fieldscribe_take_u16(woodward_mpu2s_language_frame.layout, words, &raw);
  *
  * Writing one: fieldscribe_put_u16(point.layout, raw, words), then fieldscribe_can_write(&dialogue, unit, &point.write,
- * words, &frame). A point that only some bits of a word are has `update` for `write`: read its word first, put the bits,
- * write it back. Where answers come over a serial gateway, fieldscribe_can_reply_length tells how long one is, and
- * fieldscribe_can_id which identifier a filter has to let through.
+ * words, &frame). A point that only some bits of a word are has `update` for `write`: read its word first, put the
+ * bits, write it back. Where answers come over a serial gateway, fieldscribe_can_reply_length tells how long one is,
+ * and fieldscribe_can_id which identifier a filter has to let through.
  *
  * SPDX-License-Identifier: 0BSD
  */
@@ -91,7 +91,7 @@ typedef struct fieldscribe_can_profile {
     uint8_t identifier_bits; /* 11 or 29 */
 } fieldscribe_can_profile;
 
-/* What a message carries for one parameter; a message that carries no address or no raw number takes any, 0 is usual. */
+/* What a message carries for one parameter. One that carries no address or no raw number takes any; 0 is usual. */
 typedef struct fieldscribe_can_content {
     uint32_t unit;
     uint32_t address;
@@ -199,7 +199,7 @@ typedef struct fieldscribe_can_telegram {
     uint8_t per_frame;
 } fieldscribe_can_telegram;
 
-/* The words of one multiplexer, as they came last and the time before; `now` and `before` count taken frames, 0 is never. */
+/* The words of one multiplexer, now and the time before; `now` and `before` count taken frames, 0 is never. */
 typedef struct fieldscribe_can_slot {
     uint64_t now;
     uint64_t before;

@@ -240,7 +240,8 @@ static void fieldscribe_run_build(fieldscribe_vector *v)
     const fieldscribe_modbus_framing framing = fieldscribe_read_request(v, values, &request);
     fieldscribe_modbus_status status;
     fieldscribe_fill(built, sizeof built);
-    status = fieldscribe_modbus_build(fieldscribe_tables_of(v)->profile, framing, &request, built, sizeof built, &length);
+    status =
+        fieldscribe_modbus_build(fieldscribe_tables_of(v)->profile, framing, &request, built, sizeof built, &length);
     fieldscribe_is_text(v, "status", fieldscribe_modbus_status_text(status));
     fieldscribe_agree(v, length <= sizeof built);
     if (length <= sizeof built) {

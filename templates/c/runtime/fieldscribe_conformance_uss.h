@@ -262,8 +262,8 @@ static void fieldscribe_run_uss_broadcast(fieldscribe_vector *v)
     const fieldscribe_uss_words process = {words, fieldscribe_numbers(v, "words", words, FIELDSCRIBE_BYTES_MOST)};
     fieldscribe_uss_status status;
     fieldscribe_fill(built, sizeof built);
-    status =
-        fieldscribe_uss_build_broadcast(fieldscribe_tables_of(v)->profile, &link, mask, &process, built, sizeof built, &length);
+    status = fieldscribe_uss_build_broadcast(
+        fieldscribe_tables_of(v)->profile, &link, mask, &process, built, sizeof built, &length);
     fieldscribe_agree(v, masks == 4U);
     fieldscribe_is_telegram(v, status, built, sizeof built, length);
 }

@@ -45,7 +45,7 @@ extern "C" {
 typedef enum fieldscribe_modbus_status {
     FIELDSCRIBE_MODBUS_OK = 0,
     /* building */
-    FIELDSCRIBE_MODBUS_BAD_UNIT,         /* not a unit of this device, or a broadcast of what does not go to all units */
+    FIELDSCRIBE_MODBUS_BAD_UNIT,         /* not a unit of this device, or a broadcast of what does not go to all */
     FIELDSCRIBE_MODBUS_BAD_FUNCTION,     /* the device does not know the function */
     FIELDSCRIBE_MODBUS_BAD_COUNT,        /* no items, too many, or no values for them */
     FIELDSCRIBE_MODBUS_BAD_ADDRESS,      /* the last item lies beyond FFFFh, or 08h has a sub-function but 0 */
@@ -65,7 +65,10 @@ typedef enum fieldscribe_modbus_status {
     FIELDSCRIBE_MODBUS_ECHO_MISMATCH   /* a write that was answered with something else */
 } fieldscribe_modbus_status;
 
-typedef enum fieldscribe_modbus_framing { FIELDSCRIBE_MODBUS_RTU = 0, FIELDSCRIBE_MODBUS_TCP } fieldscribe_modbus_framing;
+typedef enum fieldscribe_modbus_framing {
+    FIELDSCRIBE_MODBUS_RTU = 0,
+    FIELDSCRIBE_MODBUS_TCP
+} fieldscribe_modbus_framing;
 
 /* A function code, how many items one request may carry, and whether it may go to all units at once. */
 typedef struct fieldscribe_modbus_function {
@@ -478,7 +481,8 @@ static fieldscribe_modbus_status fieldscribe_modbus_take(const fieldscribe_modbu
     if (function == 0x0FU || function == 0x10U) {
         return fieldscribe_modbus_get(pdu + 3) == count ? FIELDSCRIBE_MODBUS_OK : FIELDSCRIBE_MODBUS_ECHO_MISMATCH;
     }
-    if (request->values == NULL || count == 0U || fieldscribe_modbus_get(pdu + 3) != fieldscribe_modbus_single(request)) {
+    if (request->values == NULL || count == 0U ||
+        fieldscribe_modbus_get(pdu + 3) != fieldscribe_modbus_single(request)) {
         return FIELDSCRIBE_MODBUS_ECHO_MISMATCH;
     }
     if (reply->room > 0U) {
@@ -492,6 +496,7 @@ static fieldscribe_modbus_status fieldscribe_modbus_parse_rtu(const fieldscribe_
     const uint8_t *bytes, size_t length, fieldscribe_modbus_reply *reply)
 {
     size_t expected = length;
+    uint16_t crc;
     bool known = true;
     bool refused = false;
     if (length < 5U) {
@@ -508,7 +513,8 @@ static fieldscribe_modbus_status fieldscribe_modbus_parse_rtu(const fieldscribe_
     if (length != expected) {
         return length < expected ? FIELDSCRIBE_MODBUS_SHORT_FRAME : FIELDSCRIBE_MODBUS_LONG_FRAME;
     }
-    if (fieldscribe_modbus_crc(bytes, length - 2U) != (uint16_t)(((uint32_t)bytes[length - 1U] << 8) | bytes[length - 2U])) {
+    crc = (uint16_t)(((uint32_t)bytes[length - 1U] << 8) | bytes[length - 2U]);
+    if (fieldscribe_modbus_crc(bytes, length - 2U) != crc) {
         return FIELDSCRIBE_MODBUS_BAD_CRC;
     }
     if (bytes[0] != request->unit) {

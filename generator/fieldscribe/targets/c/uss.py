@@ -85,7 +85,7 @@ def uss_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
     points = [point for point in device.points if point.generated and point.places and point.text is None]
     tasks = {code.number: f"{scope.upper}_TASK_{upper(code.name)}" for code in bus.functions}
     layouts = Layouts(scope)
-    frames = [_frame(one, views[one.item], tasks, layouts) for one in points if one.space == "parameter"]
+    frames = [_frame(one, views[one.item], frozenset(tasks), layouts) for one in points if one.space == "parameter"]
     telegrams = {one.name: one for one in device.telegrams}
     words = tuple(
         _word(point, views[point.item], telegrams[point.telegram or ""], layouts, scope)
@@ -158,7 +158,7 @@ def _codes(title: str, kind: str, codes: tuple[Code, ...], scope: Scope) -> Code
     return CodesView(title, f"{scope.prefix}_{kind}_name", tuple(entries))
 
 
-def _frame(point: Point, view: PointView, tasks: dict[int, str], layouts: Layouts) -> FrameView | None:
+def _frame(point: Point, view: PointView, tasks: frozenset[int], layouts: Layouts) -> FrameView | None:
     """None for a point that no task of the device reaches."""
     width = 2 if point.info.bits == 32 else 1
     if point.info.bits > 32:
@@ -171,10 +171,10 @@ def _frame(point: Point, view: PointView, tasks: dict[int, str], layouts: Layout
         return None
     layout = layouts.of(point, range(width))
     changes = "u" if shares(point) else "w"
-    ways = [(tasks[task], way) for task, way in ((read, "r"), (ram, changes)) if task is not None]
+    ways = [(task, way) for task, way in ((read, "r"), (ram, changes)) if task is not None]
     descriptors = [_descriptor(point, view, "_frame", layout, ways)] if ways else []
     if eeprom is not None:
-        descriptors.append(_descriptor(point, view, "_eeprom_frame", layout, [(tasks[eeprom], changes)]))
+        descriptors.append(_descriptor(point, view, "_eeprom_frame", layout, [(eeprom, changes)]))
     return FrameView(
         descriptors=tuple(descriptors),
         function=view.function,
@@ -187,10 +187,10 @@ def _frame(point: Point, view: PointView, tasks: dict[int, str], layouts: Layout
     )
 
 
-def _descriptor(point: Point, view: PointView, tail: str, layout: str, ways: list[tuple[str, str]]) -> Descriptor:
+def _descriptor(point: Point, view: PointView, tail: str, layout: str, ways: list[tuple[int, str]]) -> Descriptor:
     """The tasks of a parameter: how the number lies in the words of its value, and what reads and writes it."""
     width = 2 if point.info.bits == 32 else 1
-    places = [f"{{{task}, {point.address}U, {point.index or 0}U, {width}U}}" for task, _ in ways]
+    places = [f"{{{task}U, {point.address}U, {point.index or 0}U, {width}U}}" for task, _ in ways]
     kind = f"fieldscribe_uss_{''.join(way for _, way in ways)}"
     return Descriptor(kind, view.function + tail, f"{{{', '.join((layout, *places))}}}", view.item)
 
