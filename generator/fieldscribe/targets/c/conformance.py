@@ -73,7 +73,7 @@ def conformance_view(device: Device, view: DeviceView, scope: Scope, more: Itera
         ),
         names=tuple(kind for kind, codes in _code_kinds(device) if codes and device.family == "uss"),
         commands=tuple(
-            (one.name, f"{scope.prefix}_command_{one.name}_request", f"{scope.upper}_COMMAND_{upper(one.name)}_VALUE")
+            (one.name, f"{scope.prefix}_command_{one.name}", f"{scope.upper}_COMMAND_{upper(one.name)}_VALUE")
             for one in device.commands
         ),
         telegrams=tuple(one.name for one in device.telegrams),
