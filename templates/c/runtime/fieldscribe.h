@@ -692,14 +692,14 @@ static inline fieldscribe_whole fieldscribe_limit_ratio(int64_t number, int64_t 
 }
 
 /* A limit, but no less than that. */
-static inline fieldscribe_whole fieldscribe_at_least(fieldscribe_whole limit, int64_t least)
+static inline fieldscribe_whole fieldscribe_no_less(fieldscribe_whole limit, int64_t least)
 {
     limit.number = (limit.number < least) ? least : limit.number;
     return limit;
 }
 
 /* A limit, but no more than that. */
-static inline fieldscribe_whole fieldscribe_at_most(fieldscribe_whole limit, int64_t most)
+static inline fieldscribe_whole fieldscribe_no_more(fieldscribe_whole limit, int64_t most)
 {
     limit.number = (limit.number > most) ? most : limit.number;
     return limit;

@@ -82,7 +82,6 @@ typedef struct fieldscribe_suite {
     const char *device;
     const char *version;
     const char *digest;
-    const char *const *spaces;
     const fieldscribe_status_name *statuses;
     const fieldscribe_adapter *adapters;
     const char *const *telegrams;
@@ -140,7 +139,7 @@ static inline uint32_t fieldscribe_at_most(fieldscribe_vector *v, const char *ke
     return *field == '-' && number != 0U ? most : number > most ? most : (uint32_t)number;
 }
 
-static inline double fieldscribe_real(fieldscribe_vector *v, const char *key)
+static inline double fieldscribe_number_of(fieldscribe_vector *v, const char *key)
 {
     const char *const field = fieldscribe_field(v, key);
     const size_t length = strlen(field);
@@ -281,7 +280,7 @@ static inline void fieldscribe_is_text(fieldscribe_vector *v, const char *key, c
 /* Same bits, or both not a number; of a value in binary32 those of the number nearest to it. */
 static inline void fieldscribe_is_real_of(fieldscribe_vector *v, size_t size, double b)
 {
-    const double wide = fieldscribe_real(v, "value");
+    const double wide = fieldscribe_number_of(v, "value");
     const float narrow = (float)wide;
     const double a = size == sizeof narrow ? (double)narrow : wide;
     const bool nan_a = !(a < 0.0 || a >= 0.0);
@@ -382,6 +381,7 @@ static inline uint64_t fieldscribe_other(fieldscribe_vector *v)
 /* The raw numbers of other points, as further arguments of a call; or none. */
 #define FIELDSCRIBE_ALONE
 #define FIELDSCRIBE_WITH(name, type) , (type)fieldscribe_with(v, name)
+#define FIELDSCRIBE_TOGETHER(filled) , filled(v)
 
 /* Whether a number can be passed in that type at all; one that cannot is out of range by the type alone. */
 static inline bool fieldscribe_fits_int32_t(const char *field)
@@ -436,7 +436,7 @@ static inline bool fieldscribe_fits_uint64_t(const char *field)
 /* Whether a value of a line can be told in that type; where float is chosen, what it cannot hold is not asked. */
 static inline bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
 {
-    const double value = fieldscribe_real(v, "value");
+    const double value = fieldscribe_number_of(v, "value");
     const float narrow = (float)value;
     const double back = (double)narrow;
     const bool held = size > sizeof narrow || !(back < value || back > value);
@@ -450,7 +450,7 @@ static inline bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
 #define FIELDSCRIBE_ENCODE(function, real_type, raw_type, with)                                  \
     if (fieldscribe_asks(v, "encode") && fieldscribe_holds(v, sizeof(real_type))) {              \
         raw_type raw = (raw_type)1;                                                              \
-        const int status = (int)function((real_type)fieldscribe_real(v, "value") with, &raw);    \
+        const int status = (int)function((real_type)fieldscribe_number_of(v, "value") with, &raw);    \
         fieldscribe_stored(v, status, "raw", (uint64_t)raw, raw == (raw_type)1);                 \
     }
 
@@ -511,14 +511,18 @@ static inline bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
 #define FIELDSCRIBE_ADDRESS(macro, others)                                                       \
     if (fieldscribe_asks(v, "address")) {                                                        \
         fieldscribe_is_number(v, "address", macro##_ADDRESS);                                    \
-        fieldscribe_is_number(v, "words", macro##_WORDS);                                        \
-        fieldscribe_is_text(v, "space", v->suite->spaces[macro##_SPACE]);                        \
+        (void)fieldscribe_field(v, "space"); /* stands in a comment */                           \
         others                                                                                   \
         fieldscribe_are_all_pairs(v, "references");                                              \
     }
 
 /* What stands beside an address, as far as the point has it. */
 #define FIELDSCRIBE_CODE(macro) fieldscribe_is_text(v, "code", macro##_CODE);
+#define FIELDSCRIBE_ONE(macro) fieldscribe_is_number(v, "words", 1U);
+#define FIELDSCRIBE_SEVERAL(macro) fieldscribe_is_number(v, "words", macro##_WORDS);
+#define FIELDSCRIBE_ONLY_READ(macro)                                                             \
+    (void)fieldscribe_field(v, "raw_min"); /* what may be written has limits in C */             \
+    (void)fieldscribe_field(v, "raw_max");
 #define FIELDSCRIBE_RAWS(macro)                                                                  \
     fieldscribe_is_number(v, "raw_min", (uint64_t)(macro##_RAW_MIN));                            \
     fieldscribe_is_number(v, "raw_max", (uint64_t)(macro##_RAW_MAX));
@@ -680,7 +684,7 @@ static inline bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
     }
 #define FIELDSCRIBE_DOCUMENTED(point, macro, index)                                              \
     if (fieldscribe_asks_of(v, "documented", "name", point)) {                                   \
-        fieldscribe_is_text(v, "space", v->suite->spaces[macro##_SPACE]);                        \
+        (void)fieldscribe_field(v, "space");                                                     \
         fieldscribe_is_number(v, "address", macro##_ADDRESS);                                    \
         fieldscribe_is_number(v, "words", macro##_WORDS);                                        \
         index                                                                                    \
@@ -721,6 +725,9 @@ static inline bool fieldscribe_same_number(uint64_t one, uint64_t other)
         fieldscribe_is_text(v, "new", point);                                                    \
         fieldscribe_agree(v, same);                                                              \
     }
+/* A struct has a name in place of an address. */
+#define FIELDSCRIBE_ALIAS_OF_STRUCT(was, point, old_name, new_name)                              \
+    FIELDSCRIBE_ALIAS(was, point, sizeof(old_name) == sizeof(new_name))
 #define FIELDSCRIBE_ALIAS_OF_NUMBER(was, point, old_name, new_name)                              \
     FIELDSCRIBE_ALIAS(was, point, fieldscribe_same_number((uint64_t)(old_name), (uint64_t)(new_name)))
 #define FIELDSCRIBE_ALIAS_OF_TEXT(was, point, old_name, new_name)                                \

@@ -165,11 +165,11 @@ static inline void fieldscribe_is_value(fieldscribe_vector *v, const fieldscribe
         if (part) {                                                                              \
             fieldscribe_is_number(v, "result", own[0]);                                          \
         } else {                                                                                 \
-            fieldscribe_is_words(v, "words", own, macro##_WORDS);                                \
+            fieldscribe_is_words(v, "words", own, (frame).layout->words);                                \
         }                                                                                        \
         fieldscribe_untouched(v, words, macro##_ADDRESS * sizeof words[0]);                      \
-        fieldscribe_untouched(v, words + macro##_ADDRESS + macro##_WORDS,                        \
-            sizeof words - (macro##_ADDRESS + macro##_WORDS) * sizeof words[0]);                 \
+        fieldscribe_untouched(v, words + macro##_ADDRESS + (frame).layout->words,                        \
+            sizeof words - (macro##_ADDRESS + (frame).layout->words) * sizeof words[0]);                 \
     }
 #define FIELDSCRIBE_TAKE(frame, kind, raw_type, macro, count)                                    \
     if (fieldscribe_asks(v, "words") || fieldscribe_asks(v, "bits")) {                           \
@@ -178,7 +178,7 @@ static inline void fieldscribe_is_value(fieldscribe_vector *v, const fieldscribe
         if (fieldscribe_asks(v, "bits")) {                                                       \
             words[macro##_ADDRESS] = (uint16_t)fieldscribe_bits(v, "word");                      \
         } else {                                                                                 \
-            (void)fieldscribe_numbers(v, "words", words + macro##_ADDRESS, macro##_WORDS);       \
+            (void)fieldscribe_numbers(v, "words", words + macro##_ADDRESS, (frame).layout->words);       \
         }                                                                                        \
         FIELDSCRIBE_TAKEN((frame).layout, kind, raw_type, fieldscribe_uss_words_heard(&(frame).heard, words)) \
     }

@@ -120,7 +120,7 @@ class Writer:
     def _plain_body(self, kind: str) -> str:
         point = self.point
         literal = unsigned if kind == "uint64_t" else bare
-        low, high = raw_bounds(point) if fixes(point) else self.limits
+        low, high = raw_bounds(point) if fixes(point) else self.reach
         if not is_rechecked(point):
             core = f"fieldscribe_encode_{self.kind}(value, {literal(low)}, {literal(high)}, raw)"
             return f"return {known(point, core)};"

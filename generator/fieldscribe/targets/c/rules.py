@@ -35,7 +35,7 @@ def limit(bound: Limit, scope: Scope, *, is_low: bool) -> str:
     start = bound.least if is_low else bound.greatest
     text = _bare_limit(bound.rule, scope)
     if _simple(bound.rule, scope) is None or not _stays_inside(bound, scope, is_low=is_low):
-        text = f"fieldscribe_at_{'least' if is_low else 'most'}({text}, {bare(start)})"
+        text = f"fieldscribe_no_{'less' if is_low else 'more'}({text}, {bare(start)})"
     tests = [_is_no_code(point, *band, scope) for point, codes in bound.unless for band in codes]
     if not tests:
         return text

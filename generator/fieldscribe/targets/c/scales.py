@@ -10,7 +10,6 @@ from fieldscribe.targets.c.literals import (
     EXACT_FLOAT,
     INT32,
     INT64,
-    UINT64,
     bare,
     cast,
     raw_bounds,
@@ -86,11 +85,17 @@ def scaled(point: Point, low: int, high: int) -> Scaled:
         counts=plan.counts,
         direct=(plan.p, plan.q, plan.r) == (1, 0, 1),
         raw_of_count=cast(raw_type(point), _raw_of_count(plan)),
-        count_of_raw=cast(kind, counted) if plan.decode_wide and not plan.count_wide or plan.raws == UINT64 else counted,
+        count_of_raw=counted if _fits_into(kind, counted, plan) else cast(kind, counted),
         wide=wide,
         steps=_steps(rule, wide=wide),
         value_of_raw=_value_of_raw(plan, point, wide=wide),
     )
+
+
+def _fits_into(kind: str, number: str, plan: Plan) -> bool:
+    """Whether an expression has that type, or becomes it by itself."""
+    wide = plan.decode_wide or "_wide(" in number or "_divide(" in number
+    return plan.raws[1] <= INT64[1] and (kind == "int64_t" or not wide)
 
 
 def is_double(point: Point, low: int, high: int) -> bool:
