@@ -70,6 +70,9 @@ typedef enum fieldscribe_status {
 #endif
 #define FIELDSCRIBE_STATUS FIELDSCRIBE_CHECKED static inline fieldscribe_status
 
+/* How many rows an array has. */
+#define FIELDSCRIBE_COUNT(array) (sizeof(array) / sizeof((array)[0]))
+
 /* A whole number, if the status is OK. */
 typedef struct fieldscribe_whole {
     fieldscribe_status status;
@@ -738,6 +741,12 @@ typedef struct fieldscribe_wide_name {
     uint64_t bits;
     const char *name;
 } fieldscribe_wide_name;
+
+/* The name at that place of those that count from 0; NULL when it has none. */
+static inline const char *fieldscribe_name_at(const char *const *names, size_t count, int64_t number)
+{
+    return ((number >= 0) && ((uint64_t)number < count)) ? names[(size_t)number] : NULL;
+}
 
 /* The name of a number; NULL when it has none. */
 static inline const char *fieldscribe_name_of(const fieldscribe_name *names, size_t count, int64_t number)

@@ -478,6 +478,12 @@ static inline bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
         fieldscribe_is_text(v, "name", function((number_type)fieldscribe_bits(v, "raw")));       \
     }
 
+/* The constant of a name. */
+#define FIELDSCRIBE_NAMED(named, constant)                                                       \
+    if (fieldscribe_asks_of(v, "name", "name", named)) {                                         \
+        fieldscribe_is_number(v, "raw", (uint64_t)(constant));                                   \
+    }
+
 #define FIELDSCRIBE_BITS(function, raw_type, macro)                                              \
     if (fieldscribe_asks(v, "bits")) {                                                           \
         const uint16_t word = (uint16_t)fieldscribe_bits(v, "word");                             \
@@ -512,12 +518,12 @@ static inline bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
     if (fieldscribe_asks(v, "address")) {                                                        \
         fieldscribe_is_number(v, "address", macro##_ADDRESS);                                    \
         (void)fieldscribe_field(v, "space"); /* stands in a comment */                           \
+        (void)fieldscribe_field(v, "code");                                                      \
+        (void)fieldscribe_field(v, "references");                                                \
         others                                                                                   \
-        fieldscribe_are_all_pairs(v, "references");                                              \
     }
 
 /* What stands beside an address, as far as the point has it. */
-#define FIELDSCRIBE_CODE(macro) fieldscribe_is_text(v, "code", macro##_CODE);
 #define FIELDSCRIBE_ONE(macro) fieldscribe_is_number(v, "words", 1U);
 #define FIELDSCRIBE_SEVERAL(macro) fieldscribe_is_number(v, "words", macro##_WORDS);
 #define FIELDSCRIBE_ONLY_READ(macro)                                                             \
@@ -527,8 +533,6 @@ static inline bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
     fieldscribe_is_number(v, "raw_min", (uint64_t)(macro##_RAW_MIN));                            \
     fieldscribe_is_number(v, "raw_max", (uint64_t)(macro##_RAW_MAX));
 #define FIELDSCRIBE_DECIMALS(macro) fieldscribe_is_number(v, "decimals", (uint64_t)(macro##_DECIMALS));
-#define FIELDSCRIBE_REFERENCE(macro, name, key) fieldscribe_is_pair(v, "references", key, (uint64_t)(macro##_##name));
-#define FIELDSCRIBE_REFERENCE_TEXT(macro, name, key) fieldscribe_is_text_pair(v, "references", key, macro##_##name);
 
 /* The words of a point in order, and what stands beside them. */
 #define FIELDSCRIBE_INDEX(macro) fieldscribe_is_number(v, "index", (uint64_t)(macro##_INDEX));
@@ -678,10 +682,6 @@ static inline bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
         fieldscribe_agree(v, function(65535U) == NULL);                                          \
     }
 
-#define FIELDSCRIBE_DOCUMENTED_CODE(point, macro)                                                \
-    if (fieldscribe_asks_of(v, "documented_code", "name", point)) {                              \
-        fieldscribe_is_text(v, "code", macro##_CODE);                                            \
-    }
 #define FIELDSCRIBE_DOCUMENTED(point, macro, index)                                              \
     if (fieldscribe_asks_of(v, "documented", "name", point)) {                                   \
         (void)fieldscribe_field(v, "space");                                                     \
@@ -1028,7 +1028,7 @@ static void fieldscribe_run_vector(fieldscribe_file *file, const char *text)
     v->matched = 0U;
     if (fieldscribe_asks(v, "code") || fieldscribe_asks(v, "constant") || fieldscribe_asks(v, "command") ||
         fieldscribe_asks(v, "group") || fieldscribe_asks(v, "documented") || fieldscribe_asks(v, "size") ||
-        fieldscribe_asks(v, "alias") || fieldscribe_asks(v, "documented_code")) {
+        fieldscribe_asks(v, "alias")) {
         v->suite->run_code(v);
     } else if (!v->suite->run_frame(v)) {
         fieldscribe_run_point(v);

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     """The generated files: path relative to the output folder, and text."""
     view, scope = device_view(device)
-    yield f"c/{device.id}.h", render("c/device.h.j2", {"device": view})
+    yield f"c/{device.id}.h", folded(render("c/device.h.j2", {"device": view}))
     name, family = device.family, FAMILIES[device.family]
     bus = family.view(device, view, scope)
     frames = {"device": view, "bus": bus}

@@ -52,8 +52,8 @@ class SuiteView:
     names: tuple[str, ...]
     """The kinds of codes that a function names."""
     commands: tuple[tuple[str, str, str], ...]
-    documented: tuple[tuple[str, str, bool, bool], ...]
-    """Points whose words alone are known, what their macros begin with, and whether they have an index and a code."""
+    documented: tuple[tuple[str, str, bool], ...]
+    """Points whose words alone are known, what their macros begin with, and whether they have an index."""
     telegrams: tuple[str, ...]
 
 
@@ -80,7 +80,7 @@ def conformance_view(device: Device, view: DeviceView, scope: Scope, more: Itera
         groups=tuple(groups),
         codes=tuple(_codes(device, scope)),
         documented=tuple(
-            (one.item, f"{scope.upper}_{upper(one.item)}", one.index is not None, one.code is not None)
+            (one.item, f"{scope.upper}_{upper(one.item)}", one.index is not None)
             for one in device.points
             if one.raw_only and one.address is not None
         ),
@@ -149,6 +149,9 @@ def _cases(point: Point, view: PointView, scope: Scope) -> list[str]:
     enum = named_numbers(point)
     if enum is not None:
         cases.append(f"NAME({scope.prefix}_{enum.name}_name, {value_type(point)})")
+        constant = f"{scope.upper}_{upper(enum.name)}"
+        first = {entry.raw: entry.name for entry in reversed(enum.entries)}
+        cases += [f'NAMED("{name}", {constant}_{upper(name)})' for name in first.values()]
     cases += _places(point, view)
     if point.text is not None:
         return cases
@@ -184,15 +187,11 @@ def _beside(point: Point, view: PointView) -> str:
 
 def _constants(point: Point, view: PointView) -> str:
     """The macros that answer with what stands beside the address."""
-    calls = [f"CODE({view.macro})"] if point.code is not None else []
-    calls.append(f"{'SEVERAL' if point.words > 1 or point.text is not None else 'ONE'}({view.macro})")
+    calls = [f"{'SEVERAL' if point.words > 1 or point.text is not None else 'ONE'}({view.macro})"]
     if view.shape not in ("float", "text", "digits"):
         calls.append(f"{'RAWS' if point.writable else 'ONLY_READ'}({view.macro})")
     if point.form == "scaled" and point.decimals is not None:
         calls.append(f"DECIMALS({view.macro})")
-    for key, number in point.references.items():
-        kind = "REFERENCE_TEXT" if isinstance(number, str) else "REFERENCE"
-        calls.append(f'{kind}({view.macro}, {upper(key)}, "{key}")')
     return " ".join(f"FIELDSCRIBE_{call}" for call in calls)
 
 

@@ -1,4 +1,4 @@
-"""The constants of a point: where it is, what the manual calls it, its limits and masks."""
+"""The constants of a point: where it is, its limits and masks."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 from fieldscribe.names import upper
 from fieldscribe.targets.c.literals import hexadecimal, signed, unsigned
 from fieldscribe.targets.c.special_codes import code_defines
-from fieldscribe.text import c_string
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -44,14 +43,9 @@ def shares_values(point: Point) -> bool:
 
 
 def place_defines(point: Point, macro: str, scope: Scope) -> Iterator[Define]:
-    """The macros that say where a point is and what the manual calls it."""
+    """The macros that say where a point is."""
     if point.address is not None:
         yield from _places(point, macro, scope)
-    if point.code is not None:
-        yield f"{macro}_CODE", c_string(point.code)
-    for key, number in point.references.items():
-        literal = c_string(number) if isinstance(number, str) else (unsigned if number >= 0 else signed)(number)
-        yield f"{macro}_{upper(key)}", literal
 
 
 def _places(point: Point, macro: str, scope: Scope) -> Iterator[Define]:

@@ -69,7 +69,7 @@ def _status(point: Point, scope: Scope) -> str:
         return "FIELDSCRIBE_OK" if low <= least and high >= greatest else checked(point, "raw", low, high)
     table = ranges_table(point, scope)
     if table:
-        return f"fieldscribe_check_ranges(raw, {table}, sizeof {table} / sizeof {table}[0])"
+        return f"fieldscribe_check_ranges(raw, {table}, FIELDSCRIBE_COUNT({table}))"
     literal = bare if point.info.signed else unsigned
     bounds = raw_bounds(point)
     test = any_of([interval_test("raw", one.low, one.high, bounds, literal) for one in intervals])

@@ -37,7 +37,7 @@ def digits_functions(point: Point, name: str, special: SpecialView | None, scope
     assert point.digits is not None
     count = point.digits.count
     names = f"{scope.prefix}_{point.digits.enum.name}_names"
-    known = f"{count}U, {names}, sizeof {names} / sizeof {names}[0]"
+    known = f"{count}U, {names}, FIELDSCRIBE_COUNT({names})"
     digits = f"uint16_t digits[{count}]"
     if point.writable:
         check = codes_first(point, special, f"fieldscribe_check_digits(raw, {known})")

@@ -19,7 +19,7 @@ from fieldscribe.targets.c.views import EnumView, Function, PointView, TableView
 from fieldscribe.text import c_comment, c_string
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterator, Mapping
 
     from fieldscribe.model import Enum, Flag, Point
     from fieldscribe.targets.c.scope import Scope
@@ -126,31 +126,47 @@ def _enum_view(enum: Enum, point: Point, scope: Scope) -> EnumView | None:
         comment = f" /* {c_comment(entry.quantity)} */" if entry.quantity else ""
         entries.append((name, signed(entry.raw), comment))
         named.setdefault(entry.raw, (name, c_string(entry.name)))
-    narrow = all(-(1 << 31) <= entry.raw < 1 << 31 for entry in enum.entries)
     lookup, table = f"{scope.prefix}_{enum.name}_name", f"{scope.prefix}_{enum.name}_names"
+    form = _form_of(named, digits=enum.name in scope.digits)
     return EnumView(
         entries=tuple(entries),
         fits_int=all(-(1 << 15) <= entry.raw < 1 << 15 for entry in enum.entries),
-        table_type="fieldscribe_name" if narrow else "fieldscribe_wide_name",
+        table_type=_TABLES[form],
         table=table,
-        rows=tuple(filled(_rows(named.values(), narrow=narrow), ", ", "    ")),
+        rows=tuple(filled(_rows(named, form), ", ", "    ")),
         function=lookup,
-        lookup=_lookup(lookup, table, value_type(point), narrow=narrow),
+        lookup=_lookup(lookup, table, value_type(point), form),
     )
 
 
-def _rows(named: Iterable[tuple[str, str]], *, narrow: bool) -> Iterator[str]:
-    for name, text in named:
-        yield f"{{{name if narrow else f'(uint64_t){name}'}, {text}}}"
+_TABLES = {"dense": "char *const", "sparse": "fieldscribe_name", "wide": "fieldscribe_wide_name"}
 
 
-def _lookup(name: str, table: str, kind: str, *, narrow: bool) -> str:
-    rows = f"{table}, sizeof {table} / sizeof {table}[0]"
-    body = f"fieldscribe_name_of({rows}, raw)"
-    if not narrow:
+def _form_of(named: Mapping[int, tuple[str, str]], *, digits: bool) -> str:
+    """How names are looked up: by their place where the numbers count from 0, else (and of digits) beside them."""
+    if not digits and sorted(named) == list(range(len(named))):
+        return "dense"
+    return "sparse" if all(-(1 << 31) <= raw < 1 << 31 for raw in named) else "wide"
+
+
+def _rows(named: Mapping[int, tuple[str, str]], form: str) -> Iterator[str]:
+    for raw in sorted(named):
+        name, text = named[raw]
+        pair = f"{{{name if form == 'sparse' else f'(uint64_t){name}'}, {text}}}"
+        yield text if form == "dense" else pair
+
+
+def _lookup(name: str, table: str, kind: str, form: str) -> str:
+    rows = f"{table}, FIELDSCRIBE_COUNT({table})"
+    number = "(raw <= (uint64_t)INT64_MAX) ? (int64_t)raw : -1" if kind == "uint64_t" else "raw"
+    if form == "wide":
         body = f"fieldscribe_wide_name_of({rows}, {'raw' if kind == 'uint64_t' else '(uint64_t)raw'})"
+    elif form == "dense":
+        body = f"fieldscribe_name_at({rows}, {number})"
     elif kind == "uint64_t":
         body = f"(raw <= (uint64_t)INT32_MAX) ? fieldscribe_name_of({rows}, (int64_t)raw) : NULL"
+    else:
+        body = f"fieldscribe_name_of({rows}, raw)"
     return function(f"{INLINE} const char *", name, (f"{kind} raw",), f"return {body};")
 
 

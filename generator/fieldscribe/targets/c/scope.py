@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 class Scope:
     """The namespace of one device.
 
+    `errata` are the ids of those that change a fact, `digits` the names of enums that name decimal digits.
     `enums` and `codes` are the names of those already placed, `tables` the names of tables by what is in them.
     `names_only` says that nobody will see the comments and functions of points, which take most of the time. `grouped`
     says that the function which is being written gets the raw numbers of other points in a struct.
@@ -27,6 +28,7 @@ class Scope:
     upper: str
     points: Mapping[str, Point]
     errata: frozenset[str]
+    digits: frozenset[str]
     names_only: bool = False
     grouped: bool = False
     enums: set[str] = field(default_factory=set)
@@ -57,6 +59,7 @@ def scope_of(device: Device, *, names_only: bool = False) -> Scope:
     for point in device.points:
         points.setdefault(point.name, point)
         points.setdefault(point.item, point)
+    digits = frozenset(one.digits.enum.name for one in device.points if one.digits is not None)
     known = frozenset(one.id for one in device.errata if one.facts)
-    return Scope(device.id, upper(device.id), points, known, names_only)
+    return Scope(device.id, upper(device.id), points, known, digits, names_only)
 

@@ -66,8 +66,6 @@ def collect(device: Device) -> Lines:
     for point in device.points:
         if point.raw_only and point.address is not None:
             lines.add("documented", point.item, point.places[0].space, point.address, point.words, point.index)
-            if point.code is not None:
-                lines.add("documented_code", point.item, line(point.code))
     if left_out := tuple(point.item for point in device.points if not point.generated):
         lines.add("left_out", left_out)
     frames(lines, device)
