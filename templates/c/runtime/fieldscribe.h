@@ -748,6 +748,8 @@ static inline const char *fieldscribe_name_at(const char *const *names, size_t c
     return ((number >= 0) && ((uint64_t)number < count)) ? names[(size_t)number] : NULL;
 }
 
+#define FIELDSCRIBE_NAME_AT(names, number) fieldscribe_name_at((names), FIELDSCRIBE_COUNT(names), (number))
+
 /* The name of a number; NULL when it has none. */
 static inline const char *fieldscribe_name_of(const fieldscribe_name *names, size_t count, int64_t number)
 {
@@ -1037,11 +1039,23 @@ FIELDSCRIBE_STATUS fieldscribe_round_u8(fieldscribe_real number, int32_t low, in
     return fieldscribe_keep_u8(status, (uint8_t)whole, raw);
 }
 
+FIELDSCRIBE_STATUS fieldscribe_scale_u8(
+    fieldscribe_real value, int32_t factor, int32_t low, int32_t high, uint8_t *raw)
+{
+    return fieldscribe_round_u8(fieldscribe_times(value, (fieldscribe_real)factor), low, high, raw);
+}
+
 FIELDSCRIBE_STATUS fieldscribe_round_s8(fieldscribe_real number, int32_t low, int32_t high, int8_t *raw)
 {
     int32_t whole = 0;
     const fieldscribe_status status = fieldscribe_round(number, low, high, &whole);
     return fieldscribe_keep_s8(status, (int8_t)whole, raw);
+}
+
+FIELDSCRIBE_STATUS fieldscribe_scale_s8(
+    fieldscribe_real value, int32_t factor, int32_t low, int32_t high, int8_t *raw)
+{
+    return fieldscribe_round_s8(fieldscribe_times(value, (fieldscribe_real)factor), low, high, raw);
 }
 
 FIELDSCRIBE_STATUS fieldscribe_round_u16(fieldscribe_real number, int32_t low, int32_t high, uint16_t *raw)
@@ -1051,11 +1065,23 @@ FIELDSCRIBE_STATUS fieldscribe_round_u16(fieldscribe_real number, int32_t low, i
     return fieldscribe_keep_u16(status, (uint16_t)whole, raw);
 }
 
+FIELDSCRIBE_STATUS fieldscribe_scale_u16(
+    fieldscribe_real value, int32_t factor, int32_t low, int32_t high, uint16_t *raw)
+{
+    return fieldscribe_round_u16(fieldscribe_times(value, (fieldscribe_real)factor), low, high, raw);
+}
+
 FIELDSCRIBE_STATUS fieldscribe_round_s16(fieldscribe_real number, int32_t low, int32_t high, int16_t *raw)
 {
     int32_t whole = 0;
     const fieldscribe_status status = fieldscribe_round(number, low, high, &whole);
     return fieldscribe_keep_s16(status, (int16_t)whole, raw);
+}
+
+FIELDSCRIBE_STATUS fieldscribe_scale_s16(
+    fieldscribe_real value, int32_t factor, int32_t low, int32_t high, int16_t *raw)
+{
+    return fieldscribe_round_s16(fieldscribe_times(value, (fieldscribe_real)factor), low, high, raw);
 }
 
 /* A pattern is neither a conversion nor an alias: its bytes are copied. */

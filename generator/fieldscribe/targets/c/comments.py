@@ -39,7 +39,8 @@ def comment_lines(point: Point, scope: Scope, remark: str = "") -> tuple[str, ..
 def _facts(point: Point, scope: Scope) -> Iterator[str]:
     if point.untyped is None:
         yield from filter(None, (_range(point), *_steps(point)))
-    yield ", ".join((point.access, point.space, *(f"{key} {number}" for key, number in point.references.items())))
+    spaces = (point.space,) if scope.spaces.get(point.group) is None else ()
+    yield ", ".join((point.access, *spaces, *(f"{key} {number}" for key, number in point.references.items())))
     if point.default is not None:
         yield f"default {default_text(point)}"
     if point.when is not None:

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.names import upper
+from fieldscribe.targets.c.conversions import value_type
 from fieldscribe.targets.c.defines import shares_values
 from fieldscribe.targets.c.literals import raw_type
-from fieldscribe.targets.c.conversions import value_type
 from fieldscribe.targets.c.points import named_numbers
 from fieldscribe.targets.c.scales import scaled
 from fieldscribe.targets.c.special_codes import encoded_limits, owner, special_defines

@@ -18,7 +18,7 @@ from fieldscribe.targets.c.literals import (
     unsigned,
 )
 from fieldscribe.targets.c.places import fixed_number, fixes
-from fieldscribe.targets.c.rules import rule_of
+from fieldscribe.targets.c.rules import rule_name, rule_of
 from fieldscribe.targets.c.scales import scaled
 from fieldscribe.targets.c.special_codes import codes_first, encoded_limits, no_code
 from fieldscribe.targets.c.views import Function
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from fieldscribe.model import Point
+    from fieldscribe.targets.c.scales import Scaled
     from fieldscribe.targets.c.scope import Scope
     from fieldscribe.targets.c.views import SpecialView
 
@@ -63,7 +64,7 @@ class Writer:
         """May a raw number be written?"""
         parameters = [f"{self.type} raw", *self.scope.parameters(self.point.item, self.point.limit_arguments)]
         status = codes_first(self.point, self.special, check(self.point, self.scope))
-        body = (f"return {status};",) if "raw" in status else ("(void)raw;", f"return {status};")
+        body = ("(void)raw;", f"return {status};") if status == "FIELDSCRIBE_OK" else (f"return {status};",)
         return Function(function(STATUS, f"{self.name}_check", parameters, *body))
 
     def _checked(self, number: str) -> str:
@@ -154,15 +155,17 @@ class Writer:
             yield self._decode("decode_count", scale.count_type, scale.count_of_raw, fits=scale.count_fits)
         if point.writable and point.encodes_values:
             self.scope.grouped = len(point.arguments) > 1
-            yield self._encode("encode", f"{real} value", *self._rounded(scale.steps, wide=scale.wide), floating=True)
+            yield self._encode("encode", f"{real} value", *self._rounded(scale), floating=True)
         if point.readable:
             yield self._decode("decode", real, scale.value_of_raw, floating=True)
 
-    def _rounded(self, steps: str, *, wide: bool) -> tuple[str, ...]:
+    def _rounded(self, scale: Scaled) -> tuple[str, ...]:
         limits = ", ".join(map(bare, self.reach))
-        if not wide and not is_rechecked(self.point) and self.kind in ("u8", "s8", "u16", "s16"):
-            return (f"return fieldscribe_round_{self.kind}({steps}, {limits}, raw);",)
-        return self._whole(f"fieldscribe_rounded{'_wide' if wide else ''}({steps}, {limits})")
+        if not scale.wide and not is_rechecked(self.point) and self.kind in ("u8", "s8", "u16", "s16"):
+            if scale.factor:
+                return (f"return fieldscribe_scale_{self.kind}(value, {scale.factor}, {limits}, raw);",)
+            return (f"return fieldscribe_round_{self.kind}({scale.steps}, {limits}, raw);",)
+        return self._whole(f"fieldscribe_rounded{'_wide' if scale.wide else ''}({scale.steps}, {limits})")
 
     # ---- a scale that other points decide
 
@@ -171,9 +174,10 @@ class Writer:
         point, scope = self.point, self.scope
         if point.writable:
             yield self.check()
-        parameters = scope.parameters(point.item, point.scale_arguments)
-        body = f"return {rule_of(point, scope)};"
-        yield Function(function(f"{INLINE} fieldscribe_rule", f"{self.name}_rule", parameters, body))
+        if rule_name(point, scope) == f"{self.name}_rule":
+            parameters = scope.parameters(point.item, point.scale_arguments)
+            body = f"return {rule_of(point, scope)};"
+            yield Function(function(f"{INLINE} fieldscribe_rule", f"{self.name}_rule", parameters, body))
         tens, limits = bare(10 ** (point.decimals or 0)), ", ".join(map(bare, self.reach))
         counts = point.decimals is not None
         if point.writable and counts:
@@ -181,22 +185,27 @@ class Writer:
             body_of = self._whole(f"fieldscribe_ruled_count({rule}, count, {tens}, {limits})")
             yield self._encode("encode_count", "int64_t count", *body_of)
         if point.readable and counts:
-            yield self._by_rule("decode_count", "int64_t *count", f"fieldscribe_decode_count({{}}, (int64_t)raw, {tens}, count)")
+            yield self._by_rule(
+                "decode_count", "int64_t *count", f"fieldscribe_decode_count({{}}, (int64_t)raw, {tens}, count)"
+            )
         if point.writable and point.encodes_values:
             rule = self._rule(point.arguments)
             body_of = self._whole(f"fieldscribe_ruled_value({rule}, value, {limits})")
             yield self._encode("encode", "double value", *body_of, floating=True)
         if point.readable and point.encodes_values:
-            yield self._by_rule("decode", "double *value", "fieldscribe_decode_value({}, (int64_t)raw, value)", floating=True)
+            yield self._by_rule(
+                "decode", "double *value", "fieldscribe_decode_value({}, (int64_t)raw, value)", floating=True
+            )
         elif point.readable:
             core = f"fieldscribe_decode_wide({{}}, {', '.join(sign_and_size(point))}, value)"
             yield self._by_rule("decode", "double *value", core, floating=True)
 
     def _rule(self, arguments: tuple[str, ...]) -> str:
         """The rule, in a function that has those arguments."""
+        name = rule_name(self.point, self.scope)
         self.scope.grouped = len(arguments) > 1
         passed = self.scope.passed(self.point.scale_arguments)
-        return f"{self.name}_rule({passed.removeprefix(', ')})"
+        return f"{name}({passed.removeprefix(', ')})"
 
     def _by_rule(self, tail: str, to: str, core: str, *, floating: bool = False) -> Function:
         point = self.point
@@ -237,7 +246,10 @@ def _spans(point: Point) -> str:
     bits = point.info.bits
     infinity = 0x7F80_0000 if bits == 32 else 0x7FF0 << 48
     spans = [(float_order(float(low), bits), float_order(float(high), bits)) for low, high in point.allowed.units]
-    tests = [f"fieldscribe_check_f{bits}(raw, {bare(low)}, {bare(high)})" for low, high in spans or [(1 - infinity, infinity - 1)]]
+    tests = [
+        f"fieldscribe_check_f{bits}(raw, {bare(low)}, {bare(high)})"
+        for low, high in spans or [(1 - infinity, infinity - 1)]
+    ]
     status = tests[-1]
     for test in reversed(tests[:-1]):
         status = f"fieldscribe_either({test}, {status})"

@@ -38,9 +38,7 @@ def device_view(device: Device, *, names_only: bool = False) -> tuple[DeviceView
             item = old + point.item[len(point.name) :]  # a variant keeps its suffix
             of_item = _aliases(one, f"{scope.prefix}_{item}", f"{scope.upper}_{upper(item)}")
             aliases += [AliasView(item, one.item, *alias) for alias in of_item]
-    groups = tuple(
-        GroupView(name.replace("_", " "), tuple(entries)) for name, entries in by_group.items() if entries
-    )
+    groups = tuple(GroupView(_title(name, scope), tuple(entries)) for name, entries in by_group.items() if entries)
     view = DeviceView(
         head=head_lines(device),
         title=c_comment(f"{device.vendor} {device.model}"),
@@ -61,6 +59,12 @@ def device_view(device: Device, *, names_only: bool = False) -> tuple[DeviceView
         double=not names_only and any(computes_in_double(point) for point in device.points if point.generated),
     )
     return view, scope
+
+
+def _title(group: str, scope: Scope) -> str:
+    """What stands above a group: its name, and the space of its points if they have but one."""
+    space = scope.spaces.get(group)
+    return group.replace("_", " ") + (f" ({space})" if space else "")
 
 
 def head_lines(device: Device) -> tuple[str, ...]:
@@ -89,7 +93,7 @@ def function_names(view: PointView) -> list[str]:
     tails += ["_encode_count"] if view.writable and counted else []
     tails += ["_decode", "_decode_count"][: 1 + counted] if view.readable else []
     tails += ["_check"] if view.writable else []
-    tails += ["_rule"] if view.shape == "ruled" else []
+    tails += ["_rule"] if view.rules else []
     tails += ["_to_words", "_from_words"] if view.words else []
     tails += ["_extract", "_insert"] if view.bits else []
     return [*(view.function + tail for tail in tails), *view.flags, *codes]

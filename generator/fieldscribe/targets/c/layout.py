@@ -16,7 +16,9 @@ def function(head: str, name: str, parameters: Sequence[str], *statements: str) 
     signature = f"{head}{'' if head.endswith('*') else ' '}{name}({', '.join(parameters) or 'void'})"
     body = f"{{ {' '.join(statements)} }}"
     if len(signature) > WIDTH:
-        signature = f"{head}{'' if head.endswith('*') else ' '}{name}(\n" + "\n".join(filled(parameters, ", ", "    ", ")"))
+        signature = f"{head}{'' if head.endswith('*') else ' '}{name}(\n" + "\n".join(
+            filled(parameters, ", ", "    ", ")")
+        )
     elif len(signature) + 1 + len(body) <= WIDTH:
         return f"{signature} {body}"
     if len(statements) == 1 and len(body) <= WIDTH:
@@ -47,21 +49,20 @@ def wrapped(statement: str, indent: str) -> list[str]:
     fitting = [(depth, -at) for depth, at in places if at <= room] or [(depth, at) for depth, at in places[:1]]
     if not fitting:
         return [indent + statement]
-    depth, at = min(fitting)
-    at = abs(at)
+    at = abs(min(fitting)[1])
     deeper = indent if statement.startswith(("?", ":", "||", "&&")) or len(indent) > 4 else indent + "    "
     return [indent + statement[:at].rstrip(), *wrapped(statement[at:].lstrip(), deeper)]
 
 
 def _places(statement: str) -> Iterable[tuple[int, int]]:
-    """How deep in brackets a line may be broken, and where: behind a comma, or before an operator."""
+    """How deep in brackets a line may be broken, and where: behind a comma or a bracket, or before an operator."""
     depth, quoted = 0, False
     for at, character in enumerate(statement):
         quoted ^= character == '"'
         if quoted:
             continue
         depth += (character in "([{") - (character in ")]}")
-        if character == "," and statement[at + 1 : at + 2] == " ":
+        if character == "(" or (character == "," and statement[at + 1 : at + 2] == " "):
             yield depth, at + 1
         elif statement.startswith((" ? ", " : ", " || ", " && "), at):
             yield depth, at

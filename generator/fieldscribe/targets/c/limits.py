@@ -43,14 +43,13 @@ def check(point: Point, scope: Scope) -> str:
     return f"((({bits})raw & {mask}) == {constant}) ? {status} : {refused(point)}"
 
 
-def checked(point: Point, name: str, low: int | str, high: int | str) -> str:
+def checked(point: Point, name: str, low: int, high: int) -> str:
     """The status of a number between two limits."""
     if point.type == "u64":
-        ends = (unsigned(end) if isinstance(end, int) else end for end in (low, high))
-        return f"fieldscribe_check_u64({name}, {', '.join(ends)})"
+        return f"fieldscribe_check_u64({name}, {unsigned(low)}, {unsigned(high)})"
     name = f"{name} ? 1 : 0" if point.type == "bit" else name
     wide = "_wide" if point.info.bits > 16 else ""
-    return f"fieldscribe_check{wide}({name}, {', '.join(end if isinstance(end, str) else bare(end) for end in (low, high))})"
+    return f"fieldscribe_check{wide}({name}, {bare(low)}, {bare(high)})"
 
 
 def _status(point: Point, scope: Scope) -> str:

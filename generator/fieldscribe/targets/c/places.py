@@ -37,9 +37,7 @@ def words_functions(point: Point, name: str) -> Iterator[Function]:
         joined = f"fieldscribe_signed{info.bits}({joined})" if info.signed else joined
     words = f"uint16_t words[{point.words}]"
     yield Function(function("static inline void", f"{name}_to_words", (f"{kind} raw", words), split))
-    yield Function(
-        function(f"static inline {kind}", f"{name}_from_words", (f"const {words}",), f"return {joined};")
-    )
+    yield Function(function(f"static inline {kind}", f"{name}_from_words", (f"const {words}",), f"return {joined};"))
 
 
 def _high_first(point: Point) -> list[int]:

@@ -13,6 +13,7 @@ from fieldscribe.targets.c.limits import ranges_of, ranges_table
 from fieldscribe.targets.c.literals import bare, hexadecimal, raw_type, signed
 from fieldscribe.targets.c.parts import digits_functions, text_functions
 from fieldscribe.targets.c.places import bits_functions, has_words, words_functions
+from fieldscribe.targets.c.rules import rule_name
 from fieldscribe.targets.c.scales import is_double
 from fieldscribe.targets.c.special_codes import special_view
 from fieldscribe.targets.c.views import EnumView, Function, PointView, TableView
@@ -53,6 +54,7 @@ def point_view(point: Point, scope: Scope) -> PointView:
         special=special,
         scale_arguments=point.scale_arguments,
         limit_arguments=point.limit_arguments,
+        rules=shape == "ruled" and rule_name(point, scope) == f"{name}_rule",
         words=has_words(point),
         bits=point.bits is not None,
         flags=tuple(f"{name}_{flag.name}" for flag in point.flags if flag.width > 1),
@@ -162,7 +164,7 @@ def _lookup(name: str, table: str, kind: str, form: str) -> str:
     if form == "wide":
         body = f"fieldscribe_wide_name_of({rows}, {'raw' if kind == 'uint64_t' else '(uint64_t)raw'})"
     elif form == "dense":
-        body = f"fieldscribe_name_at({rows}, {number})"
+        body = f"FIELDSCRIBE_NAME_AT({table}, {number})"
     elif kind == "uint64_t":
         body = f"(raw <= (uint64_t)INT32_MAX) ? fieldscribe_name_of({rows}, (int64_t)raw) : NULL"
     else:

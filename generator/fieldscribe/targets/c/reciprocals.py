@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 
 class Reciprocal(NamedTuple):
-    """number * num / den = number * (much + little / 2^fine) / 2^bits, to the nearest integer, halves away from zero."""
+    """The nearest integer to number * ratio, halves away from zero: number * (much + little / 2^fine) / 2^bits."""
 
     much: int
     little: int
@@ -15,45 +15,58 @@ class Reciprocal(NamedTuple):
     bits: int
 
 
+class Numbers(NamedTuple):
+    """All numbers from low to high, each times num / den, of which num and den are above 0."""
+
+    low: int
+    high: int
+    num: int
+    den: int
+
+    @property
+    def size(self) -> int:
+        """No number is larger in size."""
+        return max(abs(self.low), abs(self.high), 1)
+
+
 @lru_cache(maxsize=4096)
-def reciprocal(low: int, high: int, num: int, den: int, most: int) -> Reciprocal | None:
-    """The smallest one that is exact for all numbers of low..high; None where no intermediate up to `most` suffices."""
-    size = max(abs(low), abs(high), 1)
+def reciprocal(numbers: Numbers, most: int) -> Reciprocal | None:
+    """The smallest one that is exact for all numbers; None where no intermediate up to `most` suffices."""
     for bits in range(1, most.bit_length()):
-        much = (num << bits) // den
-        if size * (much + 1) + (1 << bits) > most:
+        much = (numbers.num << bits) // numbers.den
+        if numbers.size * (much + 1) + (1 << bits) > most:
             return None
-        found = _finest(low, high, num, den, most, bits)
+        found = _finest(numbers, most, bits)
         if found is not None:
             return found
     return None
 
 
-def _finest(low: int, high: int, num: int, den: int, most: int, bits: int) -> Reciprocal | None:
+def _finest(numbers: Numbers, most: int, bits: int) -> Reciprocal | None:
     """The one with that many bits and the fewest `fine` bits, if any."""
-    size = max(abs(low), abs(high), 1)
-    much, rest = divmod(num << bits, den)
+    much, rest = divmod(numbers.num << bits, numbers.den)
     for fine in range(most.bit_length()):
-        little = -(-(rest << fine) // den)
-        if size * little > most:
+        little = -(-(rest << fine) // numbers.den)
+        if numbers.size * little > most:
             return None
         one = Reciprocal(much, little, fine, bits)
-        if _is_exact(one, low, high, num, den):
+        if _is_exact(one, numbers):
             return one
     return None
 
 
-def _is_exact(one: Reciprocal, low: int, high: int, num: int, den: int) -> bool:
-    """Whether no number of low..high is rounded to another integer than its exact quotient.
+def _is_exact(one: Reciprocal, numbers: Numbers) -> bool:
+    """Whether no number is rounded to another integer than its exact quotient.
 
-    The factor is too large by `error` / (den * 2^shift). Quotients and a half are multiples of 1 / (2 * den), of 1 / den
-    where that is even: an error below that never reaches the next integer from below, and one up to it leaves those of
+    The factor is too large by `error` / (den * 2^shift). A quotient and a half is a multiple of 1 / (2 * den), or of
+    1 / den where that is even: an error below that never reaches the next integer from below, and one up to it leaves
     negative numbers above the integer before. Halves, which an even divisor alone has, need an error where they are
     negative: they round away from zero.
     """
-    shift = one.bits + one.fine
-    error = ((one.much << one.fine) + one.little) * den - (num << shift)
-    parts = 1 if den % 2 == 0 else 2
-    if low < 0 and den % 2 == 0 and error == 0:
+    shift, even = one.bits + one.fine, numbers.den % 2 == 0
+    error = ((one.much << one.fine) + one.little) * numbers.den - (numbers.num << shift)
+    if numbers.low < 0 and even and error == 0:
         return False
-    return parts * max(high, 0) * error < 1 << shift and parts * max(-low, 0) * error <= 1 << shift
+    parts = 1 if even else 2
+    above, below = (parts * max(end, 0) * error for end in (numbers.high, -numbers.low))
+    return above < 1 << shift and below <= 1 << shift

@@ -15,6 +15,15 @@ _MANTISSA = 1 << 24
 """No mantissa of a binary32 number is larger."""
 
 
+def rule_name(point: Point, scope: Scope) -> str:
+    """The function that gives the rule of a point; points with the same rule of one other point share it."""
+    own = f"{scope.prefix}_{point.item}_rule"
+    if len(point.scale_arguments) != 1:
+        return own
+    scope.grouped = False
+    return scope.tables.setdefault(("rule", rule_of(point, scope)), own)
+
+
 def rule_of(point: Point, scope: Scope) -> str:
     """The rule of a point, case by case, as what other points hold makes it."""
     rules = ""

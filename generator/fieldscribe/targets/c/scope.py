@@ -18,7 +18,8 @@ if TYPE_CHECKING:
 class Scope:
     """The namespace of one device.
 
-    `errata` are the ids of those that change a fact, `digits` the names of enums that name decimal digits.
+    `errata` are the ids of those that change a fact, `digits` the names of enums that name decimal digits,
+    `spaces` the space of each group whose points have all the same one.
     `enums` and `codes` are the names of those already placed, `tables` the names of tables by what is in them.
     `names_only` says that nobody will see the comments and functions of points, which take most of the time. `grouped`
     says that the function which is being written gets the raw numbers of other points in a struct.
@@ -29,6 +30,7 @@ class Scope:
     points: Mapping[str, Point]
     errata: frozenset[str]
     digits: frozenset[str]
+    spaces: Mapping[str, str | None]
     names_only: bool = False
     grouped: bool = False
     enums: set[str] = field(default_factory=set)
@@ -61,5 +63,13 @@ def scope_of(device: Device, *, names_only: bool = False) -> Scope:
         points.setdefault(point.item, point)
     digits = frozenset(one.digits.enum.name for one in device.points if one.digits is not None)
     known = frozenset(one.id for one in device.errata if one.facts)
-    return Scope(device.id, upper(device.id), points, known, digits, names_only)
+    return Scope(device.id, upper(device.id), points, known, digits, _spaces(device), names_only)
 
+
+def _spaces(device: Device) -> dict[str, str | None]:
+    """The space of each group; None where its points have several."""
+    spaces: dict[str, str | None] = {}
+    for point in device.points:
+        if spaces.setdefault(point.group, point.space) != point.space:
+            spaces[point.group] = None
+    return spaces

@@ -1,4 +1,4 @@
-"""What the C templates see: final identifiers, literals, masks, laid-out functions and comments, nothing left to decide."""
+"""What the C templates see: final identifiers, literals, functions as they stand, nothing left to decide."""
 
 from __future__ import annotations
 
@@ -87,6 +87,7 @@ class PointView:
     special: SpecialView | None
     scale_arguments: tuple[str, ...]
     limit_arguments: tuple[str, ...]
+    rules: bool
     words: bool
     bits: bool
     flags: tuple[str, ...]

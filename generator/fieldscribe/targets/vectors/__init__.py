@@ -19,7 +19,6 @@ from fieldscribe.targets.vectors.places import address, aliases, facts, words
 from fieldscribe.targets.vectors.scaled import scaled
 from fieldscribe.targets.vectors.uss import UssWire, uss
 from fieldscribe.targets.vectors.whole import bits, fixed, flags, names, specials, whole
-from fieldscribe.text import line
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
