@@ -876,7 +876,7 @@ void use(uint16_t *words, const uint8_t *bytes, const fieldscribe_modbus_request
         r"fieldscribe_modbus_r kitchen_sink_(\w+)_frame", (folder / "kitchen_sink_modbus.h").read_text()
     )
     assert read_only is not None
-    words = [
+    words: list[str | Path] = [
         tool(driver(compiler, standard)),
         *STANDARDS[standard],
         *WARNINGS,
