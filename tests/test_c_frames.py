@@ -802,10 +802,10 @@ def test_a_forgotten_or_doubled_definition_does_not_link(language: str, folder: 
     build = [tool("g++" if language == "c++" else "gcc"), *flags, f"-I{folder}", "-o", tmp_path / "one"]
     forgotten = run([*build, *users(tmp_path, 2, defined=0)])
     assert forgotten.returncode != 0
-    assert "undefined reference to `fieldscribe_modbus_build'" in forgotten.stderr
+    assert "undefined reference to `fieldscribe_modbus_build_rtu'" in forgotten.stderr
     doubled = run([*build, *users(tmp_path, 2, defined=2)])
     assert doubled.returncode != 0
-    assert "multiple definition of `fieldscribe_modbus_build'" in doubled.stderr
+    assert "multiple definition of `fieldscribe_modbus_build_rtu'" in doubled.stderr
 
 
 def linked(count: int, folder: Path, out: Path) -> Path:
@@ -823,7 +823,7 @@ def test_the_runtime_is_linked_once(folder: Path, tmp_path: Path) -> None:
     for count in (1, 2, 3):
         image = linked(count, folder, tmp_path)
         names = re.findall(r" [Tt] (fieldscribe_\w+)", succeed([tool("arm-none-eabi-nm"), image]))
-        assert "fieldscribe_modbus_build" in names
+        assert "fieldscribe_modbus_build_rtu" in names
         assert len(names) == len(set(names))
         sizes.append(int(succeed([tool("arm-none-eabi-size"), image]).splitlines()[1].split()[0]))
     print(f"Cortex-M0, -Os, one, two and three files that use Modbus: {sizes} bytes")

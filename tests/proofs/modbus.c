@@ -213,7 +213,27 @@ static void build_into(fieldscribe_modbus_framing framing, uint8_t *buffer, size
     }
 }
 
-void prove_build__rtu(size_t size)
+/* Without what frames a request; data is proven by put_values, for all lengths. */
+void prove_put_request(size_t size)
+{
+    if (size <= SHORT) {
+        size_t used;
+        //@ split size;
+        know(1U);
+        ask_any();
+        if (request.function < 0x0FU) {
+            (void)fieldscribe_modbus_put_request(&profile, &request, EXACTLY(size, frame), size, &used);
+        } else if (request.function == 0x0FU) {
+            (void)fieldscribe_modbus_put_request(&profile, &request, EXACTLY(size, frame), size, &used);
+        } else if (request.function == 0x10U) {
+            (void)fieldscribe_modbus_put_request(&profile, &request, EXACTLY(size, frame), size, &used);
+        } else {
+            (void)fieldscribe_modbus_put_request(&profile, &request, EXACTLY(size, frame), size, &used);
+        }
+    }
+}
+
+void prove_build_rtu(size_t size)
 {
     if (size <= SHORT) {
         //@ split size;
@@ -223,7 +243,7 @@ void prove_build__rtu(size_t size)
     }
 }
 
-void prove_build__tcp(size_t size)
+void prove_build_tcp(size_t size)
 {
     if (size <= SHORT) {
         //@ split size;
@@ -375,17 +395,19 @@ void prove_reply_length(fieldscribe_modbus_framing framing)
     (void)fieldscribe_modbus_reply_length(&profile, framing, &request);
 }
 
-void prove_left(fieldscribe_modbus_framing framing, size_t length)
+void prove_left(size_t length)
 {
     if (length <= FRAMES) {
         //@ split length;
-        (void)fieldscribe_modbus_left(framing, &request, EXACTLY(length, frame), length);
+        (void)fieldscribe_modbus_left(FIELDSCRIBE_MODBUS_RTU, &request, EXACTLY(length, frame), length);
+        (void)fieldscribe_modbus_left(FIELDSCRIBE_MODBUS_TCP, &request, EXACTLY(length, frame), length);
     }
 }
 
-void prove_left__long_frame(fieldscribe_modbus_framing framing, size_t length)
+void prove_left__long_frame(size_t length)
 {
     if (length <= LARGE) {
-        (void)fieldscribe_modbus_left(framing, &request, long_frame, length);
+        (void)fieldscribe_modbus_left(FIELDSCRIBE_MODBUS_RTU, &request, long_frame, length);
+        (void)fieldscribe_modbus_left(FIELDSCRIBE_MODBUS_TCP, &request, long_frame, length);
     }
 }

@@ -66,33 +66,39 @@ void prove_read(uint8_t unit)
 
 void prove_write(uint8_t unit)
 {
-    if (writing.width == 2U) {
-        request = fieldscribe_uss_write(unit, &writing, EXACTLY(2U, words));
-    } else {
+    if (writing.width < 2U) {
         request = fieldscribe_uss_write(unit, &writing, EXACTLY(1U, words));
+    } else {
+        request = fieldscribe_uss_write(unit, &writing, EXACTLY(2U, words));
     }
 }
 
 void prove_words_of_reply(void)
 {
-    if (reply.width == 2U) {
-        (void)fieldscribe_uss_words_of_reply(&reply, &reading, EXACTLY(2U, words));
-    } else {
+    if (reply.width < 2U) {
         (void)fieldscribe_uss_words_of_reply(&reply, &reading, EXACTLY(1U, words));
+    } else {
+        (void)fieldscribe_uss_words_of_reply(&reply, &reading, EXACTLY(2U, words));
     }
 }
 
 void prove_words_heard(size_t count)
 {
-    if (count > 0U && count <= WORDS && heard.position < count) {
-        (void)fieldscribe_uss_words_heard(&heard, EXACTLY(count, words));
+    if (count <= WORDS) {
+        //@ split count;
+        if (heard.position < count) {
+            (void)fieldscribe_uss_words_heard(&heard, EXACTLY(count, words));
+        }
     }
 }
 
 void prove_words_sent(size_t count)
 {
-    if (count > 0U && count <= WORDS && sent.position < count) {
-        (void)fieldscribe_uss_words_sent(&sent, EXACTLY(count, words));
+    if (count <= WORDS) {
+        //@ split count;
+        if (sent.position < count) {
+            (void)fieldscribe_uss_words_sent(&sent, EXACTLY(count, words));
+        }
     }
 }
 
