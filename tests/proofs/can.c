@@ -223,18 +223,6 @@ void prove_received(uint16_t words, uint8_t per_frame)
     }
 }
 
-void prove_received_text(uint16_t words, uint8_t per_frame, uint16_t count)
-{
-    if (words <= WORDS && per_frame <= 5U && count <= WORDS) {
-        //@ split count;
-        //@ split per_frame;
-        hear(words, per_frame);
-        text_where.positions = EXACTLY(count, positions);
-        text_where.words = count;
-        (void)fieldscribe_can_received_text(&receiver, &text_where, EXACTLY(count, text));
-    }
-}
-
 void prove_around(uint8_t place)
 {
     if (place < FIELDSCRIBE_CAN_WORDS) {
@@ -277,4 +265,16 @@ void prove_received__long(void)
 {
     hear_long();
     (void)fieldscribe_can_received(&receiver, &where, word);
+}
+
+/* With exactly the words of the text; those of the telegram are proven by `word`. */
+void prove_received_text(uint16_t count)
+{
+    if (count <= WORDS) {
+        //@ split count;
+        hear_long();
+        text_where.positions = EXACTLY(count, positions);
+        text_where.words = count;
+        (void)fieldscribe_can_received_text(&receiver, &text_where, EXACTLY(count, text));
+    }
 }

@@ -67,10 +67,10 @@ void prove_woodward_mpu2s(uint8_t unit)
     uint16_t words[2] = {0U, 0U};
     uint16_t raw = 0U;
     int heard;
-    (void)fieldscribe_can_read_answer(talk, unit, &woodward_mpu2s_language_frame.read, &frame, words);
-    (void)fieldscribe_take_u16(woodward_mpu2s_language_frame.layout, words, &raw);
-    (void)fieldscribe_put_u16(woodward_mpu2s_language_frame.layout, raw, words);
-    (void)fieldscribe_can_write(talk, unit, &woodward_mpu2s_language_frame.write, words, &frame);
+    (void)fieldscribe_can_read_answer(talk, unit, &woodward_mpu2s_password_level_2_frame.read, &frame, words);
+    (void)fieldscribe_take_u16(woodward_mpu2s_password_level_2_frame.layout, words, &raw);
+    (void)fieldscribe_put_u16(woodward_mpu2s_password_level_2_frame.layout, raw, words);
+    (void)fieldscribe_can_write(talk, unit, &woodward_mpu2s_password_level_2_frame.write, words, &frame);
     for (heard = 0; heard < 100; ++heard) {
         frame.data[1] = number;
         frame.data[2] = number;
