@@ -186,9 +186,10 @@ FIELDSCRIBE_CHECKED fieldscribe_modbus_request fieldscribe_modbus_send(
     uint8_t unit, const fieldscribe_modbus_command *command);
 
 /* The frame of a request in `buffer`; `length` says how many of its `size` bytes were used, 0 on an error. */
-FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_build(const fieldscribe_modbus_profile *profile,
-    fieldscribe_modbus_framing framing, const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size,
-    size_t *length);
+FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_build_rtu(const fieldscribe_modbus_profile *profile,
+    const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size, size_t *length);
+FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_build_tcp(const fieldscribe_modbus_profile *profile,
+    const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size, size_t *length);
 
 /* The bytes of the answer to a request, unless the device refuses it; 0 where nobody answers: it goes to all units. */
 FIELDSCRIBE_CHECKED uint32_t fieldscribe_modbus_reply_length(const fieldscribe_modbus_profile *profile,
@@ -199,8 +200,27 @@ FIELDSCRIBE_CHECKED uint32_t fieldscribe_modbus_left(fieldscribe_modbus_framing 
     const fieldscribe_modbus_request *request, const uint8_t *bytes, size_t length);
 
 /* Reads the answer to a request. */
-FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_parse(fieldscribe_modbus_framing framing,
+FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_parse_rtu(
     const fieldscribe_modbus_request *request, const uint8_t *bytes, size_t length, fieldscribe_modbus_reply *reply);
+FIELDSCRIBE_CHECKED fieldscribe_modbus_status fieldscribe_modbus_parse_tcp(
+    const fieldscribe_modbus_request *request, const uint8_t *bytes, size_t length, fieldscribe_modbus_reply *reply);
+
+/* Both by framing: one that is constant links its own functions alone. */
+FIELDSCRIBE_CHECKED static inline fieldscribe_modbus_status fieldscribe_modbus_build(
+    const fieldscribe_modbus_profile *profile, fieldscribe_modbus_framing framing,
+    const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size, size_t *length)
+{
+    return (framing == FIELDSCRIBE_MODBUS_TCP) ? fieldscribe_modbus_build_tcp(profile, request, buffer, size, length)
+                                               : fieldscribe_modbus_build_rtu(profile, request, buffer, size, length);
+}
+
+FIELDSCRIBE_CHECKED static inline fieldscribe_modbus_status fieldscribe_modbus_parse(
+    fieldscribe_modbus_framing framing, const fieldscribe_modbus_request *request, const uint8_t *bytes, size_t length,
+    fieldscribe_modbus_reply *reply)
+{
+    return (framing == FIELDSCRIBE_MODBUS_TCP) ? fieldscribe_modbus_parse_tcp(request, bytes, length, reply)
+                                               : fieldscribe_modbus_parse_rtu(request, bytes, length, reply);
+}
 
 /* The checksum of RTU frames; its low byte travels first. */
 FIELDSCRIBE_CHECKED uint16_t fieldscribe_modbus_crc(const uint8_t *bytes, size_t length);
@@ -371,53 +391,72 @@ static void fieldscribe_modbus_put_values(
     }
 }
 
-fieldscribe_modbus_status fieldscribe_modbus_build(const fieldscribe_modbus_profile *profile,
-    fieldscribe_modbus_framing framing, const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size,
-    size_t *length)
+/* The request from the unit to the end of its data, if the device takes it and it fits; `used` is 0 on an error. */
+static fieldscribe_modbus_status fieldscribe_modbus_put_request(const fieldscribe_modbus_profile *profile,
+    const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size, size_t *used)
 {
+    const bool several = (request->function == 0x0FU) || (request->function == 0x10U);
     const fieldscribe_modbus_status status = fieldscribe_modbus_allows(profile, request);
-    const bool several = request->function == 0x0FU || request->function == 0x10U;
-    const size_t head = framing == FIELDSCRIBE_MODBUS_TCP ? 6U : 0U;
-    const size_t before = head + (several ? 7U : 6U); /* the data */
-    const size_t behind = framing == FIELDSCRIBE_MODBUS_TCP ? 0U : 2U;
-    const uint32_t data_bytes = several ? fieldscribe_modbus_data_bytes(profile, request) : 0U;
-    size_t used; /* with the unit, up to the checksum */
-    uint8_t *const frame = buffer;
-    *length = 0U;
-    if (!(framing == FIELDSCRIBE_MODBUS_TCP ? profile->tcp : profile->rtu)) {
-        return FIELDSCRIBE_MODBUS_BAD_FRAMING;
-    }
+    uint32_t data_bytes = 0U;
+    uint16_t number = request->count;
     if (status != FIELDSCRIBE_MODBUS_OK) {
         return status;
     }
-    if (data_bytes > 0xFFU || size < before + behind || data_bytes > size - before - behind) {
+    if (several) {
+        data_bytes = 1U + fieldscribe_modbus_data_bytes(profile, request);
+    } else if (!fieldscribe_modbus_reads(request->function)) {
+        number = fieldscribe_modbus_single(request);
+    }
+    if ((data_bytes > 0x100U) || (size < 6U) || (data_bytes > (size - 6U))) {
         return FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL;
     }
-    frame[head] = request->unit;
-    frame[head + 1U] = request->function;
-    fieldscribe_modbus_put(frame + head + 2U, request->address);
-    if (several || fieldscribe_modbus_reads(request->function)) {
-        fieldscribe_modbus_put(frame + head + 4U, request->count);
-    } else {
-        fieldscribe_modbus_put(frame + head + 4U, fieldscribe_modbus_single(request));
-    }
+    buffer[0] = request->unit;
+    buffer[1] = request->function;
+    fieldscribe_modbus_put(&buffer[2], request->address);
+    fieldscribe_modbus_put(&buffer[4], number);
     if (several) {
-        frame[head + 6U] = (uint8_t)data_bytes;
-        fieldscribe_modbus_put_values(request, frame + head + 7U, data_bytes);
+        buffer[6] = (uint8_t)(data_bytes - 1U);
+        fieldscribe_modbus_put_values(request, &buffer[7], data_bytes - 1U);
     }
-    used = before + (size_t)data_bytes;
-    if (framing == FIELDSCRIBE_MODBUS_TCP) {
-        fieldscribe_modbus_put(frame, request->transaction);
-        fieldscribe_modbus_put(frame + 2U, 0U);
-        fieldscribe_modbus_put(frame + 4U, (uint16_t)(used - head));
-    } else {
-        const uint16_t crc = fieldscribe_modbus_crc(frame, used);
-        frame[used] = (uint8_t)(crc & 0xFFU);
-        frame[used + 1U] = (uint8_t)(crc >> 8);
-        used += 2U;
-    }
-    *length = used;
+    *used = 6U + (size_t)data_bytes;
     return FIELDSCRIBE_MODBUS_OK;
+}
+
+fieldscribe_modbus_status fieldscribe_modbus_build_rtu(const fieldscribe_modbus_profile *profile,
+    const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size, size_t *length)
+{
+    fieldscribe_modbus_status status = FIELDSCRIBE_MODBUS_BAD_FRAMING;
+    size_t used = 0U;
+    *length = 0U;
+    if (profile->rtu) {
+        status = fieldscribe_modbus_put_request(profile, request, buffer, (size > 2U) ? (size - 2U) : 0U, &used);
+    }
+    if (status == FIELDSCRIBE_MODBUS_OK) {
+        const uint16_t crc = fieldscribe_modbus_crc(buffer, used);
+        buffer[used] = (uint8_t)(crc & 0xFFU);
+        buffer[used + 1U] = (uint8_t)(crc >> 8);
+        *length = used + 2U;
+    }
+    return status;
+}
+
+fieldscribe_modbus_status fieldscribe_modbus_build_tcp(const fieldscribe_modbus_profile *profile,
+    const fieldscribe_modbus_request *request, uint8_t *buffer, size_t size, size_t *length)
+{
+    fieldscribe_modbus_status status = FIELDSCRIBE_MODBUS_BAD_FRAMING;
+    size_t used = 0U;
+    *length = 0U;
+    if (profile->tcp) {
+        uint8_t *const behind = &buffer[(size > 6U) ? 6U : 0U]; /* the head */
+        status = fieldscribe_modbus_put_request(profile, request, behind, (size > 6U) ? (size - 6U) : 0U, &used);
+    }
+    if (status == FIELDSCRIBE_MODBUS_OK) {
+        fieldscribe_modbus_put(buffer, request->transaction);
+        fieldscribe_modbus_put(&buffer[2], 0U);
+        fieldscribe_modbus_put(&buffer[4], (uint16_t)used);
+        *length = used + 6U;
+    }
+    return status;
 }
 
 /* Stores the words that an answer brings in `bytes` bytes of data. */
@@ -492,13 +531,15 @@ static fieldscribe_modbus_status fieldscribe_modbus_take(const fieldscribe_modbu
     return FIELDSCRIBE_MODBUS_OK;
 }
 
-static fieldscribe_modbus_status fieldscribe_modbus_parse_rtu(const fieldscribe_modbus_request *request,
-    const uint8_t *bytes, size_t length, fieldscribe_modbus_reply *reply)
+fieldscribe_modbus_status fieldscribe_modbus_parse_rtu(
+    const fieldscribe_modbus_request *request, const uint8_t *bytes, size_t length, fieldscribe_modbus_reply *reply)
 {
     size_t expected = length;
     uint16_t crc;
     bool known = true;
     bool refused = false;
+    reply->count = 0U;
+    reply->exception = 0U;
     if (length < 5U) {
         return FIELDSCRIBE_MODBUS_SHORT_FRAME;
     }
@@ -530,10 +571,12 @@ static fieldscribe_modbus_status fieldscribe_modbus_parse_rtu(const fieldscribe_
     return fieldscribe_modbus_take(request, bytes + 1, length - 3U, reply);
 }
 
-static fieldscribe_modbus_status fieldscribe_modbus_parse_tcp(const fieldscribe_modbus_request *request,
-    const uint8_t *bytes, size_t length, fieldscribe_modbus_reply *reply)
+fieldscribe_modbus_status fieldscribe_modbus_parse_tcp(
+    const fieldscribe_modbus_request *request, const uint8_t *bytes, size_t length, fieldscribe_modbus_reply *reply)
 {
     size_t expected;
+    reply->count = 0U;
+    reply->exception = 0U;
     if (length < 9U) {
         return FIELDSCRIBE_MODBUS_SHORT_FRAME;
     }
@@ -561,15 +604,6 @@ static fieldscribe_modbus_status fieldscribe_modbus_parse_tcp(const fieldscribe_
         return FIELDSCRIBE_MODBUS_WRONG_FUNCTION;
     }
     return fieldscribe_modbus_take(request, bytes + 7, length - 7U, reply);
-}
-
-fieldscribe_modbus_status fieldscribe_modbus_parse(fieldscribe_modbus_framing framing,
-    const fieldscribe_modbus_request *request, const uint8_t *bytes, size_t length, fieldscribe_modbus_reply *reply)
-{
-    reply->count = 0U;
-    reply->exception = 0U;
-    return (framing == FIELDSCRIBE_MODBUS_TCP) ? fieldscribe_modbus_parse_tcp(request, bytes, length, reply)
-                                               : fieldscribe_modbus_parse_rtu(request, bytes, length, reply);
 }
 
 /* The bytes of an answer, from the unit to the end of what it is about. */

@@ -9,7 +9,7 @@
  *
  *     const fieldscribe_uss_words process = {sent, link.pzd};
  *     fieldscribe_uss_reply reply = {heard, link.pzd, 0U, 0U, 0U, 0U};
- *     request = fieldscribe_uss_read(unit, &siemens_mm4_ramp_up_time_frame.read);
+ *     request = fieldscribe_uss_read(unit, &siemens_mm4_maximum_frequency_frame.read);
  *     status = fieldscribe_uss_build(&profile, &link, &request, &process, frame, sizeof frame, &length);
  *     send(frame, length);
  *     got = 0U;
@@ -17,8 +17,8 @@
  *         got += receive(frame + got, left);      (at most `left` bytes; give up when the line stays silent)
  *     }
  *     status = fieldscribe_uss_parse(&profile, &link, &request, frame, got, &reply);
- *     status = fieldscribe_uss_words_of_reply(&reply, &siemens_mm4_ramp_up_time_frame.read, words);
- *     fits = fieldscribe_take_u32(siemens_mm4_ramp_up_time_frame.layout, words, &raw);
+ *     status = fieldscribe_uss_words_of_reply(&reply, &siemens_mm4_maximum_frequency_frame.read, words);
+ *     fits = fieldscribe_take_u32(siemens_mm4_maximum_frequency_frame.layout, words, &raw);
  *
  * Writing one: fieldscribe_put_u32(frame.layout, raw, words), then fieldscribe_uss_write(unit, &frame.write, words).
  * A point that only some bits of a word are has `update` for `write`: read its word first, put the bits, write it back.
