@@ -97,7 +97,7 @@ def test_a_scale_beyond_every_integer_leaves_raw_numbers(tmp_path: Path) -> None
     ]
     assert all(named(device, item).raw_only for item in ("a", "b"))
     text = (write_headers(device, tmp_path) / "c" / "meter.h").read_text("utf-8")
-    assert "Not generated (a): its scale needs integers of more than 63 bits." in text
+    assert "a: r, not generated: its scale needs integers of more than 63 bits" in text
     assert "#define METER_A_ADDRESS" in text
     program = tmp_path / "program.c"
     program.write_text(
@@ -121,8 +121,8 @@ def test_c_has_only_what_is_exact(folder: Path) -> None:
         assert (f"{item}_decode_count(" in text) == (decimals is not None), item
         assert (f"{item}_encode(" in text) == (encodes and point.writable), item
         assert f"kitchen_sink_{item}_decode(" in text
-    assert "No integer path: its counts need more than 64 bits." in text
-    assert "Values are only decoded: its numbers have more than 53 bits." in text
+    assert "no integer path: its counts need more than 64 bits" in text
+    assert "values are only decoded: its numbers have more than 53 bits" in text
 
 
 DECODES = """

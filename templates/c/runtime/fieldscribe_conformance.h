@@ -517,18 +517,21 @@ static inline bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
 #define FIELDSCRIBE_ADDRESS(macro, others)                                                       \
     if (fieldscribe_asks(v, "address")) {                                                        \
         fieldscribe_is_number(v, "address", macro##_ADDRESS);                                    \
-        (void)fieldscribe_field(v, "space"); /* stands in a comment */                           \
-        (void)fieldscribe_field(v, "code");                                                      \
-        (void)fieldscribe_field(v, "references");                                                \
         others                                                                                   \
+        fieldscribe_are_all_pairs(v, "references");                                              \
     }
 
 /* What stands beside an address, as far as the point has it. */
 #define FIELDSCRIBE_ONE(macro) fieldscribe_is_number(v, "words", 1U);
 #define FIELDSCRIBE_SEVERAL(macro) fieldscribe_is_number(v, "words", macro##_WORDS);
-#define FIELDSCRIBE_ONLY_READ(macro)                                                             \
-    (void)fieldscribe_field(v, "raw_min"); /* what may be written has limits in C */             \
-    (void)fieldscribe_field(v, "raw_max");
+/* What a header says in comments alone, where the model is all that can be asked. */
+#define FIELDSCRIBE_SPACE(space) fieldscribe_is_text(v, "space", space);
+#define FIELDSCRIBE_CODE(code) fieldscribe_is_text(v, "code", code);
+#define FIELDSCRIBE_REFERENCE(key, number) fieldscribe_is_pair(v, "references", key, (uint64_t)(number));
+#define FIELDSCRIBE_REFERENCE_TEXT(key, text) fieldscribe_is_text_pair(v, "references", key, text);
+#define FIELDSCRIBE_ONLY_READ(low, high)                                                         \
+    fieldscribe_is_number(v, "raw_min", (uint64_t)(low));                                        \
+    fieldscribe_is_number(v, "raw_max", (uint64_t)(high));
 #define FIELDSCRIBE_RAWS(macro)                                                                  \
     fieldscribe_is_number(v, "raw_min", (uint64_t)(macro##_RAW_MIN));                            \
     fieldscribe_is_number(v, "raw_max", (uint64_t)(macro##_RAW_MAX));
@@ -682,9 +685,9 @@ static inline bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
         fieldscribe_agree(v, function(65535U) == NULL);                                          \
     }
 
-#define FIELDSCRIBE_DOCUMENTED(point, macro, index)                                              \
+#define FIELDSCRIBE_DOCUMENTED(point, space, macro, index)                                       \
     if (fieldscribe_asks_of(v, "documented", "name", point)) {                                   \
-        (void)fieldscribe_field(v, "space");                                                     \
+        FIELDSCRIBE_SPACE(space)                                                                 \
         fieldscribe_is_number(v, "address", macro##_ADDRESS);                                    \
         fieldscribe_is_number(v, "words", macro##_WORDS);                                        \
         index                                                                                    \

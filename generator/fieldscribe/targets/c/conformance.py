@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING
 from fieldscribe.names import upper
 from fieldscribe.targets.c.conversions import value_type
 from fieldscribe.targets.c.defines import shares_values
-from fieldscribe.targets.c.literals import raw_type
+from fieldscribe.targets.c.literals import raw_type, signed
 from fieldscribe.targets.c.points import named_numbers
 from fieldscribe.targets.c.scales import scaled
 from fieldscribe.targets.c.special_codes import encoded_limits, owner, special_defines
+from fieldscribe.text import c_string
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
@@ -32,11 +33,15 @@ class AdapterView:
 
 @dataclass(frozen=True, slots=True)
 class StructView:
-    """A function that fills the struct of a point with those raw numbers that a vector gives."""
+    """A function that fills the struct of a point with those raw numbers that a vector gives.
+
+    `floating` says that floating point alone needs it.
+    """
 
     type: str
     function: str
     fields: tuple[tuple[str, str, str], ...]
+    floating: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,8 +57,8 @@ class SuiteView:
     names: tuple[str, ...]
     """The kinds of codes that a function names."""
     commands: tuple[tuple[str, str, str], ...]
-    documented: tuple[tuple[str, str, bool], ...]
-    """Points whose words alone are known, what their macros begin with, and whether they have an index."""
+    documented: tuple[tuple[str, str, str, bool], ...]
+    """Points whose words alone are known, their space, what their macros begin with, and whether they have an index."""
     telegrams: tuple[str, ...]
 
 
@@ -80,7 +85,7 @@ def conformance_view(device: Device, view: DeviceView, scope: Scope, more: Itera
         groups=tuple(groups),
         codes=tuple(_codes(device, scope)),
         documented=tuple(
-            (one.item, f"{scope.upper}_{upper(one.item)}", one.index is not None)
+            (one.item, one.space, f"{scope.upper}_{upper(one.item)}", one.index is not None)
             for one in device.points
             if one.raw_only and one.address is not None
         ),
@@ -180,18 +185,29 @@ def _places(point: Point, view: PointView) -> list[str]:
 
 def _beside(point: Point, view: PointView) -> str:
     """The macros that answer with the index and the telegram, as far as the point has them."""
-    calls = [f"FIELDSCRIBE_INDEX({view.macro})"] if point.index is not None else []
+    calls = [f'SPACE("{point.space}")', f"FIELDSCRIBE_INDEX({view.macro})"] if point.index is not None else []
     calls += [f"FIELDSCRIBE_TELEGRAM({view.macro})"] if point.telegram is not None else []
     return " ".join(calls)
 
 
 def _constants(point: Point, view: PointView) -> str:
     """The macros that answer with what stands beside the address."""
-    calls = [f"{'SEVERAL' if point.words > 1 or point.text is not None else 'ONE'}({view.macro})"]
+    calls = [
+        f'SPACE("{point.space}")',
+        f"{'SEVERAL' if point.words > 1 or point.text is not None else 'ONE'}({view.macro})",
+    ]
     if view.shape not in ("float", "text", "digits"):
-        calls.append(f"{'RAWS' if point.writable else 'ONLY_READ'}({view.macro})")
+        low, high = point.outer
+        only_read = f"ONLY_READ({signed(low)}, {signed(high)})"
+        calls.append(f"RAWS({view.macro})" if point.writable else only_read)
     if point.form == "scaled" and point.decimals is not None:
         calls.append(f"DECIMALS({view.macro})")
+    if point.code is not None:
+        calls.append(f"CODE({c_string(point.code)})")
+    for key, number in point.references.items():
+        text = isinstance(number, str)
+        literal = c_string(number) if isinstance(number, str) else signed(number)
+        calls.append(f'REFERENCE{"_TEXT" if text else ""}("{key}", {literal})')
     return " ".join(f"FIELDSCRIBE_{call}" for call in calls)
 
 
@@ -268,11 +284,15 @@ def _filler(point: Point, names: tuple[str, ...]) -> str:
 
 def _structs(point: Point, scope: Scope) -> Iterator[StructView]:
     """One for each set of raw numbers that some function of the point needs."""
-    sets = dict.fromkeys((point.arguments, point.scale_arguments, point.limit_arguments))
-    for names in sets:
+    counts = point.decimals is not None
+    integer = [point.limit_arguments] if point.writable else []
+    integer += [point.arguments] if point.writable and counts else []
+    integer += [point.scale_arguments] if point.readable and counts else []
+    for names in dict.fromkeys((point.arguments, point.scale_arguments, point.limit_arguments)):
         if len(names) > 1:
             fields = tuple((name, f"{name}_raw", raw_type(scope.points[name])) for name in names)
-            yield StructView(f"{scope.prefix}_{point.item}_with", _filler(point, names), fields)
+            struct = f"{scope.prefix}_{point.item}_with"
+            yield StructView(struct, _filler(point, names), fields, floating=names not in integer)
 
 
 def _truth(point: Point, view: PointView, name: str) -> str:
