@@ -176,10 +176,10 @@ def test_every_identifier_is_one_thing(device: Device) -> None:
 
 
 def test_a_clash_is_found() -> None:
-    entries = (replace(FREQUENCY_SOURCE.entries[0], name="words"),)
+    entries = (replace(FREQUENCY_SOURCE.entries[0], name="address"),)
     points = (point("base", 1, enum=replace(FREQUENCY_SOURCE, name="base", entries=entries)),)
     clash = replace(sample_device(points), frames=(), blocks={})
-    assert [one.name for one in clashes(c.identifiers(clash))] == ["SAMPLE_DRIVE_BASE_WORDS"]
+    assert [one.name for one in clashes(c.identifiers(clash))] == ["SAMPLE_DRIVE_BASE_ADDRESS"]
 
 
 FUSED = """

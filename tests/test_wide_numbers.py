@@ -222,6 +222,12 @@ def _call(item: str) -> str:
         f"({KINDS.get(named(DEVICE, name).type, 'uint32_t')}){number}"
         for name, number in zip(point.scale_arguments, ("first", "second"), strict=False)
     ]
+    if len(places) > 1:
+        fields = "".join(
+            f"with.{name}_raw = {place}; " for name, place in zip(point.scale_arguments, places, strict=True)
+        )
+        call = f"kitchen_sink_{item}_decode(({KINDS[point.type]})raw, &with, &value)"
+        return f"{{ kitchen_sink_{item}_with with; {fields}status = (int){call}; }}"
     return f"status = (int)kitchen_sink_{item}_decode(({KINDS[point.type]})raw, {', '.join(places)}, &value)"
 
 

@@ -185,7 +185,7 @@ def _places(point: Point, view: PointView) -> list[str]:
 
 def _beside(point: Point, view: PointView) -> str:
     """The macros that answer with the index and the telegram, as far as the point has them."""
-    calls = [f'SPACE("{point.space}")', f"FIELDSCRIBE_INDEX({view.macro})"] if point.index is not None else []
+    calls = [f"FIELDSCRIBE_INDEX({view.macro})"] if point.index is not None else []
     calls += [f"FIELDSCRIBE_TELEGRAM({view.macro})"] if point.telegram is not None else []
     return " ".join(calls)
 
