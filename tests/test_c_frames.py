@@ -48,7 +48,7 @@ int main(void)
     uint16_t word = 0xFFFFU;
     uint16_t words[KITCHEN_CAN_FAULT_TEXT_1_WORDS] = {0U};
     char text[KITCHEN_CAN_FAULT_TEXT_1_CHARACTERS + 1U];
-    uint8_t digits[KITCHEN_CAN_INPUT_DELAYS_DIGITS];
+    uint16_t digits[KITCHEN_CAN_INPUT_DELAYS_DIGITS];
     fieldscribe_can_reading read_one;
     fieldscribe_can_writing write_one;
     size_t at;
@@ -257,7 +257,8 @@ int main(void)
     const fieldscribe_uss_words process = {words, 2U};
     fieldscribe_uss_reply reply = {heard, KITCHEN_USS_TELEGRAM_TASK_WORDS, 0U, 0U, 0U, 0U};
     fieldscribe_uss_request request = fieldscribe_uss_read(3U, &kitchen_uss_command_source_frame.read);
-    if (kitchen_uss_main_setpoint_encode_count(4000000, 0U, 0x42480000U, &raw) != KITCHEN_USS_OK || raw != 0x3333) {
+    const kitchen_uss_main_setpoint_with setpoint = {0U, 0x42480000U};
+    if (kitchen_uss_main_setpoint_encode_count(4000000, &setpoint, &raw) != KITCHEN_USS_OK || raw != 0x3333) {
         return 1;
     }
     /* the constant bit comes by itself */
@@ -590,7 +591,8 @@ void start(void)
     size_t length = 0U;
     int16_t raw = 0;
     int64_t count = 0;
-    result = (int32_t)kitchen_uss_main_setpoint_encode_count(wanted, 0U, reference, &raw);
+    const kitchen_uss_main_setpoint_with setpoint = {0U, reference};
+    result = (int32_t)kitchen_uss_main_setpoint_encode_count(wanted, &setpoint, &raw);
     result += (int32_t)fieldscribe_put_s16(kitchen_uss_main_setpoint_frame.layout, raw,
         fieldscribe_uss_words_sent(&kitchen_uss_main_setpoint_frame.sent, words));
     result += (int32_t)fieldscribe_uss_build(
@@ -599,7 +601,7 @@ void start(void)
         &kitchen_uss_uss_profile, &link, &request, frame, length, &reply);
     result += (int32_t)fieldscribe_take_s16(kitchen_uss_main_actual_value_frame.layout,
         fieldscribe_uss_words_heard(&kitchen_uss_main_actual_value_frame.heard, words), &raw);
-    result += (int32_t)kitchen_uss_main_actual_value_decode_count(raw, 0U, reference, &count);
+    result += (int32_t)kitchen_uss_main_actual_value_decode_count(raw, &setpoint, &count);
     shown = count;
     for (;;) {
     }

@@ -97,7 +97,7 @@ def test_a_scale_beyond_every_integer_leaves_raw_numbers(tmp_path: Path) -> None
     ]
     assert all(named(device, item).raw_only for item in ("a", "b"))
     text = (write_headers(device, tmp_path) / "c" / "meter.h").read_text("utf-8")
-    assert "a: r, not generated: its scale needs integers of more than 63 bits" in text
+    assert "not generated: its scale needs integers of more than 63 bits" in text
     assert "#define METER_A_ADDRESS" in text
     program = tmp_path / "program.c"
     program.write_text(

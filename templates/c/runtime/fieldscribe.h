@@ -436,10 +436,10 @@ static inline bool fieldscribe_twice_ratio(
     uint64_t quotient = 0U;
     int32_t bit = -129;
     bool fits = true;
-    if ((shift == 0) && (number.high == 0U) && (number.low <= (uint64_t)INT64_MAX)) {
-        *twice = (number.low * 2U) / divisor;
-        *left_over = ((number.low * 2U) % divisor) != 0U;
-        return true;
+    if ((number.high == 0U) && (shift >= -65)) { /* 64 bits that are 0 change nothing */
+        number.high = number.low;
+        number.low = 0U;
+        bit = -65;
     }
     while (fits && (bit < shift)) {
         const uint64_t next = fieldscribe_quotient_bit(&number, &rest, divisor);
@@ -473,11 +473,11 @@ static inline bool fieldscribe_ratio_of(int64_t number, int64_t num, int64_t den
 /* a * b; false when that is no int64_t. */
 static inline bool fieldscribe_multiply(int64_t a, int64_t b, int64_t *product)
 {
-    const uint64_t size = fieldscribe_magnitude(a);
-    if ((size != 0U) && (fieldscribe_magnitude(b) > ((uint64_t)INT64_MAX / size))) {
+    const fieldscribe_u128 size = fieldscribe_product(fieldscribe_magnitude(a), fieldscribe_magnitude(b));
+    if ((size.high != 0U) || (size.low > (uint64_t)INT64_MAX)) {
         return false;
     }
-    *product = a * b;
+    *product = ((a < 0) != (b < 0)) ? -(int64_t)size.low : (int64_t)size.low;
     return true;
 }
 
@@ -585,58 +585,46 @@ static inline fieldscribe_rule fieldscribe_rule_f32(fieldscribe_rule rule, uint3
     const int64_t size = (int64_t)((power != 0U) ? (fraction | 0x800000U) : fraction);
     const int64_t mantissa = (bits > 0x7FFFFFFFU) ? -size : size;
     const int32_t exponent = (int32_t)((power != 0U) ? power : 1U) - 150;
-    if (power == 0xFFU) {
-        return fieldscribe_rule_fails(rule, FIELDSCRIBE_ZERO_FACTOR);
-    }
+    const int64_t factor = (power == 0xFFU) ? 0 : mantissa;
     rule.shift += divides ? -exponent : exponent;
-    return divides ? fieldscribe_rule_over(rule, mantissa) : fieldscribe_rule_times(rule, mantissa);
+    return divides ? fieldscribe_rule_over(rule, factor) : fieldscribe_rule_times(rule, factor);
 }
 
-/* count * num / den * 2^shift + offset / parts to the nearest integer; false far beyond all raw numbers. */
-static inline bool fieldscribe_apply_shifted(const fieldscribe_rule *rule, int64_t count, int64_t den, int64_t *raw)
+/*
+ * count * num / den * 2^shift + offset / parts to the nearest integer, rounded once; false far beyond all raw numbers.
+ * Twice the number of parts is known but for what a division leaves over.
+ */
+static inline bool fieldscribe_lifted(const fieldscribe_rule *rule, int64_t count, int64_t den, int64_t *raw)
 {
     const bool negative = (count < 0) != ((rule->num < 0) != (den < 0));
-    const uint64_t parts = fieldscribe_magnitude(rule->parts);
     uint64_t twice = 0U;
     bool left_over = false;
+    int64_t parts = 0;
     int64_t num = 0;
     int64_t sum = 0;
     if ((!fieldscribe_multiply(rule->num, rule->parts, &num)) ||
         (!fieldscribe_twice_ratio(fieldscribe_magnitude(count), fieldscribe_magnitude(num), fieldscribe_magnitude(den),
             rule->shift, &twice, &left_over)) ||
-        (twice > ((uint64_t)INT64_MAX / 4U)) || (!fieldscribe_multiply(rule->offset, 2, &sum)) ||
+        (twice > (uint64_t)INT64_MAX) || (!fieldscribe_multiply(rule->offset, 2, &sum)) ||
         (!fieldscribe_add(sum, negative ? -(int64_t)twice : (int64_t)twice, &sum))) {
         return false;
     }
     /* what is left over lies beyond the sum where both have one sign; else the size is a little less */
-    twice = fieldscribe_magnitude(sum);
     if (left_over && (sum != 0) && ((sum < 0) != negative)) {
-        --twice;
+        sum += (sum < 0) ? 1 : -1;
     }
-    twice = (twice + parts) / (2U * parts);
-    *raw = (sum < 0) ? -(int64_t)twice : (int64_t)twice;
-    return true;
+    return fieldscribe_multiply(rule->parts, 2, &parts) && fieldscribe_ratio_of(sum, 1, parts, 0, raw);
 }
 
 /* The raw number of `count`, where `tens` counts are one unit; false when it does not fit. */
 static inline bool fieldscribe_apply_rule(const fieldscribe_rule *rule, int64_t count, int64_t tens, int64_t *raw)
 {
-    int64_t num = count;
-    int64_t lift = 0;
     int64_t den = 0;
     if (!fieldscribe_multiply(rule->den, tens, &den)) {
         return false;
     }
-    if (rule->offset == 0) {
-        return fieldscribe_ratio_of(count, rule->num, den, rule->shift, raw);
-    }
-    if (rule->shift != 0) {
-        return fieldscribe_apply_shifted(rule, count, den, raw);
-    }
-    /* one division, so that rounding happens once: (count * num * parts + offset * den) / (den * parts) */
-    return fieldscribe_multiply(num, rule->num, &num) && fieldscribe_multiply(num, rule->parts, &num) &&
-        fieldscribe_multiply(rule->offset, den, &lift) && fieldscribe_add(num, lift, &num) &&
-        fieldscribe_multiply(den, rule->parts, &den) && fieldscribe_ratio_of(num, 1, den, 0, raw);
+    return (rule->offset == 0) ? fieldscribe_ratio_of(count, rule->num, den, rule->shift, raw)
+                               : fieldscribe_lifted(rule, count, den, raw);
 }
 
 /* The raw number of a count, if it lies in low..high. */

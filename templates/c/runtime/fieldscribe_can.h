@@ -9,7 +9,8 @@
  *     status = fieldscribe_can_read(&dialogue, unit, &woodward_mpu2s_password_level_2_frame.read, &frame);
  *     send(&frame);
  *     (frames come; each is offered, and one with another status than OK is none of this answer)
- *     status = fieldscribe_can_read_answer(&dialogue, unit, &woodward_mpu2s_password_level_2_frame.read, &frame, words);
+ *     status = fieldscribe_can_read_answer(
+ *         &dialogue, unit, &woodward_mpu2s_password_level_2_frame.read, &frame, words);
  *     fits = fieldscribe_take_u16(woodward_mpu2s_password_level_2_frame.layout, words, &raw);
  *
  * Writing one: fieldscribe_put_u16(point.layout, raw, words), then fieldscribe_can_write(&dialogue, unit, &point.write,

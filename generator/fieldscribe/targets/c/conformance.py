@@ -291,8 +291,7 @@ def _structs(point: Point, scope: Scope) -> Iterator[StructView]:
     for names in dict.fromkeys((point.arguments, point.scale_arguments, point.limit_arguments)):
         if len(names) > 1:
             fields = tuple((name, f"{name}_raw", raw_type(scope.points[name])) for name in names)
-            struct = f"{scope.prefix}_{point.item}_with"
-            yield StructView(struct, _filler(point, names), fields, floating=names not in integer)
+            yield StructView(scope.struct(point), _filler(point, names), fields, floating=names not in integer)
 
 
 def _truth(point: Point, view: PointView, name: str) -> str:

@@ -62,7 +62,7 @@ class Writer:
 
     def check(self) -> Function:
         """May a raw number be written?"""
-        parameters = [f"{self.type} raw", *self.scope.parameters(self.point.item, self.point.limit_arguments)]
+        parameters = [f"{self.type} raw", *self.scope.parameters(self.point, self.point.limit_arguments)]
         status = codes_first(self.point, self.special, check(self.point, self.scope))
         body = ("(void)raw;", f"return {status};") if status == "FIELDSCRIBE_OK" else (f"return {status};",)
         return Function(function(STATUS, f"{self.name}_check", parameters, *body))
@@ -75,7 +75,7 @@ class Writer:
         return f"({self.special.test}({number}) ? FIELDSCRIBE_SPECIAL : {status})"
 
     def _encode(self, tail: str, parameter: str, *body: str, floating: bool = False) -> Function:
-        parameters = [parameter, *self.scope.parameters(self.point.item, self.point.arguments), f"{self.type} *raw"]
+        parameters = [parameter, *self.scope.parameters(self.point, self.point.arguments), f"{self.type} *raw"]
         return Function(function(STATUS, f"{self.name}_{tail}", parameters, *body), floating)
 
     def _kept(self, inside: str, number: str, outside: str) -> str:
@@ -175,7 +175,7 @@ class Writer:
         if point.writable:
             yield self.check()
         if rule_name(point, scope) == f"{self.name}_rule":
-            parameters = scope.parameters(point.item, point.scale_arguments)
+            parameters = scope.parameters(point, point.scale_arguments)
             body = f"return {rule_of(point, scope)};"
             yield Function(function(f"{INLINE} fieldscribe_rule", f"{self.name}_rule", parameters, body))
         tens, limits = bare(10 ** (point.decimals or 0)), ", ".join(map(bare, self.reach))
@@ -220,7 +220,7 @@ class Writer:
         body = core.format(rule)
         if self.special is not None:
             body = f"{self.special.test}(raw) ? FIELDSCRIBE_SPECIAL : {body}"
-        parameters = [f"{self.type} raw", *self.scope.parameters(point.item, point.scale_arguments), to]
+        parameters = [f"{self.type} raw", *self.scope.parameters(point, point.scale_arguments), to]
         return Function(function(STATUS, f"{self.name}_{tail}", parameters, f"return {body};"), floating)
 
     # ---- a pattern of floating point

@@ -35,7 +35,8 @@ def point_view(point: Point, scope: Scope) -> PointView:
     shape = shape_of(point)
     tables = tuple(_tables(point, name, scope))
     functions = [] if scope.names_only else list(_functions(point, shape, special, scope))
-    arguments = point.arguments if point.arguments and len(point.arguments) > 1 else ()
+    several = point.arguments and len(point.arguments) > 1
+    arguments = point.arguments if several and scope.struct(point) == f"{name}_with" else ()
     return PointView(
         function=name,
         macro=macro,

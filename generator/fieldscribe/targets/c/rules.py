@@ -16,12 +16,9 @@ _MANTISSA = 1 << 24
 
 
 def rule_name(point: Point, scope: Scope) -> str:
-    """The function that gives the rule of a point; points with the same rule of one other point share it."""
-    own = f"{scope.prefix}_{point.item}_rule"
-    if len(point.scale_arguments) != 1:
-        return own
-    scope.grouped = False
-    return scope.tables.setdefault(("rule", rule_of(point, scope)), own)
+    """The function that gives the rule of a point; points with the same rule share it."""
+    struct = tuple(scope.parameters(point, point.scale_arguments))
+    return scope.tables.setdefault((struct, rule_of(point, scope)), f"{scope.prefix}_{point.item}_rule")
 
 
 def rule_of(point: Point, scope: Scope) -> str:

@@ -37,11 +37,15 @@ class Scope:
     codes: set[str] = field(default_factory=set)
     tables: dict[object, str] = field(default_factory=dict)
 
-    def parameters(self, item: str, names: tuple[str, ...]) -> list[str]:
+    def struct(self, point: Point) -> str:
+        """The struct for the raw numbers that a point needs; points that need the same ones share it."""
+        return self.tables.setdefault(("with", point.arguments), f"{self.prefix}_{point.item}_with")
+
+    def parameters(self, point: Point, names: tuple[str, ...]) -> list[str]:
         """Parameters for the raw numbers of other points: one alone, several in a struct whose fields have names."""
         self.grouped = len(names) > 1
         if self.grouped:
-            return [f"const {self.prefix}_{item}_with *with"]
+            return [f"const {self.struct(point)} *with"]
         return [f"{raw_type(self.points[name])} {name}_raw" for name in names]
 
     def raw(self, name: str) -> str:
