@@ -14,9 +14,9 @@
  *     fits = fieldscribe_take_u16(point->layout, words, &raw);
  *
  * Writing one: fieldscribe_put_u16(point->layout, raw, words), then fieldscribe_can_write(&dialogue, unit,
- * &point->write, words, &frame). A point that only some bits of a word are has `update` for `write`: read its word first, put the
- * bits, write it back. Where answers come over a serial gateway, fieldscribe_can_reply_length tells how long one is,
- * and fieldscribe_can_id which identifier a filter has to let through.
+ * &point->write, words, &frame). A point that only some bits of a word are has `update` for `write`: read its word
+ * first, put the bits, write it back. Where answers come over a serial gateway, fieldscribe_can_reply_length tells how
+ * long one is, and fieldscribe_can_id which identifier a filter has to let through.
  *
  * SPDX-License-Identifier: 0BSD
  */
