@@ -747,6 +747,7 @@ static inline bool fieldscribe_same_number(uint64_t one, uint64_t other)
     {                                                                                            \
         const fieldscribe_layout other_type = fieldscribe_other_type(how);                       \
         raw_type raw = (raw_type)fieldscribe_other(v);                                           \
+        fieldscribe_agree(v, fieldscribe_has_its_bits(how, sizeof raw));                         \
         fieldscribe_agree(v, !fieldscribe_take_##kind(&other_type, words, &raw) &&               \
             raw == (raw_type)fieldscribe_other(v));                                              \
         fieldscribe_agree(v, fieldscribe_take_##kind(how, words, &raw));                         \
@@ -759,6 +760,7 @@ static inline bool fieldscribe_same_number(uint64_t one, uint64_t other)
         const fieldscribe_layout other_type = fieldscribe_other_type(how);                       \
         const raw_type raw = (raw_type)fieldscribe_bits(v, field);                               \
         const uint16_t before = (words)[0];                                                      \
+        fieldscribe_agree(v, fieldscribe_has_its_bits(how, sizeof raw));                         \
         fieldscribe_agree(v, !fieldscribe_put_##kind(&other_type, raw, words));                  \
         if ((how)->shares && !fieldscribe_fills(how, sizeof(raw_type))) {                        \
             fieldscribe_agree(v, !fieldscribe_put_##kind(how, (raw_type)fieldscribe_too_much(how), words)); \
@@ -782,6 +784,12 @@ static inline uint32_t fieldscribe_too_much(const fieldscribe_layout *layout)
     const uint32_t most = (uint32_t)(layout->mask >> layout->shift);
     const bool with_sign = layout->type == (uint8_t)FIELDSCRIBE_S8 || layout->type == (uint8_t)FIELDSCRIBE_S16;
     return (with_sign ? most >> 1 : most) + 1U;
+}
+
+/* Whether a point with words of its own has all the bits of its type. */
+static inline bool fieldscribe_has_its_bits(const fieldscribe_layout *layout, size_t size)
+{
+    return layout->shares || layout->type == (uint8_t)FIELDSCRIBE_BIT || layout->mask == UINT64_MAX >> (64U - 8U * size);
 }
 
 /* Whether the bits of a point are all that its type has. */
