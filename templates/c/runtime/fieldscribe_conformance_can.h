@@ -297,6 +297,32 @@ static void fieldscribe_has_no_such_unit(
     }
 }
 
+/* The byte that tells which frame it is may be any, also the first: those two bytes change places. */
+static void fieldscribe_finds_the_frame(
+    fieldscribe_vector *v, const fieldscribe_can_receiver *receiver, const fieldscribe_can_frame *frame)
+{
+    static fieldscribe_slots slots;
+    fieldscribe_can_message message = *receiver->telegram->message;
+    fieldscribe_can_telegram telegram = *receiver->telegram;
+    fieldscribe_can_frame turned = *frame;
+    fieldscribe_can_receiver other;
+    unsigned at = 0U;
+    while (at < FIELDSCRIBE_CAN_BYTES && message.roles[at].kind != (uint8_t)FIELDSCRIBE_CAN_MULTIPLEXER) {
+        ++at;
+    }
+    if (at == FIELDSCRIBE_CAN_BYTES || fieldscribe_can_carries(&message, FIELDSCRIBE_CAN_XOR) ||
+        fieldscribe_can_slots(&telegram) > 256U) {
+        return;
+    }
+    message.roles[0] = receiver->telegram->message->roles[at];
+    message.roles[at] = receiver->telegram->message->roles[0];
+    turned.data[0] = frame->data[at];
+    turned.data[at] = frame->data[0];
+    telegram.message = &message;
+    other = fieldscribe_can_listen(&telegram, receiver->unit, slots.all);
+    fieldscribe_agree(v, fieldscribe_can_take(&other, &turned) && slots.all[frame->data[at]].now == 1U);
+}
+
 /* Feeds the frames of a line to a receiver, which takes those that it should. */
 static void fieldscribe_feed(fieldscribe_vector *v, fieldscribe_can_receiver *receiver)
 {
@@ -312,6 +338,7 @@ static void fieldscribe_feed(fieldscribe_vector *v, fieldscribe_can_receiver *re
         taken[fed] = fieldscribe_can_take(receiver, &frame) ? 1U : 0U;
         if (taken[fed] != 0U) {
             fieldscribe_has_no_such_unit(v, receiver, &frame);
+            fieldscribe_finds_the_frame(v, receiver, &frame);
         }
         ++fed;
         at = strchr(at, ',');
