@@ -32,7 +32,7 @@ extern "C" {
 
 /* The C type of a raw number; the pattern of a floating-point number is U32 or U64. */
 typedef enum fieldscribe_type {
-    FIELDSCRIBE_BIT = 0,
+    FIELDSCRIBE_BIT,
     FIELDSCRIBE_U8,
     FIELDSCRIBE_S8,
     FIELDSCRIBE_U16,

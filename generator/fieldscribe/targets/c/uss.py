@@ -45,6 +45,7 @@ class FrameView:
     ram: bool
     eeprom: bool
     shares: bool
+    fixed: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,6 +61,7 @@ class WordView:
     words_name: str
     read: bool
     write: bool
+    fixed: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,6 +133,8 @@ def adapters(bus: BusView) -> Iterator[tuple[str, str]]:
     """How parameters, and words of process data, answer vectors of whole exchanges."""
     for one in bus.frames:
         name, what = f"{one.function}_frame", f"{one.kind}, {one.raw_type}"
+        if not one.fixed:
+            yield from ((one.function, f"NOT_FIXED({descriptor.name})") for descriptor in one.descriptors)
         if one.read:
             yield one.function, f"READ({name}, {what})"
         for kind, there, to in (("write", one.ram, name), ("store", one.eeprom, f"{one.function}_eeprom_frame")):
@@ -140,6 +144,8 @@ def adapters(bus: BusView) -> Iterator[tuple[str, str]]:
                 yield one.function, f'WRITE("{kind}", {to}, {what})'
     for word in bus.words:
         name, what = word.descriptor.name, f"{word.kind}, {word.raw_type}"
+        if not word.fixed:
+            yield word.function, f"NOT_FIXED({name})"
         if word.write:
             yield word.function, f"SEND({name}, {what})"
             yield word.function, f"PUT({name}, {what}, {word.macro}, {word.words_name})"
@@ -184,6 +190,7 @@ def _frame(point: Point, view: PointView, tasks: frozenset[int], layouts: Layout
         ram=ram is not None,
         eeprom=eeprom is not None,
         shares=shares(point),
+        fixed=point.fixed is not None,
     )
 
 
@@ -209,4 +216,5 @@ def _word(point: Point, view: PointView, telegram: Telegram, layouts: Layouts, s
         words_name=f"{scope.upper}_TELEGRAM_{upper(telegram.name)}_WORDS",
         read=point.readable,
         write=point.writable,
+        fixed=point.fixed is not None,
     )
