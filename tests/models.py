@@ -36,7 +36,7 @@ from fieldscribe.model import (
 )
 from fieldscribe.pipeline import load_device
 
-KITCHEN_SINK = Path(__file__).parent / "devices/kitchen_sink/device.yaml"
+MADE = Path(__file__).parent / "devices"
 SOURCE = Source("manual", "Gruppe A", None, 780)
 NUMBER = Unit("", "number", "number")
 HERTZ = Unit("Hz", "hertz", "frequency")
@@ -321,7 +321,12 @@ def trip_device() -> Device:
 
 def kitchen_sink() -> Device:
     """The device that uses every mechanism of the language, from its description."""
-    device = load_device(KITCHEN_SINK, Report())
+    return made("kitchen_sink")
+
+
+def made(name: str) -> Device:
+    """One of the devices that were made for the tests, from its description."""
+    device = load_device(MADE / name / "device.yaml", Report())
     assert device is not None
     return device
 

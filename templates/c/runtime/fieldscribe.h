@@ -1322,7 +1322,7 @@ FIELDSCRIBE_STATUS fieldscribe_decode_wide(fieldscribe_rule rule, bool negative,
 
 /* The C type of a raw number; the pattern of a floating-point number is U32 or U64. */
 typedef enum fieldscribe_type {
-    FIELDSCRIBE_BIT = 0,
+    FIELDSCRIBE_BIT,
     FIELDSCRIBE_U8,
     FIELDSCRIBE_S8,
     FIELDSCRIBE_U16,

@@ -6,17 +6,17 @@
  *
  * Reading a parameter:
  *
- *     status = fieldscribe_can_read(&dialogue, unit, &woodward_mpu2s_password_level_2_frame.read, &frame);
+ *     const fieldscribe_can_rw *const point = &woodward_mpu2s_password_level_2_frame;
+ *     status = fieldscribe_can_read(&dialogue, unit, &point->read, &frame);
  *     send(&frame);
  *     (frames come; each is offered, and one with another status than OK is none of this answer)
- *     status = fieldscribe_can_read_answer(
- *         &dialogue, unit, &woodward_mpu2s_password_level_2_frame.read, &frame, words);
- *     fits = fieldscribe_take_u16(woodward_mpu2s_password_level_2_frame.layout, words, &raw);
+ *     status = fieldscribe_can_read_answer(&dialogue, unit, &point->read, &frame, words);
+ *     fits = fieldscribe_take_u16(point->layout, words, &raw);
  *
- * Writing one: fieldscribe_put_u16(point.layout, raw, words), then fieldscribe_can_write(&dialogue, unit, &point.write,
- * words, &frame). A point that only some bits of a word are has `update` for `write`: read its word first, put the
- * bits, write it back. Where answers come over a serial gateway, fieldscribe_can_reply_length tells how long one is,
- * and fieldscribe_can_id which identifier a filter has to let through.
+ * Writing one: fieldscribe_put_u16(point->layout, raw, words), then fieldscribe_can_write(&dialogue, unit,
+ * &point->write, words, &frame). A point that only some bits of a word are has `update` for `write`: read its word
+ * first, put the bits, write it back. Where answers come over a serial gateway, fieldscribe_can_reply_length tells how
+ * long one is, and fieldscribe_can_id which identifier a filter has to let through.
  *
  * SPDX-License-Identifier: 0BSD
  */

@@ -757,6 +757,7 @@ static inline bool fieldscribe_same_number(uint64_t one, uint64_t other)
     {                                                                                            \
         const fieldscribe_layout other_type = fieldscribe_other_type(how);                       \
         raw_type raw = (raw_type)fieldscribe_other(v);                                           \
+        fieldscribe_agree(v, fieldscribe_has_its_bits(how, sizeof raw));                         \
         fieldscribe_agree(v, !fieldscribe_take_##kind(&other_type, words, &raw) &&               \
             raw == (raw_type)fieldscribe_other(v));                                              \
         fieldscribe_agree(v, fieldscribe_take_##kind(how, words, &raw));                         \
@@ -769,6 +770,7 @@ static inline bool fieldscribe_same_number(uint64_t one, uint64_t other)
         const fieldscribe_layout other_type = fieldscribe_other_type(how);                       \
         const raw_type raw = (raw_type)fieldscribe_bits(v, field);                               \
         const uint16_t before = (words)[0];                                                      \
+        fieldscribe_agree(v, fieldscribe_has_its_bits(how, sizeof raw));                         \
         fieldscribe_agree(v, !fieldscribe_put_##kind(&other_type, raw, words));                  \
         if ((how)->shares && !fieldscribe_fills(how, sizeof(raw_type))) {                        \
             fieldscribe_agree(v, !fieldscribe_put_##kind(how, (raw_type)fieldscribe_too_much(how), words)); \
@@ -777,6 +779,10 @@ static inline bool fieldscribe_same_number(uint64_t one, uint64_t other)
         fieldscribe_agree(v, fieldscribe_put_##kind(how, raw, words));                           \
     }
 #define FIELDSCRIBE_PUT_RAW(how, kind, raw_type, words) FIELDSCRIBE_PUT_FIELD(how, kind, raw_type, "raw", words)
+
+/* The words of a point have no constant bits. */
+#define FIELDSCRIBE_NOT_FIXED(frame)                                                             \
+    v->differs = v->differs || (frame).layout->fixed_mask != 0U || (frame).layout->fixed_bits != 0U;
 
 /* The same layout, of another type. */
 static inline fieldscribe_layout fieldscribe_other_type(const fieldscribe_layout *layout)
@@ -794,10 +800,52 @@ static inline uint32_t fieldscribe_too_much(const fieldscribe_layout *layout)
     return (with_sign ? most >> 1 : most) + 1U;
 }
 
+/* Whether a point with words of its own has all the bits of its type. */
+static inline bool fieldscribe_has_its_bits(const fieldscribe_layout *layout, size_t size)
+{
+    const uint64_t all = UINT64_MAX >> (64U - 8U * size);
+    return layout->shares || layout->type == (uint8_t)FIELDSCRIBE_BIT || layout->mask == all;
+}
+
 /* Whether the bits of a point are all that its type has. */
 static inline bool fieldscribe_fills(const fieldscribe_layout *layout, size_t size)
 {
     return layout->type == (uint8_t)FIELDSCRIBE_BIT || (layout->mask >> layout->shift) >> (8U * size - 1U) != 0U;
+}
+
+static inline void fieldscribe_refuses_long_numbers(
+    fieldscribe_vector *v, const fieldscribe_layout *no_sign, const fieldscribe_layout *a_sign)
+{
+    uint16_t words[4] = {7U, 7U, 7U, 7U};
+    int64_t back = 9;
+    uint64_t same = 9U;
+    fieldscribe_agree(v, !fieldscribe_put_s64(no_sign, 1, words) && !fieldscribe_put_u64(a_sign, 1U, words));
+    fieldscribe_agree(v, !fieldscribe_take_s64(no_sign, words, &back) && !fieldscribe_take_u64(a_sign, words, &same));
+    fieldscribe_agree(v, words[0] == 7U && words[1] == 7U && words[3] == 7U && back == 9 && same == 9U);
+}
+
+/* Numbers of 64 bits in any order of words, which few devices have. */
+static inline void fieldscribe_holds_long_numbers(fieldscribe_vector *v)
+{
+    static const int64_t numbers[] = {0, 1, -1, 0x0123456789ABCDEF, -0x0123456789ABCDEF, INT64_MAX, INT64_MIN};
+    fieldscribe_layout with_sign = {FIELDSCRIBE_S64, 4U, 0x2031U, false, 0U, UINT64_MAX, 0U, 0U};
+    fieldscribe_layout without = {FIELDSCRIBE_U64, 4U, 0x0123U, false, 0U, UINT64_MAX, 0U, 0U};
+    size_t at;
+    for (at = 0U; at < sizeof numbers / sizeof numbers[0]; ++at) {
+        const uint64_t bits = numbers[at] < 0 ? ~(uint64_t)(-1 - numbers[at]) : (uint64_t)numbers[at];
+        uint16_t words[5] = {0U, 0U, 0U, 0U, 9U};
+        int64_t back = 9;
+        uint64_t same = 9U;
+        fieldscribe_agree(v, fieldscribe_put_s64(&with_sign, numbers[at], words) && words[4] == 9U);
+        fieldscribe_agree(v, words[2] == (bits >> 48) && words[0] == ((bits >> 32) & 0xFFFFU));
+        fieldscribe_agree(v, words[3] == ((bits >> 16) & 0xFFFFU) && words[1] == (bits & 0xFFFFU));
+        fieldscribe_agree(v, fieldscribe_take_s64(&with_sign, words, &back) && back == numbers[at]);
+        fieldscribe_agree(v, fieldscribe_put_u64(&without, bits, words) && words[0] == (bits >> 48));
+        fieldscribe_agree(v, fieldscribe_take_u64(&without, words, &same) && same == bits && words[4] == 9U);
+    }
+    with_sign.type = (uint8_t)FIELDSCRIBE_U64;
+    without.type = (uint8_t)FIELDSCRIBE_S64;
+    fieldscribe_refuses_long_numbers(v, &with_sign, &without);
 }
 
 /* ---- Whole exchanges ---- */

@@ -65,12 +65,16 @@ static inline void fieldscribe_is_answer(fieldscribe_vector *v, fieldscribe_can_
     fieldscribe_is_text(v, "status", answers ? fieldscribe_can_status_text(status) : "timeout");
 }
 
-/* The dialogue of the device with the answers of a unit that was not asked: they change nothing. */
+/* The answer of a unit that was not asked changes nothing; and where nobody answers, no frame is an answer. */
 static inline void fieldscribe_refuses_others(
     fieldscribe_vector *v, uint8_t unit, const fieldscribe_can_reading *what, const fieldscribe_can_frame *answer)
 {
     fieldscribe_can_frame frame = *answer;
+    fieldscribe_can_dialogue silent = *fieldscribe_tables_of(v)->dialogue;
     uint16_t other = 0x5A5AU;
+    silent.read_answer = NULL;
+    fieldscribe_agree(
+        v, fieldscribe_can_read_answer(&silent, unit, what, answer, &other) == FIELDSCRIBE_CAN_WRONG_ID);
     frame.id ^= 1U;
     fieldscribe_agree(v, fieldscribe_can_read_answer(fieldscribe_tables_of(v)->dialogue, unit, what, &frame, &other) ==
         FIELDSCRIBE_CAN_WRONG_ID);
@@ -269,6 +273,56 @@ static void fieldscribe_run_can_parse(fieldscribe_vector *v)
     }
 }
 
+/* Slots in a caller's memory, with one behind them that is not theirs. */
+typedef struct fieldscribe_slots {
+    fieldscribe_can_slot all[257];
+} fieldscribe_slots;
+
+/* To a unit that a device cannot have nothing belongs, whatever comes. */
+static void fieldscribe_has_no_such_unit(
+    fieldscribe_vector *v, const fieldscribe_can_receiver *receiver, const fieldscribe_can_frame *frame)
+{
+    static fieldscribe_slots slots;
+    fieldscribe_can_profile profile = *receiver->telegram->profile;
+    fieldscribe_can_telegram telegram = *receiver->telegram;
+    fieldscribe_can_receiver other;
+    if (fieldscribe_can_slots(&telegram) <= 256U && receiver->unit > 0U && receiver->unit < 255U) {
+        telegram.profile = &profile;
+        other = fieldscribe_can_listen(&telegram, receiver->unit, slots.all);
+        profile.first_unit = (uint8_t)(receiver->unit + 1U);
+        fieldscribe_agree(v, !fieldscribe_can_take(&other, frame));
+        profile.first_unit = 0U;
+        profile.last_unit = (uint8_t)(receiver->unit - 1U);
+        fieldscribe_agree(v, !fieldscribe_can_take(&other, frame));
+    }
+}
+
+/* The byte that tells which frame it is may be any, also the first: those two bytes change places. */
+static void fieldscribe_finds_the_frame(
+    fieldscribe_vector *v, const fieldscribe_can_receiver *receiver, const fieldscribe_can_frame *frame)
+{
+    static fieldscribe_slots slots;
+    fieldscribe_can_message message = *receiver->telegram->message;
+    fieldscribe_can_telegram telegram = *receiver->telegram;
+    fieldscribe_can_frame turned = *frame;
+    fieldscribe_can_receiver other;
+    unsigned at = 0U;
+    while (at < FIELDSCRIBE_CAN_BYTES && message.roles[at].kind != (uint8_t)FIELDSCRIBE_CAN_MULTIPLEXER) {
+        ++at;
+    }
+    if (at == FIELDSCRIBE_CAN_BYTES || fieldscribe_can_carries(&message, FIELDSCRIBE_CAN_XOR) ||
+        fieldscribe_can_slots(&telegram) > 256U) {
+        return;
+    }
+    message.roles[0] = receiver->telegram->message->roles[at];
+    message.roles[at] = receiver->telegram->message->roles[0];
+    turned.data[0] = frame->data[at];
+    turned.data[at] = frame->data[0];
+    telegram.message = &message;
+    other = fieldscribe_can_listen(&telegram, receiver->unit, slots.all);
+    fieldscribe_agree(v, fieldscribe_can_take(&other, &turned) && slots.all[frame->data[at]].now == 1U);
+}
+
 /* Feeds the frames of a line to a receiver, which takes those that it should. */
 static void fieldscribe_feed(fieldscribe_vector *v, fieldscribe_can_receiver *receiver)
 {
@@ -282,17 +336,16 @@ static void fieldscribe_feed(fieldscribe_vector *v, fieldscribe_can_receiver *re
         const fieldscribe_can_frame frame =
             fieldscribe_read_frame(fieldscribe_pattern(at), data != NULL ? data + 1 : "");
         taken[fed] = fieldscribe_can_take(receiver, &frame) ? 1U : 0U;
+        if (taken[fed] != 0U) {
+            fieldscribe_has_no_such_unit(v, receiver, &frame);
+            fieldscribe_finds_the_frame(v, receiver, &frame);
+        }
         ++fed;
         at = strchr(at, ',');
         at = at != NULL ? at + 1 : NULL;
     }
     fieldscribe_agree(v, fed == count && memcmp(taken, expected_taken, fed * sizeof taken[0]) == 0);
 }
-
-/* Slots in a caller's memory, with one behind them that is not theirs. */
-typedef struct fieldscribe_slots {
-    fieldscribe_can_slot all[257];
-} fieldscribe_slots;
 
 /* The telegram of the line with a receiver that has heard nothing; NULL when there is none. */
 static const fieldscribe_named_telegram *fieldscribe_listen(
@@ -360,6 +413,7 @@ static void fieldscribe_run_can_taken(fieldscribe_vector *v)
 static void fieldscribe_run_limit(fieldscribe_vector *v)
 {
     const fieldscribe_can_profile *const profile = fieldscribe_tables_of(v)->profile;
+    fieldscribe_holds_long_numbers(v);
     FIELDSCRIBE_LIMIT("first_unit", profile->first_unit)
     FIELDSCRIBE_LIMIT("last_unit", profile->last_unit)
     FIELDSCRIBE_LIMIT("identifier_bits", profile->identifier_bits)

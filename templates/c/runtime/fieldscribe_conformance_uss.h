@@ -330,6 +330,7 @@ static void fieldscribe_run_function(fieldscribe_vector *v)
 static void fieldscribe_run_limit(fieldscribe_vector *v)
 {
     const fieldscribe_uss_profile *const profile = fieldscribe_tables_of(v)->profile;
+    fieldscribe_holds_long_numbers(v);
     FIELDSCRIBE_LIMIT("first_unit", profile->first_unit)
     FIELDSCRIBE_LIMIT("last_unit", profile->last_unit)
     FIELDSCRIBE_LIMIT("functions", profile->task_count)

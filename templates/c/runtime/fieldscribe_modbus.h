@@ -397,17 +397,18 @@ static fieldscribe_modbus_status fieldscribe_modbus_put_request(const fieldscrib
 {
     const bool several = (request->function == 0x0FU) || (request->function == 0x10U);
     const fieldscribe_modbus_status status = fieldscribe_modbus_allows(profile, request);
+    const size_t before = several ? 7U : 6U; /* the data */
     uint32_t data_bytes = 0U;
     uint16_t number = request->count;
     if (status != FIELDSCRIBE_MODBUS_OK) {
         return status;
     }
     if (several) {
-        data_bytes = 1U + fieldscribe_modbus_data_bytes(profile, request);
+        data_bytes = fieldscribe_modbus_data_bytes(profile, request);
     } else if (!fieldscribe_modbus_reads(request->function)) {
         number = fieldscribe_modbus_single(request);
     }
-    if ((data_bytes > 0x100U) || (size < 6U) || (data_bytes > (size - 6U))) {
+    if ((data_bytes > 0xFFU) || (size < before) || (data_bytes > (size - before))) {
         return FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL;
     }
     buffer[0] = request->unit;
@@ -415,10 +416,10 @@ static fieldscribe_modbus_status fieldscribe_modbus_put_request(const fieldscrib
     fieldscribe_modbus_put(&buffer[2], request->address);
     fieldscribe_modbus_put(&buffer[4], number);
     if (several) {
-        buffer[6] = (uint8_t)(data_bytes - 1U);
-        fieldscribe_modbus_put_values(request, &buffer[7], data_bytes - 1U);
+        buffer[6] = (uint8_t)data_bytes;
+        fieldscribe_modbus_put_values(request, &buffer[7], data_bytes);
     }
-    *used = 6U + (size_t)data_bytes;
+    *used = before + (size_t)data_bytes;
     return FIELDSCRIBE_MODBUS_OK;
 }
 

@@ -159,8 +159,9 @@ class CanListener:
         points = self._directory.at("parameter", address)
         if known and message.direction != "request":
             self._learn(unit, list(self._whole(unit, points)))
-        shown = without_variants(points, limits=writes)
-        items = [self._value(unit, point, address, raw, written=writes) for point in shown]
+        asks = writes and message.direction == "request"  # an answer tells what the device took: any number may come
+        shown = without_variants(points, limits=asks)
+        items = [self._value(unit, point, address, raw, written=asks) for point in shown]
         if not points:
             brings = "" if raw is None else f" ({_hex((raw,))})"
             items = [Item("parameter", address, 1, f"{address_text(address)}: no point is described here{brings}")]

@@ -61,7 +61,7 @@ class UssListener:
         self._units: dict[int | None, _Unit] = {}
 
     def hear(self, data: bytes, direction: str | None = None, *, keep: bool = False) -> Heard:
-        """What the next telegram says; any bytes are safe. `keep` lets the open request stay open."""
+        """What the next telegram says; any bytes are safe. `keep`: one request stays open, which all others answer."""
         wrapped = recognise(data, self._framing)
         head = "USS" if wrapped.unit is None else f"USS, unit {wrapped.unit}"
         base = Heard(data, self._framing, "unreadable", wrapped.unit, None, head, (), wrapped.checks, wrapped.faults)
@@ -129,9 +129,11 @@ class UssListener:
         if not keep and status != "no_answer":
             unit.asked = None
         faults = list(base.faults)
+        if keep and asked is None:
+            status = "wrong_unit"  # the request was one to another unit
         if fault:
             faults.append(fault)
-        elif asked is not None and status not in _ANSWERS:
+        elif status and status not in _ANSWERS:
             faults.append(f"it does not answer the request: {remarks.REPLY_FAULTS.get(status, status)}")
         part = part_of(part_words)
         base = replace(base, kind="reply", faults=tuple(faults))

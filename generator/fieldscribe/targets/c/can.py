@@ -60,6 +60,7 @@ class FrameView:
     write: bool
     text: bool
     shares: bool
+    fixed: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -152,6 +153,9 @@ def identifiers(bus: BusView, view: DeviceView) -> Iterator[tuple[str, Owner]]:
 
 def adapters(bus: BusView) -> Iterator[tuple[str, str]]:
     """How points of telegrams, and parameters, answer conformance vectors."""
+    for each in (*bus.parameters, *bus.cyclic):
+        if not each.text and not each.fixed:
+            yield each.function, f"NOT_FIXED({each.descriptor.name})"
     for heard in bus.cyclic:
         name = heard.descriptor.name
         how = f"TEXT({name}, {heard.macro}" if heard.text else f"({name}, {heard.kind}, {heard.raw_type}"
@@ -253,4 +257,5 @@ def _frame(point: Point, view: PointView, access: str, parts: list[str]) -> Fram
         write=ways[-1] in "wu",
         text=point.text is not None,
         shares=shares(point),
+        fixed=point.fixed is not None,
     )

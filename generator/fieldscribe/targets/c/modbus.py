@@ -59,6 +59,7 @@ class FrameView:
     write: bool
     text: bool
     shares: bool
+    fixed: bool
     words: int
 
 
@@ -140,6 +141,8 @@ def adapters(bus: BusView) -> Iterator[tuple[str, str]]:
     """How points answer vectors of whole exchanges."""
     for one in bus.frames:
         name, what = one.descriptor.name, f"{one.descriptor.name}, {one.kind}, {one.raw_type}"
+        if not one.text and not one.fixed:
+            yield one.function, f"NOT_FIXED({name})"
         if one.read:
             yield one.function, f"READ_TEXT({name}, {one.words}U)" if one.text else f"READ({what})"
         if one.write and one.text:
@@ -174,6 +177,7 @@ def _frame(point: Point, view: PointView, functions: frozenset[int], layouts: La
         write=bool(write),
         text=text,
         shares=shares(point),
+        fixed=point.fixed is not None,
         words=point.words,
     )
 

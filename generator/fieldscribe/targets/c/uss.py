@@ -45,6 +45,7 @@ class FrameView:
     ram: bool
     eeprom: bool
     shares: bool
+    fixed: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,6 +61,7 @@ class WordView:
     words_name: str
     read: bool
     write: bool
+    fixed: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,24 +131,36 @@ def identifiers(bus: BusView, view: DeviceView) -> Iterator[tuple[str, Owner]]:
 
 def adapters(bus: BusView) -> Iterator[tuple[str, str]]:
     """How parameters, and words of process data, answer vectors of whole exchanges."""
-    for one in bus.frames:
-        name, what = f"{one.function}_frame", f"{one.kind}, {one.raw_type}"
-        if one.read:
-            yield one.function, f"READ({name}, {what})"
-        for kind, there, to in (("write", one.ram, name), ("store", one.eeprom, f"{one.function}_eeprom_frame")):
-            if there and one.shares and one.read:
-                yield one.function, f'UPDATE("{kind}", {name}.read, {to}, {what})'
-            elif there and not one.shares:
-                yield one.function, f'WRITE("{kind}", {to}, {what})'
+    for frame in bus.frames:
+        yield from ((frame.function, case) for case in _cases(frame))
     for word in bus.words:
-        name, what = word.descriptor.name, f"{word.kind}, {word.raw_type}"
-        if word.write:
-            yield word.function, f"SEND({name}, {what})"
-            yield word.function, f"PUT({name}, {what}, {word.macro}, {word.words_name})"
-        if word.read:
-            yield word.function, f"TAKE({name}, {what}, {word.macro}, {word.words_name})"
-        if word.read and not word.write:
-            yield word.function, f"HEAR({name}, {what})"
+        yield from ((word.function, case) for case in _word_cases(word))
+
+
+def _cases(frame: FrameView) -> Iterator[str]:
+    name, what = f"{frame.function}_frame", f"{frame.kind}, {frame.raw_type}"
+    if not frame.fixed:
+        yield from (f"NOT_FIXED({one.name})" for one in frame.descriptors)
+    if frame.read:
+        yield f"READ({name}, {what})"
+    for kind, there, to in (("write", frame.ram, name), ("store", frame.eeprom, f"{frame.function}_eeprom_frame")):
+        if there and frame.shares and frame.read:
+            yield f'UPDATE("{kind}", {name}.read, {to}, {what})'
+        elif there and not frame.shares:
+            yield f'WRITE("{kind}", {to}, {what})'
+
+
+def _word_cases(word: WordView) -> Iterator[str]:
+    name, what = word.descriptor.name, f"{word.kind}, {word.raw_type}"
+    if not word.fixed:
+        yield f"NOT_FIXED({name})"
+    if word.write:
+        yield f"SEND({name}, {what})"
+        yield f"PUT({name}, {what}, {word.macro}, {word.words_name})"
+    if word.read:
+        yield f"TAKE({name}, {what}, {word.macro}, {word.words_name})"
+    if word.read and not word.write:
+        yield f"HEAR({name}, {what})"
 
 
 def _codes(title: str, kind: str, codes: tuple[Code, ...], scope: Scope) -> CodesView:
@@ -184,6 +198,7 @@ def _frame(point: Point, view: PointView, tasks: frozenset[int], layouts: Layout
         ram=ram is not None,
         eeprom=eeprom is not None,
         shares=shares(point),
+        fixed=point.fixed is not None,
     )
 
 
@@ -209,4 +224,5 @@ def _word(point: Point, view: PointView, telegram: Telegram, layouts: Layouts, s
         words_name=f"{scope.upper}_TELEGRAM_{upper(telegram.name)}_WORDS",
         read=point.readable,
         write=point.writable,
+        fixed=point.fixed is not None,
     )

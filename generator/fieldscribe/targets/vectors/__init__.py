@@ -13,26 +13,27 @@ from fieldscribe.targets.vectors.exchanges import Exchanges
 from fieldscribe.targets.vectors.floats import floats
 from fieldscribe.targets.vectors.limits import limits
 from fieldscribe.targets.vectors.lines import Lines
-from fieldscribe.targets.vectors.modbus import ModbusWire, modbus
+from fieldscribe.targets.vectors.modbus import modbus, modbus_wires
 from fieldscribe.targets.vectors.oracle import Oracle
 from fieldscribe.targets.vectors.places import address, aliases, facts, words
 from fieldscribe.targets.vectors.scaled import scaled
+from fieldscribe.targets.vectors.shapes import Shapes
 from fieldscribe.targets.vectors.uss import UssWire, uss
 from fieldscribe.targets.vectors.whole import bits, fixed, flags, names, specials, whole
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping
+    from collections.abc import Callable, Iterable, Mapping, Sequence
 
     from fieldscribe.model import Device, Point
     from fieldscribe.render import Render
     from fieldscribe.targets.vectors.exchanges import Wire
 
-_FAMILIES: Mapping[str, tuple[Callable[[Lines, Device], None], Callable[[Device], Wire]]] = {
-    "modbus": (modbus, ModbusWire),
-    "can": (can, CanWire),
-    "uss": (uss, UssWire),
+_FAMILIES: Mapping[str, tuple[Callable[[Lines, Device], None], Callable[[Device], Sequence[Wire]]]] = {
+    "modbus": (modbus, modbus_wires),
+    "can": (can, lambda device: [CanWire(device)]),
+    "uss": (uss, lambda device: [UssWire(device)]),
 }
-"""What each family adds for its frames, and how points travel in it."""
+"""What each family adds for its frames, and the ways in which points travel in it."""
 
 
 def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
@@ -50,18 +51,23 @@ def runtime(device: Device) -> Iterable[tuple[str, str]]:
 def collect(device: Device) -> Lines:
     """All vectors of a device: its points in the author's order, then its frames and blocks."""
     lines = Lines()
+    shapes = Shapes()
     oracle = Oracle({point.name: point for point in reversed(device.points)})
-    frames, wire = _FAMILIES[device.family]
-    exchanges = Exchanges(lines, oracle, device, wire(device))
-    exchanges.open()
+    frames, wires = _FAMILIES[device.family]
+    usual, *others = (Exchanges(lines, oracle, device, wire) for wire in wires(device))
+    usual.open()
     for axis, choices in device.variants.items():
         lines.add("variant", axis, choices)
     limits(lines, device)
     for point in device.points:
         if point.generated:
-            _point(lines, oracle, point, device.variants)
-            exchanges.of(point)
+            _point(lines, oracle, point, device.variants, deep=shapes.is_new(point))
+            usual.of(point)
             lines.gather()
+    for exchanges in others:
+        exchanges.open()
+        exchanges.of_each_space()
+        lines.gather()
     for point in device.points:
         if point.raw_only and point.address is not None:
             lines.add("documented", point.item, point.places[0].space, point.address, point.words, point.index)
@@ -71,22 +77,22 @@ def collect(device: Device) -> Lines:
     return lines
 
 
-def _point(lines: Lines, oracle: Oracle, point: Point, variants: Mapping[str, tuple[str, ...]]) -> None:
+def _point(lines: Lines, oracle: Oracle, point: Point, variants: Mapping[str, tuple[str, ...]], *, deep: bool) -> None:
     lines.set("point", point.item)
     address(lines, point)
     facts(lines, point, variants)
     aliases(lines, point)
     if point.form == "scaled":
-        scaled(lines, oracle, point)
+        scaled(lines, oracle, point, deep=deep)
     elif point.form == "float":
-        floats(lines, point)
+        floats(lines, point, deep=deep)
     elif point.form == "text":
         text(lines, point)
     elif point.form == "digits":
         digits(lines, point)
     else:
-        whole(lines, oracle, point)
-    names(lines, point)
+        whole(lines, oracle, point, deep=deep)
+    names(lines, point, deep=deep)
     specials(lines, point)
     flags(lines, point)
     fixed(lines, point)

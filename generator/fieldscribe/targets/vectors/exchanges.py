@@ -51,6 +51,14 @@ class Exchanges:
         """Sets the unit and the line for all exchanges."""
         self.wire.opens(self.lines)
 
+    def of_each_space(self) -> None:
+        """Those of the first point of each space that is read, and of the first that is written."""
+        for point in self.points.values():
+            kinds = (("read", point.readable), ("write", point.writable))
+            new = {(kind, point.space) for kind, does in kinds if does} - self.spoiled
+            if new and point.bits is None and point.text is None and not point.arguments:
+                self.of(point)
+
     def of(self, point: Point) -> None:
         """Reading the point, writing it, and writing it for good."""
         if not point.places:

@@ -44,17 +44,17 @@ _GREATEST_32 = 2.0**128 - 2.0**104
 _GREATEST_64 = 1.7976931348623157e308
 
 
-def floats(lines: Lines, point: Point) -> None:
+def floats(lines: Lines, point: Point, *, deep: bool) -> None:
     """Decoding of patterns, encoding of values and checking; limits are compared after the conversion to the type."""
     wide = point.width == 64
     limits = _limits(point, wide)
     if point.readable:
         patterns = dict.fromkeys(_PATTERNS_64 if wide else _PATTERNS_32 + _EDGES_32)
-        patterns.update(dict.fromkeys(codes(point)))
+        patterns = dict.fromkeys((*patterns, *codes(point)) if deep else (*patterns,)[-2:])
         for bits in patterns:
             lines.add("decode", bits, *_decoded(point, bits))
     if point.writable:
-        for value in dict.fromkeys(map(_Same, _values(point, limits, wide))):
+        for value in dict.fromkeys(map(_Same, _values(point, limits, wide, deep=deep))):
             lines.add("encode", value.value, *_encoded(point, value.value, limits))
         for bits in dict.fromkeys((*_patterns_to_check(limits, wide), *codes(point))):
             code = code_of(point, bits)
@@ -96,8 +96,13 @@ def _typed(value: float, wide: bool) -> float:
     return (inf if value > 0 else -inf) if pattern is None else float_of_bits(pattern, 32)
 
 
-def _values(point: Point, limits: list[tuple[float, float]], wide: bool) -> list[float]:
+def _values(point: Point, limits: list[tuple[float, float]], wide: bool, *, deep: bool) -> list[float]:
     values = [0.0, -0.0, 0.1, -1.5]
+    if not deep:
+        return [
+            0.1,
+            *(value for low, high in limits for value in (low, high, nextafter(low, -inf), nextafter(high, inf))),
+        ]
     values += [value for raw in codes(point) if isfinite(value := float_of_bits(raw, point.width))]
     for low, high in point.allowed.units:
         for limit in (float(low), float(high)):

@@ -37,14 +37,14 @@ _WRITES = (0x05, 0x06, 0x0F, 0x10)
 
 
 class ModbusWire:
-    """Exchanges over the framing that the device knows first."""
+    """Exchanges over one framing."""
 
-    def __init__(self, device: Device) -> None:
+    def __init__(self, device: Device, framing: str) -> None:
         bus = device.bus
         self.profile, self.bus = profile_of(bus), bus
         low, _ = self.profile.units
         self.unit = low if low != self.profile.broadcast else low + 1
-        self.framing = next(iter(_framings(bus)), "rtu")
+        self.framing = framing
 
     def opens(self, lines: Lines) -> None:
         """The unit and the framing."""
@@ -97,6 +97,11 @@ class ModbusWire:
                 yield reply.status, [(sent, answer)]
 
 
+def modbus_wires(device: Device) -> list[ModbusWire]:
+    """One for each framing that the device speaks, the one that it names first in front."""
+    return [ModbusWire(device, framing) for framing in _framings(device.bus) or ("rtu",)]
+
+
 def answer_with(request: Request, words: tuple[int, ...]) -> bytes:
     """The PDU of a device that has these words, or takes them."""
     head = bytes((request.function,))
@@ -121,13 +126,13 @@ def modbus(lines: Lines, device: Device) -> None:
 
 def commands(lines: Lines, device: Device) -> None:
     """Each command sent and answered, by itself and with a refusal."""
-    wire = ModbusWire(device)
-    wire.opens(lines)
-    for command in device.commands:
-        value = 1 if command.value is None else command.value
-        script = wire.script(command.function, (command.address,), (value,))
-        if script is not None:
-            lines.add("command", command.name, value, script, "ok")
+    for wire in modbus_wires(device):
+        wire.opens(lines)
+        for command in device.commands:
+            value = 1 if command.value is None else command.value
+            script = wire.script(command.function, (command.address,), (value,))
+            if script is not None:
+                lines.add("command", command.name, value, script, "ok")
 
 
 def builds(lines: Lines, bus: Bus) -> None:

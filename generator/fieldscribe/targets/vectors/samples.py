@@ -8,6 +8,7 @@ from math import gcd
 
 from fieldscribe.model import Factor, Limit, Point
 from fieldscribe.targets.vectors.oracle import Oracle, Ratio, outer_bounds
+from fieldscribe.targets.vectors.shapes import MANY
 
 Limits = Sequence[tuple[int, int]]
 
@@ -36,8 +37,15 @@ def edges(limits: Limits) -> dict[int, None]:
     return found
 
 
-def raws_to_decode(point: Point, limits: Limits) -> list[int]:
-    """Raw numbers that the point's bits hold: limits, edges of the type and of the sign, special codes."""
+def own(limits: Limits) -> Limits:
+    """Those that tell a point from others of its shape: all of a few, the ends of a long list."""
+    return limits if len(limits) <= MANY else (limits[0], limits[-1])
+
+
+def raws_to_decode(point: Point, limits: Limits, *, deep: bool) -> list[int]:
+    """Raw numbers that the point's bits hold: limits; in depth edges of the type and of the sign, special codes."""
+    if not deep:
+        return _held(point, (limits[0][0], limits[-1][1]))
     found = {raw: None for interval in limits for raw in interval}
     found.update(dict.fromkeys(codes(point)))
     found.update({point.least: None, point.greatest: None})
@@ -46,9 +54,11 @@ def raws_to_decode(point: Point, limits: Limits) -> list[int]:
     return _held(point, found)
 
 
-def raws_to_check(point: Point, limits: Limits) -> list[int]:
-    """Raw numbers that the point's bits hold: limits, one beyond each, edges of the type, special codes."""
+def raws_to_check(point: Point, limits: Limits, *, deep: bool) -> list[int]:
+    """Raw numbers that the point's bits hold: limits, one beyond each; in depth edges of the type, special codes."""
     found = edges(limits)
+    if not deep:
+        return _held(point, {**edges(own(limits)), **{raw: None for interval in limits for raw in interval}})
     found.update(dict.fromkeys(codes(point)))
     found.update({point.least: None, point.greatest: None})
     return _held(point, found)
@@ -115,10 +125,18 @@ def telling_raw(ratio: Ratio) -> int | None:
     return next((raw for raw, over in numerators if over * (1 / under) != over / under), None)
 
 
-def settings(oracle: Oracle, point: Point) -> list[dict[str, int]]:
-    """Raw numbers for all arguments: a typical set, then one argument at a time through all that it may bring."""
+def settings(oracle: Oracle, point: Point, *, deep: bool = True) -> list[dict[str, int]]:
+    """Raw numbers for all arguments: a typical set, then one argument at a time through all that it may bring.
+
+    Without depth each argument has one other number, so that two that are exchanged are noticed, and each case is met.
+    """
     names = point.arguments
     base = {name: _typical(oracle, point, name) for name in names}
+    if not deep:
+        cases = [(case.point, case.raw) for case in point.scale or () if case.point is not None]
+        last = [(name, raw) for name in names for raw in _choices(oracle, point, name)[-2:] if raw != base[name]]
+        others = dict(last).items()
+        return [base, *({**base, name: raw} for name, raw in dict.fromkeys((*cases, *others)) if raw is not None)]
     found = [base, *({**base, name: raw} for name in names for raw in _choices(oracle, point, name))]
     # Each case with every end of the factors that it has, not only those of the first case.
     for case in point.scale or ():

@@ -17,10 +17,10 @@ if TYPE_CHECKING:
 INT32 = 1 << 31
 
 
-def scaled(lines: Lines, oracle: Oracle, point: Point) -> None:
-    """All vectors of a scaled point, for each setting of what it depends on."""
-    full = True
-    for settings in samples.settings(oracle, point) if point.arguments else [{}]:
+def scaled(lines: Lines, oracle: Oracle, point: Point, *, deep: bool) -> None:
+    """All vectors of a scaled point, for each setting of what it depends on; without depth its limits and a value."""
+    full = deep
+    for settings in samples.settings(oracle, point, deep=deep) if point.arguments else [{}]:
         lines.set("with", settings)
         ratio = oracle.ratio(point, settings)
         limits = oracle.limits(point, settings)
@@ -29,7 +29,7 @@ def scaled(lines: Lines, oracle: Oracle, point: Point) -> None:
         elif isinstance(limits, str):
             _no_limits(lines, point, ratio, limits)
         else:
-            _Sheet(lines, point, ratio, limits, full).write()
+            _Sheet(lines, point, ratio, limits, deep, full).write()
             full = False
 
 
@@ -69,18 +69,22 @@ def _beyond(point: Point, raw: int) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class _Sheet:
-    """One point with one setting under which it can be computed; `full` for the first setting, others get less."""
+    """One point with one setting under which it can be computed.
+
+    `deep` for the first point of a shape, `full` for its first setting; others get less.
+    """
 
     lines: Lines
     point: Point
     ratio: Ratio
     limits: samples.Limits
+    deep: bool
     full: bool
 
     def write(self) -> None:
         """All kinds, readable parts first."""
         if self.point.readable:
-            raws = samples.raws_to_decode(self.point, self.limits)
+            raws = samples.raws_to_decode(self.point, self.limits, deep=self.deep)
             self._decode(raws)
             if self.point.decimals is not None:
                 self._decode_count(raws, self.point.decimals)
@@ -89,7 +93,7 @@ class _Sheet:
                 self._encode()
             if self.point.decimals is not None:
                 self._encode_count(self.point.decimals)
-            if self.full or self.point.limit_arguments:
+            if self.full or not self.deep or self.point.limit_arguments:
                 self._check()
 
     def _decode(self, raws: list[int]) -> None:
@@ -120,13 +124,15 @@ class _Sheet:
 
     def _edges(self) -> dict[int, None]:
         """Raw numbers that values and counts are made of: limits, special codes, and what lies beside both."""
+        if not self.deep:
+            return samples.edges(samples.own(self.limits))
         return {**samples.edges(self.limits), **dict.fromkeys(samples.codes(self.point))}
 
     def _encode(self) -> None:
         ratio, add = self.ratio, self.lines.add
         values = {quotient(ratio.numerator(raw), ratio.denominator): None for raw in self._edges()}
         values.update(dict.fromkeys(quotient(over, under) for over, under in samples.just_outside(ratio, self.limits)))
-        for half in samples.halves(ratio, self.limits):
+        for half in samples.halves(ratio, self.limits) if self.deep else ():
             values.update({half: None, nextafter(half, 0.0): None})
         for value in values:
             add("encode", value, *self._encoded(ratio.raw_of_float(value)))
@@ -146,7 +152,7 @@ class _Sheet:
         """Counts of the limits and beyond, around the halves on both sides of each limit, and ends of the integers."""
         point, ratio, power = self.point, self.ratio, 10**decimals
         found = {ratio.count_of_raw(raw, decimals): None for raw in self._edges()}
-        if ratio.denominator != power * abs(ratio.den) * ratio.under:  # else a count is a raw number
+        if self.deep and ratio.denominator != power * abs(ratio.den) * ratio.under:  # else a count is a raw number
             low, high = self.limits[0][0], self.limits[-1][1]
             for raw in (low - 1, low, high - 1, high):
                 over = (ratio.numerator(raw) + ratio.numerator(raw + 1)) * power
@@ -161,5 +167,5 @@ class _Sheet:
         return [count for count in found if -edge <= count < edge]
 
     def _check(self) -> None:
-        for raw in samples.raws_to_check(self.point, self.limits):
+        for raw in samples.raws_to_check(self.point, self.limits, deep=self.deep):
             self.lines.add("check", raw, admit(self.point, raw, self.limits))

@@ -238,8 +238,10 @@ def _replies(dialogue: _Dialogue) -> None:
     tasks = [0] if link.pkw == 0 else sorted(code.number for code in bus.functions)
     for task in tasks:
         request = Request(unit, task, 2010, 1)
-        for response in range(16) if task in (0, 1, 2, 3, 6) else (*(_answers(bus, task)), 7, 8):
-            dialogue.answered(request, telegram(unit, (*dialogue.parameter_part(request, response), *words)))
+        responses = range(16) if task in (0, 1, 2, 3, 6) else (*_answers(bus, task), 7, 8)
+        parts = dict.fromkeys(dialogue.parameter_part(request, response) for response in responses)
+        for part in parts:
+            dialogue.answered(request, telegram(unit, (*part, *words)))
     request = Request(unit, 0 if link.pkw == 0 else 1, 1082, 0)
     response = 1 if link.pkw == 3 else 2
     for data in dict.fromkeys(_spoiled(dialogue, request, response)):

@@ -13,9 +13,9 @@ if TYPE_CHECKING:
     from fieldscribe.targets.vectors.lines import Lines
 
 
-def whole(lines: Lines, oracle: Oracle, point: Point) -> None:
+def whole(lines: Lines, oracle: Oracle, point: Point, *, deep: bool) -> None:
     """Decoding, encoding and checking of a point without a scale, for each setting of what it depends on."""
-    for settings in samples.settings(oracle, point) if point.arguments else [{}]:
+    for settings in samples.settings(oracle, point, deep=deep) if point.arguments else [{}]:
         limits = oracle.limits(point, settings)
         lines.set("with", settings)
         if isinstance(limits, str):
@@ -24,34 +24,41 @@ def whole(lines: Lines, oracle: Oracle, point: Point) -> None:
                 lines.add("encode_count", raw, limits)
                 lines.add("check", raw, limits)
         else:
-            _sheet(lines, point, limits)
+            _sheet(lines, point, limits, deep=deep)
 
 
-def _sheet(lines: Lines, point: Point, limits: samples.Limits) -> None:
-    raws = dict.fromkeys((*samples.raws_to_check(point, limits), *samples.raws_to_decode(point, limits)))
-    raws.update({with_fixed(point, raw): None for raw in list(raws)})
-    if point.enum is not None:
-        raws.update(dict.fromkeys(entry.raw for entry in point.enum.entries))
-    for flag in point.flags:
-        raws[as_raw(point, (1 << flag.width) - 1 << flag.low)] = None
+def _sheet(lines: Lines, point: Point, limits: samples.Limits, *, deep: bool) -> None:
     top = INT64 if point.width > 16 else 1 << 31
+    checked = _raws(point, samples.raws_to_check(point, limits, deep=deep), deep=deep)
+    decoded = _raws(point, samples.raws_to_decode(point, limits, deep=deep), deep=deep)
+    if deep:
+        checked = decoded = {**checked, **decoded}
     if point.readable:
-        for raw in raws:
+        for raw in decoded:
             if raw < INT64:
                 code = code_of(point, raw)
                 lines.add("decode_count", raw, *(("ok", raw) if code is None else ("special", None, code.name)))
     if not point.writable:
         return
-    beyond = dict.fromkeys((*samples.edges(limits), point.least - 1, point.greatest + 1, top - 1, -top))
-    for count in {**raws, **beyond}:
+    ends = (point.least - 1, point.greatest + 1, top - 1, -top) if deep else ()
+    for count in {**decoded, **samples.edges(limits if deep else samples.own(limits)), **dict.fromkeys(ends)}:
         if -top <= count < top:
             put = with_fixed(point, count)
             status = admit(point, put, limits, by_value=True)
             lines.add("encode_count", count, status, put if status == "ok" else None)
-    for raw in raws:
+    for raw in checked:
         fits = with_fixed(point, raw) == raw or code_of(point, raw) is not None
-        status = admit(point, raw, limits) if fits else "out_of_range"
-        lines.add("check", raw, status)
+        lines.add("check", raw, admit(point, raw, limits) if fits else "out_of_range")
+
+
+def _raws(point: Point, raws: list[int], *, deep: bool) -> dict[int, None]:
+    """Those, with the constant bits put in too, the numbers of the enum (in depth all), and each flag alone."""
+    found = dict.fromkeys(raws)
+    found.update({with_fixed(point, raw): None for raw in raws})
+    if point.enum is not None:
+        found.update({entry.raw: None for entry in point.enum.entries if deep or entry is point.enum.entries[-1]})
+    found.update({as_raw(point, (1 << flag.width) - 1 << flag.low): None for flag in point.flags})
+    return found
 
 
 def with_fixed(point: Point, raw: int) -> int:
@@ -62,13 +69,17 @@ def with_fixed(point: Point, raw: int) -> int:
     return as_raw(point, raw & ~fixed.mask | fixed.bits)
 
 
-def names(lines: Lines, point: Point) -> None:
+def names(lines: Lines, point: Point, *, deep: bool) -> None:
     """Each named number of an enum or of a digit, and numbers without a name."""
     enum = point.digits.enum if point.digits is not None else point.enum
     if enum is None:
         return
     least, greatest = (0, 9) if point.digits is not None else (point.least, point.greatest)
     named = {entry.raw: entry.name for entry in enum.entries if least <= entry.raw <= greatest}
+    if not deep:
+        for raw in dict.fromkeys((*named,)[:: max(1, len(named) - 1)]):
+            lines.add("name", raw, named[raw])
+        return
     for raw, name in named.items():
         lines.add("name", raw, name)
     strange = dict.fromkeys((*(raw + 1 for raw in named), min(named, default=0) - 1, least, greatest))
