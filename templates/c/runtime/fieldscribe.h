@@ -73,7 +73,7 @@ typedef enum fieldscribe_status {
 /* How many rows an array has. */
 #define FIELDSCRIBE_COUNT(array) (sizeof(array) / sizeof((array)[0]))
 
-/* A whole number, if the status is OK. */
+/* A whole number, if the status is OK; else 0. */
 typedef struct fieldscribe_whole {
     fieldscribe_status status;
     int64_t number;
@@ -93,6 +93,13 @@ static inline fieldscribe_whole fieldscribe_no_whole(fieldscribe_status status)
     whole.status = status;
     whole.number = 0;
     return whole;
+}
+
+/* A number, if it lies within limits. */
+static inline fieldscribe_whole fieldscribe_whole_in(int64_t number, int64_t low, int64_t high)
+{
+    return ((number < low) || (number > high)) ? fieldscribe_no_whole(FIELDSCRIBE_OUT_OF_RANGE)
+                                               : fieldscribe_whole_of(number);
 }
 
 /* The first of two that is not OK. */
@@ -259,47 +266,83 @@ FIELDSCRIBE_STATUS fieldscribe_keep_s64(fieldscribe_status status, int64_t numbe
 /* A number within limits. */
 FIELDSCRIBE_STATUS fieldscribe_encode_bool(int32_t number, int32_t low, int32_t high, bool *raw)
 {
-    return fieldscribe_keep_bool(fieldscribe_check(number, low, high), number != 0, raw);
+    if ((number < low) || (number > high)) {
+        return FIELDSCRIBE_OUT_OF_RANGE;
+    }
+    *raw = number != 0;
+    return FIELDSCRIBE_OK;
 }
 
 FIELDSCRIBE_STATUS fieldscribe_encode_u8(int32_t number, int32_t low, int32_t high, uint8_t *raw)
 {
-    return fieldscribe_keep_u8(fieldscribe_check(number, low, high), (uint8_t)number, raw);
+    if ((number < low) || (number > high)) {
+        return FIELDSCRIBE_OUT_OF_RANGE;
+    }
+    *raw = (uint8_t)number;
+    return FIELDSCRIBE_OK;
 }
 
 FIELDSCRIBE_STATUS fieldscribe_encode_s8(int32_t number, int32_t low, int32_t high, int8_t *raw)
 {
-    return fieldscribe_keep_s8(fieldscribe_check(number, low, high), (int8_t)number, raw);
+    if ((number < low) || (number > high)) {
+        return FIELDSCRIBE_OUT_OF_RANGE;
+    }
+    *raw = (int8_t)number;
+    return FIELDSCRIBE_OK;
 }
 
 FIELDSCRIBE_STATUS fieldscribe_encode_u16(int32_t number, int32_t low, int32_t high, uint16_t *raw)
 {
-    return fieldscribe_keep_u16(fieldscribe_check(number, low, high), (uint16_t)number, raw);
+    if ((number < low) || (number > high)) {
+        return FIELDSCRIBE_OUT_OF_RANGE;
+    }
+    *raw = (uint16_t)number;
+    return FIELDSCRIBE_OK;
 }
 
 FIELDSCRIBE_STATUS fieldscribe_encode_s16(int32_t number, int32_t low, int32_t high, int16_t *raw)
 {
-    return fieldscribe_keep_s16(fieldscribe_check(number, low, high), (int16_t)number, raw);
+    if ((number < low) || (number > high)) {
+        return FIELDSCRIBE_OUT_OF_RANGE;
+    }
+    *raw = (int16_t)number;
+    return FIELDSCRIBE_OK;
 }
 
 FIELDSCRIBE_STATUS fieldscribe_encode_u32(int64_t number, int64_t low, int64_t high, uint32_t *raw)
 {
-    return fieldscribe_keep_u32(fieldscribe_check_wide(number, low, high), (uint32_t)number, raw);
+    if ((number < low) || (number > high)) {
+        return FIELDSCRIBE_OUT_OF_RANGE;
+    }
+    *raw = (uint32_t)number;
+    return FIELDSCRIBE_OK;
 }
 
 FIELDSCRIBE_STATUS fieldscribe_encode_s32(int64_t number, int64_t low, int64_t high, int32_t *raw)
 {
-    return fieldscribe_keep_s32(fieldscribe_check_wide(number, low, high), (int32_t)number, raw);
+    if ((number < low) || (number > high)) {
+        return FIELDSCRIBE_OUT_OF_RANGE;
+    }
+    *raw = (int32_t)number;
+    return FIELDSCRIBE_OK;
 }
 
 FIELDSCRIBE_STATUS fieldscribe_encode_u64(uint64_t number, uint64_t low, uint64_t high, uint64_t *raw)
 {
-    return fieldscribe_keep_u64(fieldscribe_check_u64(number, low, high), number, raw);
+    if ((number < low) || (number > high)) {
+        return FIELDSCRIBE_OUT_OF_RANGE;
+    }
+    *raw = number;
+    return FIELDSCRIBE_OK;
 }
 
 FIELDSCRIBE_STATUS fieldscribe_encode_s64(int64_t number, int64_t low, int64_t high, int64_t *raw)
 {
-    return fieldscribe_keep_s64(fieldscribe_check_wide(number, low, high), number, raw);
+    if ((number < low) || (number > high)) {
+        return FIELDSCRIBE_OUT_OF_RANGE;
+    }
+    *raw = number;
+    return FIELDSCRIBE_OK;
 }
 
 FIELDSCRIBE_STATUS fieldscribe_store_u8(fieldscribe_whole whole, uint8_t *to)
@@ -631,12 +674,12 @@ static inline bool fieldscribe_apply_rule(const fieldscribe_rule *rule, int64_t 
 static inline fieldscribe_whole fieldscribe_ruled_count(
     fieldscribe_rule rule, int64_t count, int64_t tens, int64_t low, int64_t high)
 {
-    fieldscribe_whole whole = fieldscribe_no_whole(rule.status);
-    if ((whole.status == FIELDSCRIBE_OK) && ((!fieldscribe_apply_rule(&rule, count, tens, &whole.number)) ||
-            (!fieldscribe_within_wide(whole.number, low, high)))) {
-        whole.status = FIELDSCRIBE_OUT_OF_RANGE;
+    int64_t raw = 0;
+    if (rule.status != FIELDSCRIBE_OK) {
+        return fieldscribe_no_whole(rule.status);
     }
-    return whole;
+    return fieldscribe_apply_rule(&rule, count, tens, &raw) ? fieldscribe_whole_in(raw, low, high)
+                                                            : fieldscribe_no_whole(FIELDSCRIBE_OUT_OF_RANGE);
 }
 
 /* The count of a raw number. */
@@ -1015,16 +1058,14 @@ static inline fieldscribe_whole fieldscribe_rounded(fieldscribe_real number, int
 {
     int32_t nearest = 0;
     const fieldscribe_status status = fieldscribe_round(number, low, high, &nearest);
-    fieldscribe_whole whole = fieldscribe_whole_of(nearest);
-    whole.status = status;
-    return whole;
+    return (status == FIELDSCRIBE_OK) ? fieldscribe_whole_of(nearest) : fieldscribe_no_whole(status);
 }
 
 FIELDSCRIBE_STATUS fieldscribe_round_u8(fieldscribe_real number, int32_t low, int32_t high, uint8_t *raw)
 {
     int32_t whole = 0;
     const fieldscribe_status status = fieldscribe_round(number, low, high, &whole);
-    return fieldscribe_keep_u8(status, (uint8_t)whole, raw);
+    return (status == FIELDSCRIBE_OK) ? fieldscribe_encode_u8(whole, low, high, raw) : status;
 }
 
 FIELDSCRIBE_STATUS fieldscribe_scale_u8(
@@ -1037,7 +1078,7 @@ FIELDSCRIBE_STATUS fieldscribe_round_s8(fieldscribe_real number, int32_t low, in
 {
     int32_t whole = 0;
     const fieldscribe_status status = fieldscribe_round(number, low, high, &whole);
-    return fieldscribe_keep_s8(status, (int8_t)whole, raw);
+    return (status == FIELDSCRIBE_OK) ? fieldscribe_encode_s8(whole, low, high, raw) : status;
 }
 
 FIELDSCRIBE_STATUS fieldscribe_scale_s8(
@@ -1050,7 +1091,7 @@ FIELDSCRIBE_STATUS fieldscribe_round_u16(fieldscribe_real number, int32_t low, i
 {
     int32_t whole = 0;
     const fieldscribe_status status = fieldscribe_round(number, low, high, &whole);
-    return fieldscribe_keep_u16(status, (uint16_t)whole, raw);
+    return (status == FIELDSCRIBE_OK) ? fieldscribe_encode_u16(whole, low, high, raw) : status;
 }
 
 FIELDSCRIBE_STATUS fieldscribe_scale_u16(
@@ -1063,7 +1104,7 @@ FIELDSCRIBE_STATUS fieldscribe_round_s16(fieldscribe_real number, int32_t low, i
 {
     int32_t whole = 0;
     const fieldscribe_status status = fieldscribe_round(number, low, high, &whole);
-    return fieldscribe_keep_s16(status, (int16_t)whole, raw);
+    return (status == FIELDSCRIBE_OK) ? fieldscribe_encode_s16(whole, low, high, raw) : status;
 }
 
 FIELDSCRIBE_STATUS fieldscribe_scale_s16(
@@ -1148,22 +1189,21 @@ FIELDSCRIBE_STATUS fieldscribe_keep_double(fieldscribe_status status, double num
 /* The nearest integer, halves away from zero, if it lies in low..high. */
 static inline fieldscribe_whole fieldscribe_rounded_wide(double number, int64_t low, int64_t high)
 {
-    fieldscribe_whole whole;
+    int64_t nearest;
     double rest;
     if (!((number >= -9223372036854775808.0) && (number < 9223372036854775808.0))) {
         return fieldscribe_no_whole(fieldscribe_double_outside(number));
     }
-    whole = fieldscribe_whole_of((int64_t)number);
-    rest = number - (double)whole.number;
+    nearest = (int64_t)number;
+    rest = number - (double)nearest; /* 0 from 2^53 on: a half is never far from the next number */
     if (rest >= 0.5) {
-        ++whole.number;
+        ++nearest;
     } else if (rest <= -0.5) {
-        --whole.number;
+        --nearest;
     } else {
         /* nearest already */
     }
-    whole.status = fieldscribe_check_wide(whole.number, low, high);
-    return whole;
+    return fieldscribe_whole_in(nearest, low, high);
 }
 
 /* The number with that IEEE 754 bit pattern. */
