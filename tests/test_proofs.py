@@ -23,6 +23,7 @@ from toolchains import tool
 HERE = Path(__file__).parent / "proofs"
 
 PLANTED = {
+    "cores": ("text_of_words", "at < count; ++at", "at <= count; ++at", "text"),
     "words": ("layout_store", "at < layout->words; ++at", "at <= layout->words; ++at", "layout_store"),
     "modbus": ("crc", "at < length; ++at", "at <= length; ++at", "crc"),
     "can": ("listen", "at < fieldscribe_can_slots(telegram)", "at <= fieldscribe_can_slots(telegram)", "listen"),
@@ -64,7 +65,7 @@ def test_a_planted_bug_is_found(family: str, tmp_path: Path) -> None:
     for path in RUNTIME.glob("fieldscribe*.h"):
         shutil.copy(path, tmp_path)
     header = header_of(family, tmp_path)
-    start = f" fieldscribe_{'' if family == 'words' else f'{family}_'}{function}("
+    start = f" fieldscribe_{'' if family in ('cores', 'words') else f'{family}_'}{function}("
     before, name, after = header.read_text("utf-8").rpartition(start)
     assert right in after
     header.write_text(before + name + after.replace(right, wrong, 1), "utf-8")

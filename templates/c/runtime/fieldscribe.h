@@ -527,8 +527,16 @@ static inline bool fieldscribe_multiply(int64_t a, int64_t b, int64_t *product)
 /* a + b; false when that is no int64_t. */
 static inline bool fieldscribe_add(int64_t a, int64_t b, int64_t *sum)
 {
-    if ((b > 0) ? (a > (INT64_MAX - b)) : (a < (INT64_MIN - b))) {
-        return false;
+    uint64_t size;
+    if ((a >= 0) && (b >= 0)) {
+        size = (uint64_t)a + (uint64_t)b;
+        *sum = (size <= (uint64_t)INT64_MAX) ? (int64_t)size : 0;
+        return size <= (uint64_t)INT64_MAX;
+    }
+    if ((a < 0) && (b < 0)) {
+        size = (uint64_t)(-1 - a) + (uint64_t)(-1 - b);
+        *sum = (size < (uint64_t)INT64_MAX) ? (-2 - (int64_t)size) : 0;
+        return size < (uint64_t)INT64_MAX;
     }
     *sum = a + b;
     return true;
@@ -918,28 +926,28 @@ static inline fieldscribe_whole fieldscribe_number_of_digits(
 }
 
 /* A character is printable ASCII, or (where `latin`) ISO 8859-1. */
-static inline bool fieldscribe_is_printable(char character, bool latin)
+static inline bool fieldscribe_is_printable(unsigned char code, bool latin)
 {
-    const unsigned char code = (unsigned char)character;
     return (code >= 0x20U) && ((code <= 0x7EU) || (latin && (code >= 0xA0U)));
 }
 
 /* Two characters a word, the first in its high byte; the rest is filled with spaces. */
 FIELDSCRIBE_STATUS fieldscribe_words_of_text(const char *text, size_t length, bool latin, uint16_t *words, size_t count)
 {
+    const unsigned char *const codes = (const unsigned char *)text;
     size_t at;
     if (length > (2U * count)) {
         return FIELDSCRIBE_OUT_OF_RANGE;
     }
     for (at = 0U; at < length; ++at) {
-        if (!fieldscribe_is_printable(text[at], latin)) {
+        if (!fieldscribe_is_printable(codes[at], latin)) {
             return FIELDSCRIBE_OUT_OF_RANGE;
         }
     }
     for (at = 0U; at < count; ++at) {
-        const unsigned char high = ((2U * at) < length) ? (unsigned char)text[2U * at] : (unsigned char)0x20U;
+        const unsigned char high = ((2U * at) < length) ? codes[2U * at] : (unsigned char)0x20U;
         const size_t next = (2U * at) + 1U;
-        const unsigned char low = (next < length) ? (unsigned char)text[next] : (unsigned char)0x20U;
+        const unsigned char low = (next < length) ? codes[next] : (unsigned char)0x20U;
         words[at] = (uint16_t)(((uint32_t)high << 8) | low);
     }
     return FIELDSCRIBE_OK;
@@ -948,11 +956,12 @@ FIELDSCRIBE_STATUS fieldscribe_words_of_text(const char *text, size_t length, bo
 /* All characters without the spaces at the end, and a 0 behind them; returns how many there are before it. */
 static inline size_t fieldscribe_text_of_words(const uint16_t *words, size_t count, char *text)
 {
+    unsigned char *const codes = (unsigned char *)text;
     size_t length = 2U * count;
     size_t at;
     for (at = 0U; at < count; ++at) {
-        text[2U * at] = (char)(unsigned char)(words[at] >> 8);
-        text[(2U * at) + 1U] = (char)(unsigned char)(words[at] & 0xFFU);
+        codes[2U * at] = (unsigned char)(words[at] >> 8);
+        codes[(2U * at) + 1U] = (unsigned char)(words[at] & 0xFFU);
     }
     while ((length > 0U) && (text[length - 1U] == ' ')) {
         --length;
@@ -1195,10 +1204,10 @@ static inline fieldscribe_whole fieldscribe_rounded_wide(double number, int64_t 
         return fieldscribe_no_whole(fieldscribe_double_outside(number));
     }
     nearest = (int64_t)number;
-    rest = number - (double)nearest; /* 0 from 2^53 on: a half is never far from the next number */
-    if (rest >= 0.5) {
+    rest = number - (double)nearest; /* 0 from 2^53 on */
+    if ((rest >= 0.5) && (nearest < INT64_MAX)) {
         ++nearest;
-    } else if (rest <= -0.5) {
+    } else if ((rest <= -0.5) && (nearest > INT64_MIN)) {
         --nearest;
     } else {
         /* nearest already */
@@ -1254,12 +1263,11 @@ static inline double fieldscribe_long_quotient(fieldscribe_u128 number, uint64_t
     uint64_t rest = 0U;
     uint64_t quotient = 0U;
     uint64_t tail;
-    int32_t left = 128;
+    int32_t left;
     double value;
     /* bit by bit until there are 55 of them: two more than a double has, and what is left over */
-    while (quotient < (exact * 2U)) {
+    for (left = 128; (quotient < (exact * 2U)) && (left > -128); --left) {
         quotient = (quotient << 1) | fieldscribe_quotient_bit(&number, &rest, divisor);
-        --left;
     }
     tail = quotient & 3U;
     quotient >>= 2;
@@ -1310,7 +1318,9 @@ static inline fieldscribe_whole fieldscribe_ruled_value(fieldscribe_rule rule, d
         return fieldscribe_no_whole(rule.status);
     }
     number = fieldscribe_times_wide(value, (double)rule.num) / (double)rule.den;
-    number *= fieldscribe_two_to(rule.shift); /* exact */
+    if (rule.shift != 0) {
+        number *= fieldscribe_two_to(rule.shift); /* exact */
+    }
     if (rule.offset != 0) {
         number += (double)rule.offset / (double)rule.parts;
     }
@@ -1329,7 +1339,7 @@ FIELDSCRIBE_STATUS fieldscribe_decode_value(fieldscribe_rule rule, int64_t raw, 
         rule.status = FIELDSCRIBE_OVERFLOW;
     }
     if (rule.status == FIELDSCRIBE_OK) {
-        *value = (num < 0) ? ((double)-number / (double)-num) : ((double)number / (double)num);
+        *value = (number == 0) ? 0.0 : ((double)number / (double)num); /* 0 has no sign */
         *value *= fieldscribe_two_to(-rule.shift); /* exact */
     }
     return rule.status;
