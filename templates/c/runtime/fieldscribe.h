@@ -601,17 +601,16 @@ static inline fieldscribe_rule fieldscribe_rule_scaled(fieldscribe_rule rule, in
 /* A factor of a scale. */
 static inline fieldscribe_rule fieldscribe_rule_times(fieldscribe_rule rule, int64_t factor)
 {
-    rule = fieldscribe_rule_fails(rule, (factor == 0) ? FIELDSCRIBE_ZERO_FACTOR : FIELDSCRIBE_OK);
-    return fieldscribe_rule_scaled(rule, factor);
+    const fieldscribe_status status = (factor == 0) ? FIELDSCRIBE_ZERO_FACTOR : FIELDSCRIBE_OK;
+    return fieldscribe_rule_scaled(fieldscribe_rule_fails(rule, status), factor);
 }
 
 /* A factor that divides. */
 static inline fieldscribe_rule fieldscribe_rule_over(fieldscribe_rule rule, int64_t factor)
 {
-    bool fits;
-    rule = fieldscribe_rule_fails(rule, (factor == 0) ? FIELDSCRIBE_ZERO_FACTOR : FIELDSCRIBE_OK);
-    fits = fieldscribe_multiply(rule.den, factor, &rule.den);
-    return fieldscribe_rule_if(rule, fits);
+    fieldscribe_rule divided = fieldscribe_rule_fails(rule, (factor == 0) ? FIELDSCRIBE_ZERO_FACTOR : FIELDSCRIBE_OK);
+    const bool fits = fieldscribe_multiply(rule.den, factor, &divided.den);
+    return fieldscribe_rule_if(divided, fits);
 }
 
 /* Ten to the power of an exponent. */

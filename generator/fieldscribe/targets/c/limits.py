@@ -40,7 +40,7 @@ def check(point: Point, scope: Scope) -> str:
         return status
     bits = f"uint{max(32, point.info.bits)}_t"
     mask, constant = (hexadecimal(number, point.info.bits >> 2) for number in (point.fixed.mask, point.fixed.bits))
-    return f"((({bits})raw & {mask}) == {constant}) ? {status} : {refused(point)}"
+    return f"((({bits})raw & {mask}) == {constant}) ? ({status}) : {refused(point)}"
 
 
 def checked(point: Point, name: str, low: int, high: int) -> str:

@@ -23,17 +23,18 @@ def rule_name(point: Point, scope: Scope) -> str:
 
 def rule_of(point: Point, scope: Scope) -> str:
     """The rule of a point, case by case, as what other points hold makes it."""
-    rules = ""
+    rules, depth = "", 0
     for case in point.scale or ():
         rule = _rule(case.rule, scope)
         codes = _codes(case.rule, scope)
         if codes:
             rule = f"{codes} ? fieldscribe_no_rule(FIELDSCRIBE_ZERO_FACTOR) : {rule}"
         if case.point is None:
-            return rules + rule
+            return f"{rules}{rule}{')' * depth}"
         rule = f"({rule})" if codes else rule
-        rules += f"({scope.raw(case.point)} == {bare(case.raw or 0)}) ? {rule} : "
-    return f"{rules}fieldscribe_no_rule(FIELDSCRIBE_NO_CASE)"
+        rules += f"({scope.raw(case.point)} == {bare(case.raw or 0)}) ? {rule} : ("
+        depth += 1
+    return f"{rules}fieldscribe_no_rule(FIELDSCRIBE_NO_CASE){')' * depth}"
 
 
 def limit(bound: Limit, scope: Scope, *, is_low: bool) -> str:

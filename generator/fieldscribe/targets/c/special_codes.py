@@ -39,10 +39,10 @@ def codes_first(point: Point, special: SpecialView | None, check: str) -> str:
     """A check, with special codes in front: those that may be written pass, no other does."""
     if special is None:
         return check
-    check = f"{special.test}(raw) ? FIELDSCRIBE_SPECIAL : {check}"
+    check = f"{special.test}(raw) ? FIELDSCRIBE_SPECIAL : ({check})"
     if not special.written:
         return check
-    return f"{bracketed(_test(point, (one for one in point.specials if one.writable)))} ? FIELDSCRIBE_OK : {check}"
+    return f"{bracketed(_test(point, (one for one in point.specials if one.writable)))} ? FIELDSCRIBE_OK : ({check})"
 
 
 def no_code(special: SpecialView | None) -> str:
