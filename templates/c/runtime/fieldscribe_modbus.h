@@ -66,7 +66,7 @@ typedef enum fieldscribe_modbus_status {
 } fieldscribe_modbus_status;
 
 typedef enum fieldscribe_modbus_framing {
-    FIELDSCRIBE_MODBUS_RTU = 0,
+    FIELDSCRIBE_MODBUS_RTU,
     FIELDSCRIBE_MODBUS_TCP
 } fieldscribe_modbus_framing;
 
