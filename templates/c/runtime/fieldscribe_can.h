@@ -64,8 +64,8 @@ typedef struct fieldscribe_can_frame {
 
 /* What a byte of a message carries. */
 typedef enum fieldscribe_can_kind {
-    FIELDSCRIBE_CAN_CONSTANT = 0, /* number: the byte */
-    FIELDSCRIBE_CAN_UNIT,         /* number: how many bits the byte lies above bit 0; the same below */
+    FIELDSCRIBE_CAN_CONSTANT, /* number: the byte */
+    FIELDSCRIBE_CAN_UNIT,     /* number: how many bits the byte lies above bit 0; the same below */
     FIELDSCRIBE_CAN_ADDRESS,
     FIELDSCRIBE_CAN_RAW,
     FIELDSCRIBE_CAN_MULTIPLEXER,

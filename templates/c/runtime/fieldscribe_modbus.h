@@ -637,7 +637,7 @@ uint32_t fieldscribe_modbus_left(fieldscribe_modbus_framing framing, const field
     const uint32_t around = fieldscribe_modbus_around(framing);
     const size_t code = (framing == FIELDSCRIBE_MODBUS_TCP) ? 7U : 1U;
     uint32_t whole = around + 3U; /* of a refusal, which is the shortest answer */
-    if ((length >= whole) && (bytes[code] < 0x80U)) {
+    if ((length >= whole) && ((bytes[code] & 0x80U) == 0U)) {
         whole = around + fieldscribe_modbus_answer(request);
     }
     return (length < whole) ? (whole - (uint32_t)length) : 0U;
