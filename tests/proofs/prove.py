@@ -68,7 +68,9 @@ def functions(family: str, runtime: Path = RUNTIME) -> list[str]:
     """The functions that a family's header defines, without their prefix, in its order."""
     name = r"fieldscribe_((?:take|put|layout)_\w+)" if family == "words" else rf"fieldscribe_{family}_(\w+)"
     found = re.findall(
-        rf"^[a-z][^;{{}}#]*?\b{name}\([^;{{}}]*\)\n\{{", header_of(family, runtime).read_text("utf-8"), re.MULTILINE
+        rf"^(?:FIELDSCRIBE_CHECKED )?[a-z][^;{{}}#]*?\b{name}\([^;{{}}]*\)\n\{{",
+        header_of(family, runtime).read_text("utf-8"),
+        re.MULTILINE,
     )
     return list(dict.fromkeys(found))
 

@@ -1,6 +1,7 @@
 /*
  * CAN frames by layout: builds messages and reads answers, and gathers cyclic telegrams that come in several frames.
  * No heap; the state of a receiver is the caller's. Any bytes at any length are safe to parse.
+ * SPDX-License-Identifier: 0BSD
  *
  * One C file of a program, and no other, says `#define FIELDSCRIBE_IMPLEMENTATION` before it includes this.
  *
@@ -17,8 +18,6 @@
  * &point->write, words, &frame). A point that only some bits of a word are has `update` for `write`: read its word
  * first, put the bits, write it back. Where answers come over a serial gateway, fieldscribe_can_reply_length tells how
  * long one is, and fieldscribe_can_id which identifier a filter has to let through.
- *
- * SPDX-License-Identifier: 0BSD
  */
 #include "fieldscribe.h"
 

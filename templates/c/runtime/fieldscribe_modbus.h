@@ -1,6 +1,7 @@
 /*
  * Modbus frames: builds requests and reads answers, in the caller's buffers, over a serial line (RTU) or TCP.
  * Functions 01h 02h 03h 04h 05h 06h 08h 0Fh 10h. No heap, no state; any bytes at any length are safe to parse.
+ * SPDX-License-Identifier: 0BSD
  *
  * One C file of a program, and no other, says `#define FIELDSCRIBE_IMPLEMENTATION` before it includes this.
  *
@@ -20,8 +21,6 @@
  *
  * Writing one: fieldscribe_put_u16(frame.layout, raw, words), then fieldscribe_modbus_write(unit, &frame.write, words).
  * A point that only some bits of a word are has `update` for `write`: read its word first, put the bits, write it back.
- *
- * SPDX-License-Identifier: 0BSD
  */
 #include "fieldscribe.h"
 

@@ -2,6 +2,7 @@
  * USS telegrams: builds requests and reads answers, in the caller's buffers. A telegram carries a parameter part (PKW:
  * one task for one parameter, and its answer) and process data (PZD: words that are exchanged with every telegram).
  * No heap, no state; any bytes at any length are safe to parse.
+ * SPDX-License-Identifier: 0BSD
  *
  * One C file of a program, and no other, says `#define FIELDSCRIBE_IMPLEMENTATION` before it includes this.
  *
@@ -22,8 +23,6 @@
  *
  * Writing one: fieldscribe_put_u32(frame.layout, raw, words), then fieldscribe_uss_write(unit, &frame.write, words).
  * A point that only some bits of a word are has `update` for `write`: read its word first, put the bits, write it back.
- *
- * SPDX-License-Identifier: 0BSD
  */
 #include "fieldscribe.h"
 
