@@ -770,9 +770,10 @@ static inline bool fieldscribe_same_number(uint64_t one, uint64_t other)
     }
 #define FIELDSCRIBE_PUT_RAW(how, kind, raw_type, words) FIELDSCRIBE_PUT_FIELD(how, kind, raw_type, "raw", words)
 
-/* The words of a point have no constant bits. */
-#define FIELDSCRIBE_NOT_FIXED(frame)                                                             \
-    v->differs = v->differs || (frame).layout->fixed_mask != 0U || (frame).layout->fixed_bits != 0U;
+/* Whether the other bits of a word are other points, and which of them are constant. */
+#define FIELDSCRIBE_LIES(frame, shared, mask, bits)                                              \
+    v->differs = v->differs || (frame).layout->shares != (shared) || (frame).layout->fixed_mask != (mask) || \
+        (frame).layout->fixed_bits != (bits);
 
 /* The same layout, of another type. */
 static inline fieldscribe_layout fieldscribe_other_type(const fieldscribe_layout *layout)
