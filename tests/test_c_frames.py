@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 import wrong_bytes
@@ -14,9 +14,6 @@ from fieldscribe.render import render
 from fieldscribe.resources import descriptions_dir, templates_dir
 from fieldscribe.targets import c
 from toolchains import compiled, run, succeed, tool
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 FAMILIES = ("can", "uss")
 KITCHENS = ("kitchen_sink", "kitchen_can", "kitchen_uss")
@@ -910,3 +907,33 @@ def test_the_drive_is_small() -> None:
         made = next(text for path, text in c.outputs(device, render) if path.endswith((f"{name}_modbus.h", "_can.h")))
         assert made.count("\n") <= lines
         assert len(made.encode()) <= size
+
+
+README_USE = """
+uint16_t words[2];
+fieldscribe_modbus_request request;
+fieldscribe_modbus_status status;
+uint8_t frame[FIELDSCRIBE_MODBUS_RTU_MOST];
+size_t length;
+size_t got = 0U;
+uint32_t raw;
+bool fits;
+int use(void);
+int use(void)
+{
+@CALLS@
+    return (status == FIELDSCRIBE_MODBUS_OK && fits) ? 0 : 1;
+}
+"""
+
+
+def test_the_frames_of_the_readme_compile(tmp_path: Path) -> None:
+    readme = (Path(__file__).parents[1] / "README.md").read_text("utf-8")
+    [calls] = re.findall(r'```c\n#define FIELDSCRIBE_IMPLEMENTATION.*\n#include "(?s:.*?)\n\n(?s:(.*?))```', readme)
+    device = load_device(descriptions_dir() / "hitachi_l200" / "device.yaml", Report())
+    assert device is not None
+    write_headers(device, tmp_path)
+    calls = calls.replace("uint16_t words[2];\n", "")
+    head = '#define FIELDSCRIBE_IMPLEMENTATION\n#include "hitachi_l200_modbus.h"\n'
+    (tmp_path / "use.c").write_text(head + README_USE.replace("@CALLS@", calls), "utf-8")
+    succeed([tool("gcc"), "-std=c99", *WARNINGS, f"-I{tmp_path / 'c'}", "-c", "-o", tmp_path / "o", tmp_path / "use.c"])

@@ -1513,7 +1513,7 @@ static void fieldscribe_layout_put_bits(const fieldscribe_layout *layout, uint32
     uint32_t number = bits;
     if (layout->shares) {
         const uint32_t mask = (uint32_t)(layout->mask & 0xFFFFU);
-        number = (words[0] & ~mask) | ((bits << layout->shift) & mask);
+        number = (words[0] & ~mask) | ((bits & fieldscribe_layout_most(layout)) << layout->shift);
     }
     fieldscribe_layout_store(layout, number, words);
 }

@@ -1,6 +1,7 @@
 /*
  * CAN frames by layout: builds messages and reads answers, and gathers cyclic telegrams that come in several frames.
  * No heap; the state of a receiver is the caller's. Any bytes at any length are safe to parse.
+ * SPDX-License-Identifier: 0BSD
  *
  * One C file of a program, and no other, says `#define FIELDSCRIBE_IMPLEMENTATION` before it includes this.
  *
@@ -17,8 +18,6 @@
  * &point->write, words, &frame). A point that only some bits of a word are has `update` for `write`: read its word
  * first, put the bits, write it back. Where answers come over a serial gateway, fieldscribe_can_reply_length tells how
  * long one is, and fieldscribe_can_id which identifier a filter has to let through.
- *
- * SPDX-License-Identifier: 0BSD
  */
 #include "fieldscribe.h"
 
@@ -64,8 +63,8 @@ typedef struct fieldscribe_can_frame {
 
 /* What a byte of a message carries. */
 typedef enum fieldscribe_can_kind {
-    FIELDSCRIBE_CAN_CONSTANT = 0, /* number: the byte */
-    FIELDSCRIBE_CAN_UNIT,         /* number: how many bits the byte lies above bit 0; the same below */
+    FIELDSCRIBE_CAN_CONSTANT, /* number: the byte */
+    FIELDSCRIBE_CAN_UNIT,     /* number: how many bits the byte lies above bit 0; the same below */
     FIELDSCRIBE_CAN_ADDRESS,
     FIELDSCRIBE_CAN_RAW,
     FIELDSCRIBE_CAN_MULTIPLEXER,
@@ -321,7 +320,7 @@ fieldscribe_can_status fieldscribe_can_build(const fieldscribe_can_profile *prof
 {
     const uint32_t unit = content->unit;
     unsigned at;
-    if (unit < profile->first_unit || unit > profile->last_unit) {
+    if ((unit < profile->first_unit) || (unit > profile->last_unit)) {
         return FIELDSCRIBE_CAN_BAD_UNIT;
     }
     if (content->address > 0xFFFFU) {
@@ -335,19 +334,19 @@ fieldscribe_can_status fieldscribe_can_build(const fieldscribe_can_profile *prof
     for (at = 0U; at < FIELDSCRIBE_CAN_BYTES; ++at) {
         const fieldscribe_can_role role = message->roles[at];
         uint32_t byte = 0U;
-        if (role.kind == FIELDSCRIBE_CAN_CONSTANT) {
+        if (role.kind == (uint8_t)FIELDSCRIBE_CAN_CONSTANT) {
             byte = role.number;
-        } else if (role.kind == FIELDSCRIBE_CAN_UNIT) {
+        } else if (role.kind == (uint8_t)FIELDSCRIBE_CAN_UNIT) {
             byte = unit >> fieldscribe_can_shift(role);
-        } else if (role.kind == FIELDSCRIBE_CAN_ADDRESS) {
+        } else if (role.kind == (uint8_t)FIELDSCRIBE_CAN_ADDRESS) {
             byte = content->address >> fieldscribe_can_shift(role);
-        } else if (role.kind == FIELDSCRIBE_CAN_RAW) {
+        } else if (role.kind == (uint8_t)FIELDSCRIBE_CAN_RAW) {
             byte = content->raw >> fieldscribe_can_shift(role);
         }
         frame->data[at] = (uint8_t)(byte & 0xFFU);
     }
     for (at = 0U; at < FIELDSCRIBE_CAN_BYTES; ++at) {
-        if (message->roles[at].kind == FIELDSCRIBE_CAN_XOR) {
+        if (message->roles[at].kind == (uint8_t)FIELDSCRIBE_CAN_XOR) {
             frame->data[at] = fieldscribe_can_xor(frame->data, message->roles[at].number);
         }
     }
@@ -365,9 +364,9 @@ static bool fieldscribe_can_agrees(
         if (role.kind != kind) {
             continue;
         }
-        if (kind == FIELDSCRIBE_CAN_UNIT) {
+        if (kind == (uint8_t)FIELDSCRIBE_CAN_UNIT) {
             expected = (uint8_t)((uint32_t)unit >> fieldscribe_can_shift(role));
-        } else if (kind == FIELDSCRIBE_CAN_XOR) {
+        } else if (kind == (uint8_t)FIELDSCRIBE_CAN_XOR) {
             expected = fieldscribe_can_xor(data, role.number);
         }
         if (data[at] != expected) {
@@ -418,9 +417,9 @@ fieldscribe_can_status fieldscribe_can_parse(
     for (at = 0U; at < FIELDSCRIBE_CAN_BYTES; ++at) {
         const fieldscribe_can_role role = message->roles[at];
         const uint32_t part = ((uint32_t)frame->data[at] << fieldscribe_can_shift(role)) & 0xFFFFU;
-        if (role.kind == FIELDSCRIBE_CAN_ADDRESS) {
+        if (role.kind == (uint8_t)FIELDSCRIBE_CAN_ADDRESS) {
             content->address |= part;
-        } else if (role.kind == FIELDSCRIBE_CAN_RAW) {
+        } else if (role.kind == (uint8_t)FIELDSCRIBE_CAN_RAW) {
             content->raw |= part;
         }
     }
@@ -431,7 +430,7 @@ fieldscribe_can_status fieldscribe_can_parse(
 static bool fieldscribe_can_carries(const fieldscribe_can_message *message, uint8_t kind)
 {
     unsigned at = 0U;
-    while (at < FIELDSCRIBE_CAN_BYTES && message->roles[at].kind != kind) {
+    while ((at < FIELDSCRIBE_CAN_BYTES) && (message->roles[at].kind != kind)) {
         ++at;
     }
     return at < FIELDSCRIBE_CAN_BYTES;
@@ -452,7 +451,7 @@ static fieldscribe_can_status fieldscribe_can_answer(
         return FIELDSCRIBE_CAN_WRONG_ID; /* no frame is the answer */
     }
     status = fieldscribe_can_parse(message, frame, content);
-    if (status == FIELDSCRIBE_CAN_OK && content->address != address &&
+    if ((status == FIELDSCRIBE_CAN_OK) && (content->address != address) &&
         fieldscribe_can_carries(message, FIELDSCRIBE_CAN_ADDRESS)) {
         return FIELDSCRIBE_CAN_WRONG_ADDRESS;
     }
@@ -489,7 +488,7 @@ fieldscribe_can_status fieldscribe_can_write_answer(const fieldscribe_can_dialog
 {
     fieldscribe_can_content content = {unit, what->address, 0U};
     const fieldscribe_can_status status = fieldscribe_can_answer(dialogue->write_answer, frame, &content);
-    if (status == FIELDSCRIBE_CAN_OK && content.raw != words[0] &&
+    if ((status == FIELDSCRIBE_CAN_OK) && (content.raw != words[0]) &&
         fieldscribe_can_carries(dialogue->write_answer, FIELDSCRIBE_CAN_RAW)) {
         return FIELDSCRIBE_CAN_ECHO_MISMATCH;
     }
@@ -521,14 +520,16 @@ fieldscribe_can_status fieldscribe_can_word_to_write(
 /* How many words a frame carries: whatever a table says, as many as a slot has room for, and not none. */
 static uint8_t fieldscribe_can_per_frame(const fieldscribe_can_telegram *telegram)
 {
-    return telegram->per_frame == 0U || telegram->per_frame > FIELDSCRIBE_CAN_WORDS ? (uint8_t)FIELDSCRIBE_CAN_WORDS
-                                                                                    : telegram->per_frame;
+    if ((telegram->per_frame == 0U) || (telegram->per_frame > FIELDSCRIBE_CAN_WORDS)) {
+        return (uint8_t)FIELDSCRIBE_CAN_WORDS;
+    }
+    return telegram->per_frame;
 }
 
 size_t fieldscribe_can_slots(const fieldscribe_can_telegram *telegram)
 {
     const uint8_t per_frame = fieldscribe_can_per_frame(telegram);
-    return (size_t)telegram->words / per_frame + (telegram->words % per_frame != 0U ? 1U : 0U);
+    return ((size_t)telegram->words / per_frame) + (((telegram->words % per_frame) != 0U) ? 1U : 0U);
 }
 
 fieldscribe_can_receiver fieldscribe_can_listen(
@@ -554,14 +555,14 @@ bool fieldscribe_can_take(fieldscribe_can_receiver *receiver, const fieldscribe_
     fieldscribe_can_slot *slot;
     uint8_t multiplexer = 0U;
     unsigned at;
-    if (receiver->unit < profile->first_unit || receiver->unit > profile->last_unit) {
+    if ((receiver->unit < profile->first_unit) || (receiver->unit > profile->last_unit)) {
         return false;
     }
     if (fieldscribe_can_recognize(message, receiver->unit, frame) != FIELDSCRIBE_CAN_OK) {
         return false;
     }
     for (at = 0U; at < FIELDSCRIBE_CAN_BYTES; ++at) {
-        if (message->roles[at].kind == FIELDSCRIBE_CAN_MULTIPLEXER) {
+        if (message->roles[at].kind == (uint8_t)FIELDSCRIBE_CAN_MULTIPLEXER) {
             multiplexer = frame->data[at];
         }
     }
@@ -578,9 +579,9 @@ bool fieldscribe_can_take(fieldscribe_can_receiver *receiver, const fieldscribe_
     }
     for (at = 0U; at < FIELDSCRIBE_CAN_BYTES; ++at) {
         const fieldscribe_can_role role = message->roles[at];
-        if (role.kind == FIELDSCRIBE_CAN_WORD && role.number < FIELDSCRIBE_CAN_BYTES) {
+        if ((role.kind == (uint8_t)FIELDSCRIBE_CAN_WORD) && (role.number < FIELDSCRIBE_CAN_BYTES)) {
             uint16_t *const word = &slot->words_now[role.number / 2U];
-            *word = (uint16_t)(*word | ((uint32_t)frame->data[at] << (role.number % 2U != 0U ? 0U : 8U)));
+            *word = (uint16_t)(*word | ((uint32_t)frame->data[at] << (((role.number % 2U) != 0U) ? 0U : 8U)));
         }
     }
     return true;
@@ -595,7 +596,7 @@ static const fieldscribe_can_slot *fieldscribe_can_heard_slot(
         return NULL;
     }
     slot = &receiver->slots[position / fieldscribe_can_per_frame(receiver->telegram)];
-    return slot->now == 0U ? NULL : slot;
+    return (slot->now == 0U) ? NULL : slot;
 }
 
 fieldscribe_can_status fieldscribe_can_word(

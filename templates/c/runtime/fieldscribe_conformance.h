@@ -780,9 +780,10 @@ static inline bool fieldscribe_same_number(uint64_t one, uint64_t other)
     }
 #define FIELDSCRIBE_PUT_RAW(how, kind, raw_type, words) FIELDSCRIBE_PUT_FIELD(how, kind, raw_type, "raw", words)
 
-/* The words of a point have no constant bits. */
-#define FIELDSCRIBE_NOT_FIXED(frame)                                                             \
-    v->differs = v->differs || (frame).layout->fixed_mask != 0U || (frame).layout->fixed_bits != 0U;
+/* Whether the other bits of a word are other points, and which of them are constant. */
+#define FIELDSCRIBE_LIES(frame, shared, mask, bits)                                              \
+    v->differs = v->differs || (frame).layout->shares != (shared) || (frame).layout->fixed_mask != (mask) || \
+        (frame).layout->fixed_bits != (bits);
 
 /* The same layout, of another type. */
 static inline fieldscribe_layout fieldscribe_other_type(const fieldscribe_layout *layout)
@@ -813,6 +814,30 @@ static inline bool fieldscribe_fills(const fieldscribe_layout *layout, size_t si
     return layout->type == (uint8_t)FIELDSCRIBE_BIT || (layout->mask >> layout->shift) >> (8U * size - 1U) != 0U;
 }
 
+/* Numbers with a sign around 0 and at the ends of their bits, in a word of their own and in one that is shared. */
+static inline void fieldscribe_holds_signs(fieldscribe_vector *v)
+{
+    static const int16_t numbers[] = {0, 1, -1, 7, -8, 8, -9, INT16_MAX, INT16_MIN};
+    static const fieldscribe_layout whole = {FIELDSCRIBE_S16, 1U, 0U, false, 0U, 0xFFFFU, 0U, 0U};
+    static const fieldscribe_layout part = {FIELDSCRIBE_S16, 1U, 0U, true, 4U, 0x00F0U, 0U, 0U};
+    static const fieldscribe_layout two = {FIELDSCRIBE_S32, 2U, 0x10U, false, 0U, 0xFFFFFFFFU, 0U, 0U};
+    size_t at;
+    for (at = 0U; at < sizeof numbers / sizeof numbers[0]; ++at) {
+        const uint32_t bits = numbers[at] < 0 ? ~(uint32_t)(-1 - numbers[at]) : (uint32_t)numbers[at];
+        const bool fits = numbers[at] >= -8 && numbers[at] <= 7;
+        uint16_t words[2] = {0xA5A5U, 0xA5A5U};
+        int16_t back = 99;
+        int32_t wide = 99;
+        fieldscribe_agree(v, fieldscribe_put_s16(&part, numbers[at], words) == fits);
+        fieldscribe_agree(v, words[0] == (fits ? (0xA505U | ((bits & 0xFU) << 4)) : 0xA5A5U));
+        fieldscribe_agree(v, fieldscribe_take_s16(&part, words, &back) && back == (fits ? numbers[at] : -6));
+        fieldscribe_agree(v, fieldscribe_put_s16(&whole, numbers[at], words) && words[0] == (bits & 0xFFFFU));
+        fieldscribe_agree(v, fieldscribe_take_s16(&whole, words, &back) && back == numbers[at]);
+        fieldscribe_agree(v, fieldscribe_put_s32(&two, numbers[at], words) && words[1] == (bits >> 16));
+        fieldscribe_agree(v, fieldscribe_take_s32(&two, words, &wide) && wide == numbers[at]);
+    }
+}
+
 static inline void fieldscribe_refuses_long_numbers(
     fieldscribe_vector *v, const fieldscribe_layout *no_sign, const fieldscribe_layout *a_sign)
 {
@@ -831,6 +856,7 @@ static inline void fieldscribe_holds_long_numbers(fieldscribe_vector *v)
     fieldscribe_layout with_sign = {FIELDSCRIBE_S64, 4U, 0x2031U, false, 0U, UINT64_MAX, 0U, 0U};
     fieldscribe_layout without = {FIELDSCRIBE_U64, 4U, 0x0123U, false, 0U, UINT64_MAX, 0U, 0U};
     size_t at;
+    fieldscribe_holds_signs(v);
     for (at = 0U; at < sizeof numbers / sizeof numbers[0]; ++at) {
         const uint64_t bits = numbers[at] < 0 ? ~(uint64_t)(-1 - numbers[at]) : (uint64_t)numbers[at];
         uint16_t words[5] = {0U, 0U, 0U, 0U, 9U};

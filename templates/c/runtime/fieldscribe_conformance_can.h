@@ -234,6 +234,21 @@ static fieldscribe_can_frame fieldscribe_read_frame(uint64_t id, const char *dat
     return frame;
 }
 
+/* A byte that a message fills otherwise than from its content is 0 until then. */
+static void fieldscribe_leaves_others(
+    fieldscribe_vector *v, const fieldscribe_can_message *message, const fieldscribe_can_content *content)
+{
+    fieldscribe_can_message other = *message;
+    fieldscribe_can_content full = *content;
+    fieldscribe_can_frame frame;
+    other.roles[0].kind = (uint8_t)FIELDSCRIBE_CAN_MULTIPLEXER;
+    other.roles[0].number = 0U;
+    full.raw = 0xFFFFU;
+    fieldscribe_agree(v, fieldscribe_can_build(fieldscribe_tables_of(v)->profile, &other, &full, &frame) ==
+        FIELDSCRIBE_CAN_OK);
+    fieldscribe_agree(v, frame.data[0] == 0U);
+}
+
 static void fieldscribe_run_can_build(fieldscribe_vector *v)
 {
     const fieldscribe_can_message *const message = fieldscribe_find_message(v);
@@ -251,6 +266,7 @@ static void fieldscribe_run_can_build(fieldscribe_vector *v)
             fieldscribe_is_number(v, "id", frame.id);
             fieldscribe_agree(v, frame.length == FIELDSCRIBE_CAN_BYTES);
             fieldscribe_is_bytes(v, "bytes", frame.data, FIELDSCRIBE_CAN_BYTES);
+            fieldscribe_leaves_others(v, message, &content);
         } else {
             fieldscribe_untouched(v, &frame, sizeof frame);
         }

@@ -249,6 +249,9 @@ static void fieldscribe_run_build(fieldscribe_vector *v)
         fieldscribe_untouched(v, built + length, sizeof built - length);
     }
     if (status == FIELDSCRIBE_MODBUS_OK && length > 0U) {
+        const fieldscribe_modbus_profile *const profile = fieldscribe_tables_of(v)->profile;
+        const uint32_t awaited = fieldscribe_modbus_reply_length(profile, framing, &request);
+        fieldscribe_agree(v, (awaited == 0U) == (request.unit == profile->broadcast));
         fieldscribe_rebuild(v, framing, &request, built, length);
     }
 }

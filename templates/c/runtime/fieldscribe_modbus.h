@@ -1,6 +1,7 @@
 /*
  * Modbus frames: builds requests and reads answers, in the caller's buffers, over a serial line (RTU) or TCP.
  * Functions 01h 02h 03h 04h 05h 06h 08h 0Fh 10h. No heap, no state; any bytes at any length are safe to parse.
+ * SPDX-License-Identifier: 0BSD
  *
  * One C file of a program, and no other, says `#define FIELDSCRIBE_IMPLEMENTATION` before it includes this.
  *
@@ -20,8 +21,6 @@
  *
  * Writing one: fieldscribe_put_u16(frame.layout, raw, words), then fieldscribe_modbus_write(unit, &frame.write, words).
  * A point that only some bits of a word are has `update` for `write`: read its word first, put the bits, write it back.
- *
- * SPDX-License-Identifier: 0BSD
  */
 #include "fieldscribe.h"
 
@@ -66,7 +65,7 @@ typedef enum fieldscribe_modbus_status {
 } fieldscribe_modbus_status;
 
 typedef enum fieldscribe_modbus_framing {
-    FIELDSCRIBE_MODBUS_RTU = 0,
+    FIELDSCRIBE_MODBUS_RTU,
     FIELDSCRIBE_MODBUS_TCP
 } fieldscribe_modbus_framing;
 
@@ -285,19 +284,19 @@ static void fieldscribe_modbus_put(uint8_t *bytes, uint16_t number)
 
 static bool fieldscribe_modbus_reads(uint8_t function)
 {
-    return function >= 0x01U && function <= 0x04U;
+    return (function >= 0x01U) && (function <= 0x04U);
 }
 
 static bool fieldscribe_modbus_reads_bits(uint8_t function)
 {
-    return function == 0x01U || function == 0x02U;
+    return (function == 0x01U) || (function == 0x02U);
 }
 
 /* 05h carries FF00h for on; every other single value travels as it is. */
 static uint16_t fieldscribe_modbus_single(const fieldscribe_modbus_request *request)
 {
     if (request->function == 0x05U) {
-        return request->values[0] != 0U ? 0xFF00U : 0x0000U;
+        return (request->values[0] != 0U) ? 0xFF00U : 0x0000U;
     }
     return request->values[0];
 }
@@ -321,25 +320,25 @@ static fieldscribe_modbus_status fieldscribe_modbus_allows(
 {
     const uint8_t function = request->function;
     const fieldscribe_modbus_function *const known = fieldscribe_modbus_find(profile, function);
-    const bool writes = function == 0x05U || function == 0x06U || function == 0x0FU || function == 0x10U;
-    const bool single = function == 0x05U || function == 0x06U || function == 0x08U;
+    const bool writes = (function == 0x05U) || (function == 0x06U) || (function == 0x0FU) || (function == 0x10U);
+    const bool single = (function == 0x05U) || (function == 0x06U) || (function == 0x08U);
     bool to_one;
     uint16_t at;
-    if (known == NULL || !(fieldscribe_modbus_reads(function) || writes || single)) {
+    if ((known == NULL) || !(fieldscribe_modbus_reads(function) || writes || single)) {
         return FIELDSCRIBE_MODBUS_BAD_FUNCTION;
     }
-    to_one = request->unit >= profile->first_unit && request->unit <= profile->last_unit;
-    if (request->unit == profile->broadcast ? !(writes && known->broadcast) : !to_one) {
+    to_one = (request->unit >= profile->first_unit) && (request->unit <= profile->last_unit);
+    if ((request->unit == profile->broadcast) ? !(writes && known->broadcast) : !to_one) {
         return FIELDSCRIBE_MODBUS_BAD_UNIT;
     }
-    if (request->count == 0U || request->count > known->most || (single && request->count != 1U) ||
-        (!fieldscribe_modbus_reads(function) && request->values == NULL)) {
+    if ((request->count == 0U) || (request->count > known->most) || (single && (request->count != 1U)) ||
+        (!fieldscribe_modbus_reads(function) && (request->values == NULL))) {
         return FIELDSCRIBE_MODBUS_BAD_COUNT;
     }
-    if (function == 0x08U ? request->address != 0U : (uint32_t)request->address + request->count > 0x10000U) {
+    if ((function == 0x08U) ? (request->address != 0U) : (((uint32_t)request->address + request->count) > 0x10000U)) {
         return FIELDSCRIBE_MODBUS_BAD_ADDRESS;
     }
-    if (function == 0x05U || function == 0x0FU) {
+    if ((function == 0x05U) || (function == 0x0FU)) {
         for (at = 0U; at < request->count; ++at) {
             if (request->values[at] > 1U) {
                 return FIELDSCRIBE_MODBUS_BAD_VALUE;
@@ -356,7 +355,7 @@ static uint32_t fieldscribe_modbus_data_bytes(
     uint32_t bytes = (uint32_t)request->count * 2U;
     if (request->function == 0x0FU) {
         bytes = ((uint32_t)request->count + 7U) / 8U;
-        bytes += profile->pads_coil_bytes ? bytes % 2U : 0U;
+        bytes += profile->pads_coil_bytes ? (bytes % 2U) : 0U;
     }
     return bytes;
 }
@@ -368,7 +367,7 @@ static uint8_t fieldscribe_modbus_coils(const fieldscribe_modbus_request *reques
     uint32_t at;
     for (at = 0U; at < 8U; ++at) {
         const uint32_t place = first + at;
-        if (place < request->count && request->values[place] != 0U) {
+        if ((place < request->count) && (request->values[place] != 0U)) {
             byte = (uint8_t)(byte | ((uint32_t)1U << at));
         }
     }
@@ -381,8 +380,8 @@ static void fieldscribe_modbus_put_values(
 {
     uint32_t at;
     if (request->function == 0x10U) {
-        for (at = 0U; at < data_bytes / 2U; ++at) {
-            fieldscribe_modbus_put(data + 2U * at, request->values[at]);
+        for (at = 0U; at < (data_bytes / 2U); ++at) {
+            fieldscribe_modbus_put(data + (2U * at), request->values[at]);
         }
         return;
     }
@@ -465,14 +464,14 @@ static fieldscribe_modbus_status fieldscribe_modbus_take_words(
     const uint8_t *data, uint8_t bytes, uint16_t count, const fieldscribe_modbus_reply *reply)
 {
     uint16_t at;
-    if (bytes % 2U != 0U || count != bytes / 2U) {
+    if (((bytes % 2U) != 0U) || (count != (bytes / 2U))) {
         return FIELDSCRIBE_MODBUS_BAD_BYTE_COUNT;
     }
     if (reply->room < count) {
         return FIELDSCRIBE_MODBUS_BUFFER_TOO_SMALL;
     }
     for (at = 0U; at < count; ++at) {
-        reply->values[at] = fieldscribe_modbus_get(data + 2U * at);
+        reply->values[at] = fieldscribe_modbus_get(data + (2U * at));
     }
     return FIELDSCRIBE_MODBUS_OK;
 }
@@ -483,7 +482,7 @@ static fieldscribe_modbus_status fieldscribe_modbus_take_bits(
 {
     const uint32_t most = (uint32_t)bytes * 8U;
     uint16_t at;
-    if (count > most || (uint32_t)count + 7U < most) {
+    if ((count > most) || (((uint32_t)count + 7U) < most)) {
         return FIELDSCRIBE_MODBUS_BAD_BYTE_COUNT;
     }
     if (reply->room < count) {
@@ -504,25 +503,25 @@ static fieldscribe_modbus_status fieldscribe_modbus_take(const fieldscribe_modbu
     if (fieldscribe_modbus_reads(function)) {
         fieldscribe_modbus_status status = FIELDSCRIBE_MODBUS_BAD_BYTE_COUNT;
         const uint8_t bytes = pdu[1];
-        if (size == 2U + (size_t)bytes) {
+        if (size == (2U + (size_t)bytes)) {
             status = fieldscribe_modbus_reads_bits(function)
                 ? fieldscribe_modbus_take_bits(pdu + 2, bytes, count, reply)
                 : fieldscribe_modbus_take_words(pdu + 2, bytes, count, reply);
         }
-        reply->count = status == FIELDSCRIBE_MODBUS_OK ? count : 0U;
+        reply->count = (status == FIELDSCRIBE_MODBUS_OK) ? count : 0U;
         return status;
     }
     if (size != 5U) {
-        return size < 5U ? FIELDSCRIBE_MODBUS_SHORT_FRAME : FIELDSCRIBE_MODBUS_LONG_FRAME;
+        return (size < 5U) ? FIELDSCRIBE_MODBUS_SHORT_FRAME : FIELDSCRIBE_MODBUS_LONG_FRAME;
     }
     if (fieldscribe_modbus_get(pdu + 1) != request->address) {
         return FIELDSCRIBE_MODBUS_ECHO_MISMATCH;
     }
-    if (function == 0x0FU || function == 0x10U) {
-        return fieldscribe_modbus_get(pdu + 3) == count ? FIELDSCRIBE_MODBUS_OK : FIELDSCRIBE_MODBUS_ECHO_MISMATCH;
+    if ((function == 0x0FU) || (function == 0x10U)) {
+        return (fieldscribe_modbus_get(pdu + 3) == count) ? FIELDSCRIBE_MODBUS_OK : FIELDSCRIBE_MODBUS_ECHO_MISMATCH;
     }
-    if (request->values == NULL || count == 0U ||
-        fieldscribe_modbus_get(pdu + 3) != fieldscribe_modbus_single(request)) {
+    if ((request->values == NULL) || (count == 0U) ||
+        (fieldscribe_modbus_get(pdu + 3) != fieldscribe_modbus_single(request))) {
         return FIELDSCRIBE_MODBUS_ECHO_MISMATCH;
     }
     if (reply->room > 0U) {
@@ -550,10 +549,10 @@ fieldscribe_modbus_status fieldscribe_modbus_parse_rtu(
     } else if (bytes[1] != request->function) {
         known = false; /* nobody knows how long it ought to be */
     } else {
-        expected = fieldscribe_modbus_reads(request->function) ? 5U + (size_t)bytes[2] : 8U;
+        expected = fieldscribe_modbus_reads(request->function) ? (5U + (size_t)bytes[2]) : 8U;
     }
     if (length != expected) {
-        return length < expected ? FIELDSCRIBE_MODBUS_SHORT_FRAME : FIELDSCRIBE_MODBUS_LONG_FRAME;
+        return (length < expected) ? FIELDSCRIBE_MODBUS_SHORT_FRAME : FIELDSCRIBE_MODBUS_LONG_FRAME;
     }
     crc = (uint16_t)(((uint32_t)bytes[length - 1U] << 8) | bytes[length - 2U]);
     if (fieldscribe_modbus_crc(bytes, length - 2U) != crc) {
@@ -586,7 +585,7 @@ fieldscribe_modbus_status fieldscribe_modbus_parse_tcp(
     }
     expected = 6U + (size_t)fieldscribe_modbus_get(bytes + 4);
     if (length != expected) {
-        return length < expected ? FIELDSCRIBE_MODBUS_SHORT_FRAME : FIELDSCRIBE_MODBUS_LONG_FRAME;
+        return (length < expected) ? FIELDSCRIBE_MODBUS_SHORT_FRAME : FIELDSCRIBE_MODBUS_LONG_FRAME;
     }
     if (fieldscribe_modbus_get(bytes) != request->transaction) {
         return FIELDSCRIBE_MODBUS_WRONG_TRANSACTION;
@@ -637,7 +636,7 @@ uint32_t fieldscribe_modbus_left(fieldscribe_modbus_framing framing, const field
     const uint32_t around = fieldscribe_modbus_around(framing);
     const size_t code = (framing == FIELDSCRIBE_MODBUS_TCP) ? 7U : 1U;
     uint32_t whole = around + 3U; /* of a refusal, which is the shortest answer */
-    if ((length >= whole) && (bytes[code] < 0x80U)) {
+    if ((length >= whole) && ((bytes[code] & 0x80U) == 0U)) {
         whole = around + fieldscribe_modbus_answer(request);
     }
     return (length < whole) ? (whole - (uint32_t)length) : 0U;

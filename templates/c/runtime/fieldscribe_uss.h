@@ -2,6 +2,7 @@
  * USS telegrams: builds requests and reads answers, in the caller's buffers. A telegram carries a parameter part (PKW:
  * one task for one parameter, and its answer) and process data (PZD: words that are exchanged with every telegram).
  * No heap, no state; any bytes at any length are safe to parse.
+ * SPDX-License-Identifier: 0BSD
  *
  * One C file of a program, and no other, says `#define FIELDSCRIBE_IMPLEMENTATION` before it includes this.
  *
@@ -22,8 +23,6 @@
  *
  * Writing one: fieldscribe_put_u32(frame.layout, raw, words), then fieldscribe_uss_write(unit, &frame.write, words).
  * A point that only some bits of a word are has `update` for `write`: read its word first, put the bits, write it back.
- *
- * SPDX-License-Identifier: 0BSD
  */
 #include "fieldscribe.h"
 
@@ -323,21 +322,21 @@ static const fieldscribe_uss_task *fieldscribe_uss_find(const fieldscribe_uss_pr
 static uint16_t fieldscribe_uss_index_word(uint16_t parameter, uint16_t index)
 {
     const uint32_t page = parameter / 2000U;
-    return (uint16_t)(index | ((page & 1U) << 15) | ((page >> 1 & 1U) << 12) | ((page >> 2 & 1U) << 13) |
-        ((page >> 3 & 1U) << 14));
+    return (uint16_t)(index | ((page & 1U) << 15) | (((page >> 1) & 1U) << 12) | (((page >> 2) & 1U) << 13) |
+        (((page >> 3) & 1U) << 14));
 }
 
 /* Whether a single word stands in the second of the two words for the value. */
 static bool fieldscribe_uss_single_last(const fieldscribe_uss_link *link)
 {
-    return link->pkw == 4U && !link->single_first;
+    return (link->pkw == 4U) && !link->single_first;
 }
 
 /* Whether the device can be set to such a parameter part. */
 static bool fieldscribe_uss_allows_pkw(const fieldscribe_uss_profile *profile, uint8_t pkw)
 {
     size_t at = 0U;
-    while (at < profile->pkw_count && profile->pkw[at] != pkw) {
+    while ((at < profile->pkw_count) && (profile->pkw[at] != pkw)) {
         ++at;
     }
     return at < profile->pkw_count;
@@ -347,7 +346,7 @@ static bool fieldscribe_uss_allows_pkw(const fieldscribe_uss_profile *profile, u
 static bool fieldscribe_uss_allows_pzd(
     const fieldscribe_uss_profile *profile, const fieldscribe_uss_link *link, size_t count)
 {
-    return count == link->pzd && link->pzd >= profile->least_pzd && link->pzd <= profile->most_pzd;
+    return (count == link->pzd) && (link->pzd >= profile->least_pzd) && (link->pzd <= profile->most_pzd);
 }
 
 /* Whether this device takes the request. */
@@ -357,10 +356,10 @@ static fieldscribe_uss_status fieldscribe_uss_allows(const fieldscribe_uss_profi
     if (!fieldscribe_uss_allows_pkw(profile, link->pkw) || !fieldscribe_uss_allows_pzd(profile, link, pzd_count)) {
         return FIELDSCRIBE_USS_BAD_LINK;
     }
-    if (request->unit < profile->first_unit || request->unit > profile->last_unit) {
+    if ((request->unit < profile->first_unit) || (request->unit > profile->last_unit)) {
         return FIELDSCRIBE_USS_BAD_UNIT;
     }
-    if (fieldscribe_uss_find(profile, request->task) == NULL || (link->pkw == 0U && request->task != 0U)) {
+    if ((fieldscribe_uss_find(profile, request->task) == NULL) || ((link->pkw == 0U) && (request->task != 0U))) {
         return FIELDSCRIBE_USS_BAD_TASK;
     }
     if (request->parameter > FIELDSCRIBE_USS_LAST_PARAMETER) {
@@ -369,8 +368,8 @@ static fieldscribe_uss_status fieldscribe_uss_allows(const fieldscribe_uss_profi
     if (request->index > 0xFFU) {
         return FIELDSCRIBE_USS_BAD_INDEX;
     }
-    if (request->width > 2U || (request->width == 2U && link->pkw == 3U) ||
-        (request->width == 1U && request->value > 0xFFFFU) || (request->width == 0U && request->value != 0U)) {
+    if ((request->width > 2U) || ((request->width == 2U) && (link->pkw == 3U)) ||
+        ((request->width == 1U) && (request->value > 0xFFFFU)) || ((request->width == 0U) && (request->value != 0U))) {
         return FIELDSCRIBE_USS_BAD_VALUE;
     }
     return FIELDSCRIBE_USS_OK;
@@ -380,14 +379,14 @@ static fieldscribe_uss_status fieldscribe_uss_allows(const fieldscribe_uss_profi
 static fieldscribe_uss_status fieldscribe_uss_assemble(uint8_t address, const uint8_t *head, size_t head_bytes,
     const fieldscribe_uss_words *process, uint8_t *buffer, size_t size, size_t *length)
 {
-    const size_t most = size < FIELDSCRIBE_USS_MOST ? size : FIELDSCRIBE_USS_MOST;
+    const size_t most = (size < FIELDSCRIBE_USS_MOST) ? size : FIELDSCRIBE_USS_MOST;
     const size_t around = 4U + head_bytes; /* with start, length, address and check */
     size_t used;
     size_t at;
-    if (most < around || process->count > (most - around) / 2U) {
+    if ((most < around) || (process->count > ((most - around) / 2U))) {
         return FIELDSCRIBE_USS_BUFFER_TOO_SMALL;
     }
-    used = around + 2U * process->count;
+    used = around + (2U * process->count);
     buffer[0] = 0x02U;
     buffer[1] = (uint8_t)((used - 2U) & 0xFFU);
     buffer[2] = address;
@@ -395,7 +394,7 @@ static fieldscribe_uss_status fieldscribe_uss_assemble(uint8_t address, const ui
         buffer[3U + at] = head[at];
     }
     for (at = 0U; at < process->count; ++at) {
-        fieldscribe_uss_put(buffer + 3U + head_bytes + 2U * at, process->words[at]);
+        fieldscribe_uss_put(buffer + 3U + head_bytes + (2U * at), process->words[at]);
     }
     buffer[used - 1U] = fieldscribe_uss_check(buffer, used - 1U);
     *length = used;
@@ -413,14 +412,14 @@ fieldscribe_uss_status fieldscribe_uss_build(const fieldscribe_uss_profile *prof
     if (status != FIELDSCRIBE_USS_OK) {
         return status;
     }
-    if (request->width == 1U && !fieldscribe_uss_single_last(link)) {
+    if ((request->width == 1U) && !fieldscribe_uss_single_last(link)) {
         value <<= 16; /* into the first of the two words */
     }
-    fieldscribe_uss_put(head, (uint16_t)(((uint32_t)request->task & 0xFU) << 12 | request->parameter % 2000U));
+    fieldscribe_uss_put(head, (uint16_t)((((uint32_t)request->task & 0xFU) << 12) | (request->parameter % 2000U)));
     fieldscribe_uss_put(head + 2, fieldscribe_uss_index_word(request->parameter, request->index));
     fieldscribe_uss_put(head + 4, (uint16_t)(value >> 16));
     fieldscribe_uss_put(head + 6, (uint16_t)(value & 0xFFFFU)); /* left out where the part has 3 words */
-    return fieldscribe_uss_assemble(request->unit, head, link->pkw == 0U ? 0U : link->pkw == 3U ? 6U : 8U,
+    return fieldscribe_uss_assemble(request->unit, head, (link->pkw == 0U) ? 0U : ((link->pkw == 3U) ? 6U : 8U),
         process, buffer, size, length);
 }
 
@@ -431,11 +430,11 @@ fieldscribe_uss_status fieldscribe_uss_build_broadcast(const fieldscribe_uss_pro
     uint8_t head[8];
     size_t at;
     *length = 0U;
-    if (profile->broadcast > 0xFFU || !fieldscribe_uss_allows_pzd(profile, link, process->count)) {
+    if ((profile->broadcast > 0xFFU) || !fieldscribe_uss_allows_pzd(profile, link, process->count)) {
         return FIELDSCRIBE_USS_BAD_LINK;
     }
     for (at = 0U; at < 4U; ++at) {
-        fieldscribe_uss_put(head + 2U * at, mask[at]);
+        fieldscribe_uss_put(head + (2U * at), mask[at]);
     }
     return fieldscribe_uss_assemble(
         (uint8_t)profile->broadcast, head, sizeof head, process, buffer, size, length);
@@ -444,7 +443,7 @@ fieldscribe_uss_status fieldscribe_uss_build_broadcast(const fieldscribe_uss_pro
 /* Whether a parameter part of that many words can come over the link. */
 static bool fieldscribe_uss_fits(const fieldscribe_uss_link *link, size_t words)
 {
-    return link->pkw == FIELDSCRIBE_USS_VARIABLE ? words >= 3U : words == link->pkw;
+    return (link->pkw == FIELDSCRIBE_USS_VARIABLE) ? (words >= 3U) : (words == link->pkw);
 }
 
 /* Reads the parameter part of an answer, which has `words` words. */
@@ -463,9 +462,9 @@ static fieldscribe_uss_status fieldscribe_uss_take(const fieldscribe_uss_profile
     }
     head = fieldscribe_uss_get(part);
     first = fieldscribe_uss_get(part + 4);
-    second = words > 3U ? fieldscribe_uss_get(part + 6) : 0U;
+    second = (words > 3U) ? fieldscribe_uss_get(part + 6) : 0U;
     response = (uint8_t)(head >> 12);
-    is_double = response == 2U || response == 5U;
+    is_double = (response == 2U) || (response == 5U);
     if (request->task == 0U) {
         reply->response = response; /* nothing was asked: there is no value */
         return FIELDSCRIBE_USS_OK;
@@ -473,8 +472,8 @@ static fieldscribe_uss_status fieldscribe_uss_take(const fieldscribe_uss_profile
     if (response == 0U) {
         return FIELDSCRIBE_USS_NO_ANSWER;
     }
-    if ((head & 0x0FFFU) != request->parameter % 2000U ||
-        fieldscribe_uss_get(part + 2) != fieldscribe_uss_index_word(request->parameter, request->index)) {
+    if (((head & 0x0FFFU) != (request->parameter % 2000U)) ||
+        (fieldscribe_uss_get(part + 2) != fieldscribe_uss_index_word(request->parameter, request->index))) {
         return FIELDSCRIBE_USS_WRONG_PARAMETER;
     }
     if (response == 7U) {
@@ -485,16 +484,16 @@ static fieldscribe_uss_status fieldscribe_uss_take(const fieldscribe_uss_profile
     if (response == 8U) {
         return FIELDSCRIBE_USS_NO_RIGHTS;
     }
-    if (task == NULL || ((uint32_t)task->answers >> response & 1U) == 0U) {
+    if ((task == NULL) || ((((uint32_t)task->answers >> response) & 1U) == 0U)) {
         return FIELDSCRIBE_USS_WRONG_RESPONSE;
     }
-    if (is_double && words < 4U) {
+    if (is_double && (words < 4U)) {
         return FIELDSCRIBE_USS_WRONG_LENGTH;
     }
     reply->response = response;
     reply->width = is_double ? 2U : 1U;
     if (is_double) {
-        reply->value = (uint32_t)first << 16 | second;
+        reply->value = ((uint32_t)first << 16) | second;
     } else {
         reply->value = fieldscribe_uss_single_last(link) ? second : first;
     }
@@ -508,20 +507,19 @@ fieldscribe_uss_status fieldscribe_uss_parse(const fieldscribe_uss_profile *prof
     fieldscribe_uss_status status = FIELDSCRIBE_USS_OK;
     size_t all; /* words of data */
     size_t words; /* of them in the parameter part */
-    size_t from;
     size_t at;
     reply->response = 0U;
     reply->width = 0U;
     reply->value = 0U;
     reply->error = 0U;
-    if (length == 0U || bytes[0] != 0x02U) {
+    if ((length == 0U) || (bytes[0] != 0x02U)) {
         return FIELDSCRIBE_USS_WRONG_START;
     }
-    if (length < 4U || (size_t)bytes[1] + 2U != length || length % 2U != 0U) {
+    if ((length < 4U) || (((size_t)bytes[1] + 2U) != length) || ((length % 2U) != 0U)) {
         return FIELDSCRIBE_USS_WRONG_LENGTH;
     }
     all = (length - 4U) / 2U;
-    if (all < link->pzd || !fieldscribe_uss_fits(link, all - link->pzd)) {
+    if ((all < link->pzd) || !fieldscribe_uss_fits(link, all - link->pzd)) {
         return FIELDSCRIBE_USS_WRONG_LENGTH;
     }
     words = all - link->pzd;
@@ -538,8 +536,10 @@ fieldscribe_uss_status fieldscribe_uss_parse(const fieldscribe_uss_profile *prof
         status = fieldscribe_uss_take(profile, link, request, bytes + 3, words, reply);
     }
     if (status != FIELDSCRIBE_USS_WRONG_LENGTH) {
-        for (at = 0U, from = words; at < link->pzd && from < all; ++at, ++from) {
-            reply->process[at] = fieldscribe_uss_get(bytes + 3U + 2U * from);
+        size_t from = words;
+        for (at = 0U; (at < link->pzd) && (from < all); ++at) {
+            reply->process[at] = fieldscribe_uss_get(bytes + 3U + (2U * from));
+            ++from;
         }
     }
     return status;

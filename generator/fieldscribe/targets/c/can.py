@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.names import upper
-from fieldscribe.targets.c.frames import Descriptor, Layouts, kind_of, names_of, shares
+from fieldscribe.targets.c.frames import Descriptor, Layouts, kind_of, lies, names_of, shares
 from fieldscribe.targets.c.literals import hexadecimal
 from fieldscribe.targets.c.modbus import exceptions_of
 from fieldscribe.targets.identifiers import Owner
@@ -60,7 +60,7 @@ class FrameView:
     write: bool
     text: bool
     shares: bool
-    fixed: bool
+    lies: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -154,8 +154,8 @@ def identifiers(bus: BusView, view: DeviceView) -> Iterator[tuple[str, Owner]]:
 def adapters(bus: BusView) -> Iterator[tuple[str, str]]:
     """How points of telegrams, and parameters, answer conformance vectors."""
     for each in (*bus.parameters, *bus.cyclic):
-        if not each.text and not each.fixed:
-            yield each.function, f"NOT_FIXED({each.descriptor.name})"
+        if not each.text:
+            yield each.function, f"LIES({each.descriptor.name}, {each.lies})"
     for heard in bus.cyclic:
         name = heard.descriptor.name
         how = f"TEXT({name}, {heard.macro}" if heard.text else f"({name}, {heard.kind}, {heard.raw_type}"
@@ -257,5 +257,5 @@ def _frame(point: Point, view: PointView, access: str, parts: list[str]) -> Fram
         write=ways[-1] in "wu",
         text=point.text is not None,
         shares=shares(point),
-        fixed=point.fixed is not None,
+        lies=lies(point),
     )

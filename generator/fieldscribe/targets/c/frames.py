@@ -40,6 +40,12 @@ def kind_of(point: Point) -> str:
     return _KINDS[raw_type(point)]
 
 
+def lies(point: Point) -> str:
+    """Whether a point shares its word, and its constant bits, as the vectors hold them against its layout."""
+    fixed = (point.fixed.mask, point.fixed.bits) if point.fixed is not None else (0, 0)
+    return f"{'true' if shares(point) else 'false'}, {hexadecimal(fixed[0])}, {hexadecimal(fixed[1])}"
+
+
 def shares(point: Point) -> bool:
     """Whether writing a point changes some bits of a word that it read before."""
     return point.bits is not None

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.families.modbus import framings_of
 from fieldscribe.names import upper
-from fieldscribe.targets.c.frames import Descriptor, Layouts, kind_of, names_of, places_of, shares
+from fieldscribe.targets.c.frames import Descriptor, Layouts, kind_of, lies, names_of, places_of, shares
 from fieldscribe.targets.c.literals import hexadecimal, unsigned
 from fieldscribe.targets.identifiers import Owner
 from fieldscribe.text import c_comment
@@ -59,7 +59,7 @@ class FrameView:
     write: bool
     text: bool
     shares: bool
-    fixed: bool
+    lies: str
     words: int
 
 
@@ -141,8 +141,8 @@ def adapters(bus: BusView) -> Iterator[tuple[str, str]]:
     """How points answer vectors of whole exchanges."""
     for one in bus.frames:
         name, what = one.descriptor.name, f"{one.descriptor.name}, {one.kind}, {one.raw_type}"
-        if not one.text and not one.fixed:
-            yield one.function, f"NOT_FIXED({name})"
+        if not one.text:
+            yield one.function, f"LIES({name}, {one.lies})"
         if one.read:
             yield one.function, f"READ_TEXT({name}, {one.words}U)" if one.text else f"READ({what})"
         if one.write and one.text:
@@ -177,7 +177,7 @@ def _frame(point: Point, view: PointView, functions: frozenset[int], layouts: La
         write=bool(write),
         text=text,
         shares=shares(point),
-        fixed=point.fixed is not None,
+        lies=lies(point),
         words=point.words,
     )
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.names import upper
-from fieldscribe.targets.c.frames import Descriptor, Layouts, kind_of, names_of, places_of, shares
+from fieldscribe.targets.c.frames import Descriptor, Layouts, kind_of, lies, names_of, places_of, shares
 from fieldscribe.targets.c.literals import hexadecimal
 from fieldscribe.targets.identifiers import Owner
 from fieldscribe.text import c_comment, c_string
@@ -45,7 +45,7 @@ class FrameView:
     ram: bool
     eeprom: bool
     shares: bool
-    fixed: bool
+    lies: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,7 +61,7 @@ class WordView:
     words_name: str
     read: bool
     write: bool
-    fixed: bool
+    lies: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -139,8 +139,7 @@ def adapters(bus: BusView) -> Iterator[tuple[str, str]]:
 
 def _cases(frame: FrameView) -> Iterator[str]:
     name, what = f"{frame.function}_frame", f"{frame.kind}, {frame.raw_type}"
-    if not frame.fixed:
-        yield from (f"NOT_FIXED({one.name})" for one in frame.descriptors)
+    yield from (f"LIES({one.name}, {frame.lies})" for one in frame.descriptors)
     if frame.read:
         yield f"READ({name}, {what})"
     for kind, there, to in (("write", frame.ram, name), ("store", frame.eeprom, f"{frame.function}_eeprom_frame")):
@@ -152,8 +151,7 @@ def _cases(frame: FrameView) -> Iterator[str]:
 
 def _word_cases(word: WordView) -> Iterator[str]:
     name, what = word.descriptor.name, f"{word.kind}, {word.raw_type}"
-    if not word.fixed:
-        yield f"NOT_FIXED({name})"
+    yield f"LIES({name}, {word.lies})"
     if word.write:
         yield f"SEND({name}, {what})"
         yield f"PUT({name}, {what}, {word.macro}, {word.words_name})"
@@ -198,7 +196,7 @@ def _frame(point: Point, view: PointView, tasks: frozenset[int], layouts: Layout
         ram=ram is not None,
         eeprom=eeprom is not None,
         shares=shares(point),
-        fixed=point.fixed is not None,
+        lies=lies(point),
     )
 
 
@@ -224,5 +222,5 @@ def _word(point: Point, view: PointView, telegram: Telegram, layouts: Layouts, s
         words_name=f"{scope.upper}_TELEGRAM_{upper(telegram.name)}_WORDS",
         read=point.readable,
         write=point.writable,
-        fixed=point.fixed is not None,
+        lies=lies(point),
     )
