@@ -101,7 +101,8 @@ def test_a_scale_beyond_every_integer_leaves_raw_numbers(tmp_path: Path) -> None
     assert "#define METER_A_ADDRESS" in text
     program = tmp_path / "program.c"
     program.write_text(
-        '#include "meter.h"\nint main(void) { double value; return (int)meter_c_decode(1, 1, 0, &value); }\n'
+        '#include "meter.h"\n'
+        "int main(void) { const meter_c_with with = {1, 0}; double value; return (int)meter_c_decode(1, &with, &value); }"
     )
     for switch in ("-O2", "-DFIELDSCRIBE_FLOAT32"):
         succeed(

@@ -1,4 +1,6 @@
 /*
+ * SPDX-License-Identifier: 0BSD
+ *
  * What generated headers of points share: status, limits, scales, rules of several points, names, bits, words, texts.
  * Each behaviour is here once; <device>.h holds the facts. It needs no heap and no library, and has no state.
  *
@@ -8,8 +10,6 @@
  * FIELDSCRIBE_NO_FLOAT leaves out everything that computes with floating-point numbers.
  * FIELDSCRIBE_FLOAT32 makes fieldscribe_real a float: values of points with at most 24 significant bits.
  * -ffast-math, -Ofast and x87 arithmetic are refused with floating point: without them results are exact to the bit.
- *
- * SPDX-License-Identifier: 0BSD
  */
 #ifndef FIELDSCRIBE_H
 #define FIELDSCRIBE_H
