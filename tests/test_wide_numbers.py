@@ -102,7 +102,8 @@ def test_a_scale_beyond_every_integer_leaves_raw_numbers(tmp_path: Path) -> None
     program = tmp_path / "program.c"
     program.write_text(
         '#include "meter.h"\n'
-        "int main(void) { const meter_c_with with = {1, 0}; double value; return (int)meter_c_decode(1, &with, &value); }"
+        "int main(void) { const meter_c_with with = {1, 0}; double value; "
+        "return (int)meter_c_decode(1, &with, &value); }"
     )
     for switch in ("-O2", "-DFIELDSCRIBE_FLOAT32"):
         succeed(
