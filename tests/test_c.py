@@ -182,6 +182,29 @@ def test_a_clash_is_found() -> None:
     assert [one.name for one in clashes(c.identifiers(clash))] == ["SAMPLE_DRIVE_BASE_ADDRESS"]
 
 
+VENDORED = {"hitachi_l200": (6_000, 260_000), "woodward_mpu2s": (10_000, 480_000)}
+"""Lines and bytes of the headers of points and frames that a firmware team is asked to vendor, at most."""
+
+
+@pytest.mark.parametrize("device", VENDORED)
+def test_what_a_firmware_team_vendors_is_small(device: str) -> None:
+    """Without the shared runtimes and the conformance program; no line is longer than a screen."""
+    texts = [path.read_text("utf-8") for path in (GENERATED / "c").glob(f"{device}*.h")]
+    lines, size = VENDORED[device]
+    assert sum(text.count("\n") for text in texts) <= lines
+    assert sum(len(text.encode()) for text in texts) <= size
+    assert max(len(line) for text in texts for line in text.splitlines()) <= 120
+
+
+def test_a_function_is_one_or_two_statements(sink: Path) -> None:
+    """All else is in the cores."""
+    text = (sink / "c/kitchen_sink.h").read_text("utf-8")
+    bodies = re.findall(r"^\{(.*?)^\}|\{ (.*?) \}$", text, re.MULTILINE | re.DOTALL)
+    functions = [block or line for block, line in bodies if "return" in block + line]
+    assert len(functions) > 300
+    assert max(body.count(";") for body in functions) <= 2
+
+
 FUSED = """
 #include "sample_drive.h"
 int main(void)

@@ -64,6 +64,11 @@ class Writer:
         """May a raw number be written?"""
         parameters = [f"{self.type} raw", *self.scope.parameters(self.point, self.point.limit_arguments)]
         status = codes_first(self.point, self.special, check(self.point, self.scope))
+        if is_moving(self.point) and self.special is None:
+            own = f"{self.name}_check"
+            owner = self.scope.tables.setdefault(("check", *parameters, status), own)
+            if owner != own:
+                status = f"{owner}(raw{self.scope.passed(self.point.limit_arguments)})"
         body = ("(void)raw;", f"return {status};") if status == "FIELDSCRIBE_OK" else (f"return {status};",)
         return Function(function(STATUS, f"{self.name}_check", parameters, *body))
 

@@ -10,6 +10,9 @@ if TYPE_CHECKING:
 WIDTH = 120
 """No line is longer."""
 
+_LAST = 100
+"""Behind a bracket a line is broken only where nothing else is left."""
+
 
 def function(head: str, name: str, parameters: Sequence[str], *statements: str) -> str:
     """A function whose body is one or two statements."""
@@ -62,7 +65,9 @@ def _places(statement: str) -> Iterable[tuple[int, int]]:
         if quoted:
             continue
         depth += (character in "([{") - (character in ")]}")
-        if character == "(" or (character == "," and statement[at + 1 : at + 2] == " "):
+        if character == "," and statement[at + 1 : at + 2] == " ":
             yield depth, at + 1
+        elif character == "(":
+            yield depth + _LAST, at + 1
         elif statement.startswith((" ? ", " : ", " || ", " && "), at):
             yield depth, at

@@ -46,7 +46,8 @@ def limit(bound: Limit, scope: Scope, *, is_low: bool) -> str:
     tests = [_is_no_code(point, *band, scope) for point, codes in bound.unless for band in codes]
     if not tests:
         return text
-    return f"({' && '.join(tests)}) ? {text} : fieldscribe_whole_of({bare(start)})"
+    applies = tests[0] if len(tests) == 1 else f"({' && '.join(tests)})"
+    return f"{applies} ? {text} : fieldscribe_whole_of({bare(start)})"
 
 
 def _bare_limit(rule: Linear, scope: Scope) -> str:
