@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 from pathlib import Path
 
@@ -64,10 +65,12 @@ def test_a_planted_bug_is_found(family: str, tmp_path: Path) -> None:
     for path in RUNTIME.glob("fieldscribe*.h"):
         shutil.copy(path, tmp_path)
     header = header_of(family, tmp_path)
-    start = f" fieldscribe_{'' if family == 'words' else f'{family}_'}{function}("
-    before, name, after = header.read_text("utf-8").rpartition(start)
+    start = rf"\bfieldscribe_{'' if family == 'words' else f'{family}_'}{function}\([^;{{}}]*\)\n\{{"
+    text = header.read_text("utf-8")
+    [begin] = [found.end() for found in re.finditer(start, text)]
+    before, after = text[:begin], text[begin:]
     assert right in after
-    header.write_text(before + name + after.replace(right, wrong, 1), "utf-8")
+    header.write_text(before + after.replace(right, wrong, 1), "utf-8")
     proof = prove(family, harness, "x86_64", tmp_path)
     assert proof.alarms
     assert any("out of bounds" in line for line in alarm_lines(proof.said))
