@@ -24,7 +24,7 @@ from toolchains import tool
 HERE = Path(__file__).parent / "proofs"
 
 PLANTED = {
-    "words": ("layout_store", "at < layout->words; ++at", "at <= layout->words; ++at", "layout_store"),
+    "words": ("take_text", "at < text->words; ++at", "at <= text->words; ++at", "take_text"),
     "modbus": ("crc", "at < length; ++at", "at <= length; ++at", "crc"),
     "can": ("listen", "at < fieldscribe_can_slots(telegram)", "at <= fieldscribe_can_slots(telegram)", "listen"),
     "uss": ("assemble", "at < head_bytes; ++at", "at <= head_bytes; ++at", "assemble__words"),
