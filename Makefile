@@ -21,7 +21,7 @@ check:              ## validate the descriptions, and say what in generated/ is 
 	$(FIELDSCRIBE) check descriptions
 	$(FIELDSCRIBE) generate descriptions --out generated --check
 
-bench:              ## measure the compiler as whole processes and print a table
+bench:              ## measure the compiler as whole processes, and generated Python beside cantools
 	@sh generator/setup.sh tests
 	$(PYTHON) tests/bench/bench.py
 

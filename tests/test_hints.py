@@ -66,6 +66,7 @@ WRITTEN = [
     ("access: R/W", "access: rw"),
     ("access: read-only", "access: r"),
     ("type: int16", "type: s16"),
+    ("type: signed short", "type: s16"),
     ("type: INT32", "type: s32"),
     ("type: float", "type: f32"),
     ("type: real", "type: f32"),

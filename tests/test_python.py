@@ -248,7 +248,17 @@ def test_points_may_be_called_like_steps(tmp_path: Path) -> None:
             getattr(drive, name).write(number)
         assert drive.read_many("main") == {name: number for number, name in enumerate(names, 1)}
         own = {name for name in dir(drive) if not name.startswith("_") and name.islower()} - set(names)
-        assert own == {"forget", "point", "read_at", "read_many", "transport", "unit", "variants", "write_at"}
+        assert own == {
+            "forget",
+            "layouts",
+            "point",
+            "read_at",
+            "read_many",
+            "transport",
+            "unit",
+            "variants",
+            "write_at",
+        }
 
 
 def test_a_factor_that_needs_a_variant_says_so(package: Any, slave: Slave) -> None:
@@ -401,6 +411,25 @@ def test_old_names_warn(package: Any, drive: Any) -> None:
     assert "main_frequency" not in package.SampleDrive.POINTS
 
 
+def test_errata_are_ids_of_those_that_change_a_fact(tmp_path: Path) -> None:
+    device = sample_device()
+    wire = replace(device.errata[0], facts=("wire",))
+    points = (point("one", 1, errata=("a020_wire", "note")), point("two", 2, errata=("note",)))
+    made = replace(sample_device(points), errata=(wire, replace(wire, id="note", facts=())), blocks={}, id="erred")
+    text = (write_package(made, tmp_path) / "erred" / "points.py").read_text("utf-8")
+    assert text.count("Errata:") == 1
+    assert '\n\n    Errata: a020_wire.\n    """' in text
+    assert "Hex is right" not in text
+    assert "wire 4137" not in text
+
+
+def test_what_is_documented_only_is_said_once(package: Any, folder: Path) -> None:
+    text = (folder / "sample_drive" / "points.py").read_text("utf-8")
+    for name in package.SampleDrive.DOCUMENTED:
+        assert text.count(f'"{name}": Documented(') == 1
+        assert f"# {name}" not in text
+
+
 def test_names_that_are_taken(tmp_path: Path) -> None:
     taken = sorted(DEVICE_MEMBERS | HELPERS | {"class", "def", "print_", "match"} - {"print_"})
     points = [point(name, number) for number, name in enumerate(taken)]
@@ -477,22 +506,41 @@ def test_generated_code_is_formatted(folder: Path) -> None:
 MISUSE = """
 from sample_drive import FrequencySource, SampleDrive, SampleDriveAsync
 from typing import assert_type
-from fieldscribe_runtime import Field, ReadOnly, Special, Transport
+from fieldscribe_runtime import Field, ReadOnly, ReadWrite, Special, Transport
 from sample_drive import StatusWord, StatusWordMode
 
 def words() -> None:
     assert_type(SampleDrive.status_word, ReadOnly[StatusWord])
     assert_type(SampleDrive.status_word.decode(1), StatusWord)
     assert_type(StatusWord(1).ready, bool)
-    assert_type(StatusWord(1).mode, StatusWordMode | int)
+    assert_type(StatusWord(1).mode, StatusWordMode)
     assert_type(Field(2, 3).__get__(StatusWord(1), None), int)
     wrong: str = StatusWord(1).ready  # E: assignment
+
+def enums(drive: SampleDrive) -> None:
+    assert_type(SampleDrive.frequency_source, ReadWrite[FrequencySource, FrequencySource])
+    assert_type(SampleDrive.frequency_source.decode(77), FrequencySource)
+    assert_type(drive.frequency_source.read(), FrequencySource)
+    assert_type(drive.frequency_source.read().is_named, bool)
+    drive.frequency_source.write(FrequencySource.KEYPAD)
+    drive.frequency_source.write(FrequencySource(77))
+    drive.frequency_source.write_raw(77)
+    drive.frequency_source.write(77)  # E: arg-type
+    drive.frequency_source.write(StatusWordMode.STOP)  # E: arg-type
+    SampleDrive.frequency_source.encode(1)  # E: arg-type
+    drive.frequency_source.write_raw("keypad")  # E: arg-type
+    level: int = drive.frequency_source.read()
+    mode: StatusWordMode = drive.frequency_source.read()  # E: assignment
+
+def names(drive: SampleDrive) -> None:
+    drive.point("A020").write(drive.point("base_frequency").read())
+    data: bytes = SampleDrive.layouts("main")[0].encode(SampleDrive.layouts("main")[0].decode(b""))
+    drive.point(0x1028)  # E: arg-type
 
 def use(transport: Transport) -> None:
     drive = SampleDrive(transport, unit=5, voltage_class="400V")
     frequency: float = drive.base_frequency.read()
     drive.base_frequency.write(frequency)
-    source: FrequencySource | int = drive.frequency_source.read()
     temperature: float | Special = drive.temperature.read()
     if isinstance(temperature, Special):
         reason: str = temperature.name
@@ -513,6 +561,9 @@ def use(transport: Transport) -> None:
 async def use_async(drive: SampleDriveAsync) -> None:
     frequency: float = await drive.base_frequency.read()
     level: int = await drive.dc_level.read()
+    source: FrequencySource = await drive.frequency_source.read()
+    await drive.frequency_source.write(1)  # E: arg-type
+    await drive.point("A020").write(await drive.point("A020").read())
     await drive.running.write(True)  # E: attr-defined
 """
 
@@ -546,7 +597,7 @@ def test_units_and_framings_that_the_device_cannot_have_are_refused(package: Any
             assert (failure.status, str(failure)) == ("bad_unit", f"the device can be unit 1 to 32, not {unit!r}")
         assert made(Slave(), 0).unit == 0  # all units
         assert error(made, Slave("ascii"), 5).status == "bad_framing"
-        limited = type("Limited", (made,), {"PROFILE": replace(made.PROFILE, framings=("rtu",))})
+        limited = type("Limited", (made,), {"PROFILE": made.PROFILE.replaced(framings=("rtu",))})
         failure = error(limited, Slave("tcp"), 5)
         assert (failure.status, str(failure)) == ("bad_framing", "the device speaks rtu, not 'tcp'")
         assert limited(Slave(), 5).unit == 5

@@ -429,7 +429,8 @@ TYPED = """
 from collections.abc import Sequence
 from typing import assert_type
 from sample_can import CommandWord, Delay, SampleCan, SampleCanAsync, Switch
-from fieldscribe_runtime.can import CanTransport, Frame
+from fieldscribe_runtime import Layout, Value
+from fieldscribe_runtime.can import CanTransport, Decoder, Frame
 
 class Silent:
     def send(self, frame: Frame) -> None: ...
@@ -440,8 +441,11 @@ def use(transport: CanTransport) -> None:
     mpu = SampleCan(transport, 5, voltage="400V")
     assert_type(mpu.fault_text.read(), str)
     mpu.fault_text.write("Oil")
-    assert_type(mpu.delays.read(), tuple[Delay | int, ...])
-    mpu.delays.write((1, Delay.STEP_2, 5, 0))
+    assert_type(mpu.delays.read(), tuple[Delay, ...])
+    mpu.delays.write((Delay(1), Delay.STEP_2, Delay(5), Delay(0)))
+    mpu.delays.write((1, Delay.STEP_2, 5, 0))  # E: arg-type
+    assert_type(Decoder(SampleCan, "measurements", 5).decode(Frame(0x325, bytes(8))), dict[str, Value])
+    assert_type(SampleCan.layouts("measurements"), tuple[Layout, ...])
     assert_type(mpu.level.read(), int)
     assert_type(mpu.frequency.read(), float)
     assert_type(mpu.take(Frame(0x325, bytes(8))), bool)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import pytest
@@ -148,5 +147,5 @@ def test_what_is_never_written_is_refused_before_any_traffic(package: Any) -> No
     assert error(cascade.write_raw, 50).status == "special"
     for call in (cascade.write, cascade.write_raw):
         assert error(call, "off").status == "wrong_type"
-    assert error(cascade.write, replace(cascade.special.off, name="on")).status == "unknown_value"
+    assert error(cascade.write, cascade.special.off.replaced(name="on")).status == "unknown_value"
     assert slave.log == []

@@ -537,6 +537,9 @@ def use(transport: UssTransport) -> None:
     drive.main_setpoint.write(40.0)
     drive.control_word.write(ControlWord.START | ControlWord.VALID)
     drive.control_word.write(ControlWord.of(start=True))
+    drive.control_word.write(StatusWord.START)  # E: arg-type
+    drive.control_word.write(5)  # E: arg-type
+    drive.control_word.write_raw(0x0401)
     assert_type(ControlWord.of(), ControlWord)
     ControlWord.of(begin=True)  # E: call-arg
     ControlWord.of(start="yes")  # E: arg-type

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
         ("mW", "milliwatt", "W", Fraction(1, 1000)),
         ("kVAh", "kilovolt-ampere-hour", "VAh", Fraction(1000)),
         ("µA", "microampere", "A", Fraction(1, 10**6)),
+        ("mH", "millihenry", "H", Fraction(1, 1000)),
         ("hPa", "hectopascal", "Pa", Fraction(100)),
         ("kg", "kilogram", "g", Fraction(1000)),
         ("ppm", "part per million", "ppm", Fraction(1)),
@@ -58,7 +59,9 @@ def test_what_is_spelled_otherwise_is_named(typed: str, hint: str) -> None:
     assert unit_hint(typed, ()) == hint
 
 
-@pytest.mark.parametrize("typed", ["PW", "mh", "kmin", "rmp", "furlong", "MM", "kva/h", "ppt", "mbat", "MBAR", "Wj"])
+@pytest.mark.parametrize(
+    "typed", ["PW", "M", "G", "D", "mh", "kmin", "rmp", "furlong", "MM", "kva/h", "ppt", "mbat", "MBAR", "Wj"]
+)
 def test_nothing_is_suggested_that_only_looks_alike(typed: str) -> None:
     assert unit_hint(typed, ()).startswith("declare it under `units`: ")
 

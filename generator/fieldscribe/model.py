@@ -415,6 +415,8 @@ class Erratum:
     taken: str
     why: str
     certainty: str
+    facts: tuple[str, ...] = ()
+    """The keys of what is printed, where that is given as facts and not in words alone."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,4 +1,4 @@
-"""Measures the compiler as whole processes: medians of several runs, wall time, peak memory, points per second.
+"""Measures the compiler as whole processes, and generated Python beside cantools: medians of several runs.
 
 .venv/bin/python tests/bench/bench.py [--runs 5] [--sizes 100,1000,10000]
 """
@@ -16,6 +16,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from python_bench import print_python
 from synthetic import write_device
 
 if TYPE_CHECKING:
@@ -92,6 +93,7 @@ def main() -> None:
         bench_device("all devices", ROOT / "descriptions", sum(counts.values()), arguments.runs, scratch)
         for size in map(int, arguments.sizes.split(",")):
             bench_device(f"synthetic_{size}", write_device(scratch, size), size, arguments.runs, scratch)
+    print_python(3 * arguments.runs)
 
 
 def _points(description: Path) -> int:

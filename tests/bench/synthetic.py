@@ -55,6 +55,44 @@ KINDS = (
 PRINTED = "  printed: {{modicon: [{modicon:04X}h, {modicon}], wire: [{address:04X}h, {address}]}}\n"
 GROUP_SIZE = 500
 
+FRAME = """fieldscribe: 1
+device: four_points
+version: 1.0.0
+vendor: Nobody
+model: Four
+title: {en: Four points of a frame}
+family: modbus
+documents: {manual: {title: Four, language: en}}
+parts: [status.yaml]
+bus:
+  framings: [rtu]
+  units: 1..32
+  broadcast: 0
+  functions:
+    03h: {name: read_holding_registers, max: 32}
+    10h: {name: write_registers, max: 32}
+"""
+FRAME_POINTS = """group: status
+title: {en: Status}
+space: holding
+access: rw
+source: {document: manual, section: "1"}
+points:
+- {name: out_freq, title: {en: Output frequency}, at: 0, type: s16, scale: raw = value * 256, unit: Hz, line: 1}
+- {name: out_volt, title: {en: Output voltage}, at: 1, type: u16, scale: raw = value * 50, unit: V, line: 2}
+- {name: set_freq, title: {en: Setpoint frequency}, at: 2, type: s16, scale: raw = value * 256, unit: Hz, line: 3}
+- {name: link_volt, title: {en: Link voltage}, at: 3, type: u16, scale: raw = value * 50, unit: V, line: 4}
+"""
+
+
+def write_frame_device(folder: Path) -> Path:
+    """A device with four scaled points side by side, below `folder`; its folder."""
+    place = folder / "four_points"
+    place.mkdir(parents=True, exist_ok=True)
+    (place / "device.yaml").write_text(FRAME, "utf-8")
+    (place / "status.yaml").write_text(FRAME_POINTS, "utf-8")
+    return place
+
 
 def write_device(folder: Path, count: int) -> Path:
     """A device with `count` points below `folder`; its folder."""

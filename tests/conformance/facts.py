@@ -72,17 +72,15 @@ def _attribute(package: Package, name: str) -> Any:
 
 
 def alias(package: Package, vector: Vector) -> bool:
-    """An old name gives the same point, and warns with both names."""
+    """An old name gives the same point, also as text, and warns with both names."""
     point = package.point(vector).facts
     suffix = point.item.removeprefix(point.name)  # points of variants share their names, also the old ones
     old, new = (_attribute(package, vector[key].removesuffix(suffix)) for key in ("old", "new"))
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
-        getattr(package.device, old.old_name)
+        same = getattr(package.device, old.name) is new is attributes(package.device)[old.new_name]
     told = [str(one.message) for one in caught if one.category is DeprecationWarning and one.filename == __file__]
-    same = {**vars(old), "new_name": None, "old_name": None} == {**vars(new), "new_name": None, "old_name": None}
-    names = f"{old.old_name} is now called {old.new_name}"
-    return same and new is attributes(package.device)[old.new_name] and told == [names]
+    return same and told == [f"{old.name} is now called {new.name}"] and package.device.OLD_NAMES[old.name] is old
 
 
 def left_out(package: Package, vector: Vector) -> bool:

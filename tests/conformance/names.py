@@ -14,16 +14,18 @@ if TYPE_CHECKING:
 
 
 def name(package: Package, vector: Vector) -> bool:
-    """The name of a number, and its member: an integer that equals the number."""
+    """The name of a number, and its member: an integer of the enum that equals the number, named or not."""
     point, number = package.point(vector), vector["raw"]
+    named = vector["name"] is not None
     if not issubclass(point.names, enum.IntEnum) or point.name_of(number) != vector["name"]:
         return False
-    if vector["name"] is None:
-        return number not in list(point.names)
-    member = point.names[vector["name"].upper()]
+    member = point.names[vector["name"].upper()] if named else point.names(number)
+    if (member.is_named, str(member)) != (named, vector["name"] if named else str(number)):
+        return False
     decoded = point.decode(number) if hasattr(point, "decode") else member
     found = decoded[-1] if isinstance(decoded, tuple) else decoded
-    return bool(member.name.lower() == vector["name"] and member == number and found in (member, number))
+    same = isinstance(found, package.runtime.Special) or (type(found) is point.names and found == number)
+    return bool(member == number and hash(member) == hash(number) and same and (number in list(point.names)) == named)
 
 
 def special(package: Package, vector: Vector) -> bool:

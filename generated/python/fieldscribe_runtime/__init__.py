@@ -9,6 +9,7 @@ from .commands import Command
 from .descriptors import ByVariant, ReadOnly, ReadWrite, WriteOnly, renamed
 from .device import AnyAsyncDevice, AnyDevice
 from .errors import (
+    AbsentError,
     AccessError,
     CodecError,
     EchoError,
@@ -58,6 +59,7 @@ from .forms import (
     Integer,
     Named,
 )
+from .layouts import Layout
 from .modbus import (
     AsyncModbusDevice,
     AsyncTransport,
@@ -66,6 +68,7 @@ from .modbus import (
     Profile,
     Transport,
 )
+from .named import NamedNumber
 from .points import Point
 from .quantities import Floating, Scaled
 from .rules import Case, Factor, Limit, Rule
@@ -90,6 +93,7 @@ __all__ = [
     "U16",
     "U32",
     "U64",
+    "AbsentError",
     "AccessError",
     "AnyAsyncDevice",
     "AnyDevice",
@@ -116,10 +120,12 @@ __all__ = [
     "Floating",
     "FrameError",
     "Integer",
+    "Layout",
     "Limit",
     "MissingRawError",
     "ModbusDevice",
     "Named",
+    "NamedNumber",
     "NoCaseError",
     "NoReplyError",
     "NotANumberError",

@@ -23,6 +23,9 @@ class Command:
     def __set_name__(self, owner: type, name: str) -> None:
         self.name = name
 
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} {self.name}: {self.at}>"
+
     @overload
     def __get__(self, device: None, owner: object) -> Command: ...
     @overload

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import threading
 from abc import abstractmethod
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -15,7 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
     from .descriptors import PointAttribute
-    from .handles import AsyncHandle, Handle
+    from .handles import AsyncHandle, AsyncReadWriteHandle, Handle, ReadWriteHandle
     from .points import Point
 
 T = TypeVar("T")
@@ -27,6 +26,7 @@ class AnyDevice(Session):
     def __init__(self, unit: int, variants: Mapping[str, str | None]) -> None:
         super().__init__(unit, variants)
         self._lock = threading.Lock()
+        self._handles: dict[Point, Handle] = {}
 
     @abstractmethod
     def _carry(self, request: Any) -> Any:
@@ -34,8 +34,19 @@ class AnyDevice(Session):
 
     def _bound(self, point: PointAttribute[Any, Any]) -> Handle:
         """The point, bound to this device."""
-        self._require(point)
-        return point.handle(point, self)
+        if (handle := self._handles.get(point)) is None:
+            self._require(point)
+            handle = self._handles[point] = point.handle(point, self)
+        return handle
+
+    def point(self, what: str) -> ReadWriteHandle[Any, Any]:
+        """A point by its name, old name or code (`P0731[1]` is one element of an array), as its attribute is.
+
+        It has the methods that the point has: one that is only read has no `write`. Raises AccessError.
+        """
+        found: Any = self._bound(self._resolved(what))
+        handle: ReadWriteHandle[Any, Any] = found
+        return handle
 
     def _bound_command(self, command: Command) -> CommandHandle:
         """The command, bound to this device."""
@@ -68,8 +79,11 @@ class AnyAsyncDevice(Session):
     """A device of any family, asynchronously. One task at a time talks to it; see `AnyDevice` for shared transports."""
 
     def __init__(self, unit: int, variants: Mapping[str, str | None]) -> None:
+        import asyncio  # costs more than all of this package, so it is imported where it is needed
+
         super().__init__(unit, variants)
         self._lock = asyncio.Lock()
+        self._handles: dict[Point, AsyncHandle] = {}
 
     @abstractmethod
     async def _carry(self, request: Any) -> Any:
@@ -77,8 +91,19 @@ class AnyAsyncDevice(Session):
 
     def _bound(self, point: PointAttribute[Any, Any]) -> AsyncHandle:
         """The point, bound to this device."""
-        self._require(point)
-        return point.async_handle(point, self)
+        if (handle := self._handles.get(point)) is None:
+            self._require(point)
+            handle = self._handles[point] = point.async_handle(point, self)
+        return handle
+
+    def point(self, what: str) -> AsyncReadWriteHandle[Any, Any]:
+        """A point by its name, old name or code (`P0731[1]` is one element of an array), as its attribute is.
+
+        It has the methods that the point has: one that is only read has no `write`. Raises AccessError.
+        """
+        found: Any = self._bound(self._resolved(what))
+        handle: AsyncReadWriteHandle[Any, Any] = found
+        return handle
 
     def _bound_command(self, command: Command) -> AsyncCommandHandle:
         """The command, bound to this device."""

@@ -3,17 +3,38 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, NotRequired, TypedDict
+from typing import TYPE_CHECKING
+
+from .records import Record
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
+    from typing import NotRequired, TypedDict, Unpack
 
     from .forms import Allowed
 
+    class FactArguments(TypedDict):
+        """What generated code says of a point beside its form."""
 
-@dataclass(frozen=True, slots=True)
-class Place:
+        at: Place
+        write_at: NotRequired[Place]
+        bits: NotRequired[tuple[int, int]]
+        group: NotRequired[str]
+        code: NotRequired[str]
+        references: NotRequired[Mapping[str, int | str]]
+        unit: NotRequired[str]
+        allowed: NotRequired[Allowed]
+        default: NotRequired[float]
+        fixed: NotRequired[tuple[int, int]]
+        changes: NotRequired[str]
+        changes_with: NotRequired[tuple[str, ...]]
+        variant: NotRequired[tuple[str, str]]
+        only_for: NotRequired[tuple[str, tuple[str, ...]]]
+        uncertain: NotRequired[bool]
+        name: NotRequired[str]
+
+
+class Place(Record):
     """Where a point is: its space, its addresses (the high part first), and a function if it is not the usual one.
 
     An element of an array has its `index`, words of a telegram the name of that `telegram`.
@@ -24,6 +45,14 @@ class Place:
     function: int | None = None
     index: int | None = None
     telegram: str | None = None
+
+    def __str__(self) -> str:
+        """The place as manuals print it: numbers of parameters and words in decimal, other addresses not."""
+        if self.telegram is not None:
+            return f"{self.telegram} word {', '.join(map(str, self.addresses))}"
+        notation = str if self.space == "parameter" else "0x{:04X}".format
+        index = "" if self.index is None else f" index {self.index}"
+        return f"{self.space} {', '.join(map(notation, self.addresses))}{index}"
 
     @property
     def address(self) -> int:
@@ -42,8 +71,7 @@ class Place:
         return same and same_element and not set(self.addresses).isdisjoint(other.addresses)
 
 
-@dataclass(frozen=True, slots=True)
-class Documented:
+class Documented(Record):
     """A point that is documented only: why, and where its words are if a master can reach them."""
 
     reason: str
@@ -58,8 +86,7 @@ class Documented:
         return f"{self.reason}; `read_at` and `write_at` reach its words at {where}{index}"
 
 
-@dataclass(frozen=True, slots=True)
-class Telegram:
+class Telegram(Record):
     """A layout of words that travel together: `request` to the device, `response` or `cyclic` from it.
 
     `message` names the message whose frames carry it, where frames of their own do.
@@ -101,28 +128,6 @@ def telegram(name: str, *addresses: int, index: int | None = None) -> Place:
     return Place("telegram", addresses, None, index, name)
 
 
-class FactArguments(TypedDict):
-    """What generated code says of a point beside its form."""
-
-    at: Place
-    write_at: NotRequired[Place]
-    bits: NotRequired[tuple[int, int]]
-    group: NotRequired[str]
-    code: NotRequired[str]
-    references: NotRequired[Mapping[str, int | str]]
-    unit: NotRequired[str]
-    allowed: NotRequired[Allowed]
-    default: NotRequired[float]
-    fixed: NotRequired[tuple[int, int]]
-    changes: NotRequired[str]
-    changes_with: NotRequired[tuple[str, ...]]
-    variant: NotRequired[tuple[str, str]]
-    only_for: NotRequired[tuple[str, tuple[str, ...]]]
-    uncertain: NotRequired[bool]
-    name: NotRequired[str]
-
-
-@dataclass(slots=True, kw_only=True)
 class Facts:
     """What a description says of a point. `item` is what the attribute is called, `name` leaves out the variant.
 
@@ -137,7 +142,7 @@ class Facts:
     bits: tuple[int, int] | None = None
     group: str = ""
     code: str | None = None
-    references: Mapping[str, int | str] = field(default_factory=dict)
+    references: Mapping[str, int | str] = {}
     unit: str = ""
     allowed: Allowed | None = None
     default: float | None = None
@@ -149,3 +154,13 @@ class Facts:
     uncertain: bool = False
     name: str = ""
     item: str = ""
+
+    def __init__(self, **facts: Unpack[FactArguments]) -> None:
+        self.__dict__.update(facts)
+
+    @property
+    def where(self) -> str:
+        """The place for people: on the wire, which bits of the word, and the manual's other numberings."""
+        bits = "" if self.bits is None else f" bits {self.bits[0]}..{self.bits[1]}"
+        printed = ", ".join(f"{key} {number}" for key, number in self.references.items())
+        return f"{self.at}{bits} ({printed})" if printed else f"{self.at}{bits}"

@@ -6,8 +6,7 @@ from __future__ import annotations
 import enum
 import operator
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from .errors import (
     CodecError,
@@ -15,23 +14,27 @@ from .errors import (
     UnknownValueError,
     WrongTypeError,
 )
-from .rules import NO_RAWS, Bound, Raws, high_end, low_end
+from .fast import chosen, itself, listed, same
+from .records import Record
+from .rules import Bound, Raws, high_end, low_end
 from .special import NO_CODES
 
 if TYPE_CHECKING:
+    from .fast import Way
+    from .named import NamedNumber
     from .special import Codes
 
 R_co = TypeVar("R_co", covariant=True)
 W_contra = TypeVar("W_contra", contravariant=True)
-E = TypeVar("E", bound=enum.IntEnum)
+E = TypeVar("E", bound="NamedNumber")
 F = TypeVar("F", bound=enum.IntFlag)
+T = TypeVar("T")
 
 Allowed = tuple[tuple[Bound, Bound], ...]
 """Closed intervals of raw numbers that may be written."""
 
 
-@dataclass(frozen=True, slots=True)
-class Type:
+class Type(Record):
     """A wire type: how many bits, and whether they are two's complement."""
 
     bits: int
@@ -95,6 +98,20 @@ class Form(Decodes[R_co], Encodes[W_contra], ABC, Generic[R_co, W_contra]):
     def converted(self, value: W_contra, raws: Raws) -> int | None:
         """The raw number for a value, whether it may be written or not; None where there is none."""
 
+    def quick_decode(self, low: int, high: int, slow: Way) -> Way:
+        """A function that decodes raw numbers from `low` to `high` quickly, and leaves the rest to the slow way."""
+        del low, high
+        return slow
+
+    def sure_decode(self, low: int, high: int, slow: Way) -> Way:
+        """The same for what is known to be a number from `low` to `high`."""
+        return self.quick_decode(low, high, slow)
+
+    def quick_encode(self, allowed: Allowed, slow: Way) -> Way:
+        """A function that encodes usual values quickly, and leaves the rest to the slow way."""
+        del allowed
+        return slow
+
     def encode(self, value: W_contra, allowed: Allowed, raws: Raws) -> int | None:
         """The raw number for a value; None if it may not be written."""
         raw = self.converted(value, raws)
@@ -138,11 +155,33 @@ class Form(Decodes[R_co], Encodes[W_contra], ABC, Generic[R_co, W_contra]):
         return None
 
 
+def fixed_ends(allowed: Allowed) -> tuple[int, int] | None:
+    """The ends of what is allowed, where that is one interval that no other point moves."""
+    if len(allowed) != 1:
+        return None
+    low, high = allowed[0]
+    return (low, high) if isinstance(low, int) and isinstance(high, int) else None
+
+
 class Integer(Form[int, int]):
     """The raw number is the value."""
 
     def __init__(self, wire: Type) -> None:
         self.wire = wire
+
+    def quick_decode(self, low: int, high: int, slow: Way) -> Way:
+        """The raw number itself."""
+        return same(low, high, slow)
+
+    def sure_decode(self, low: int, high: int, slow: Way) -> Way:
+        """The raw number itself, whatever it is."""
+        del low, high, slow
+        return itself
+
+    def quick_encode(self, allowed: Allowed, slow: Way) -> Way:
+        """The value itself."""
+        ends = fixed_ends(allowed)
+        return same(*ends, slow) if ends else slow
 
     def decode(self, raw: int, raws: Raws) -> int:
         """The raw number itself."""
@@ -158,6 +197,14 @@ class Bit(Form[bool, bool]):
 
     wire = BIT
 
+    def quick_decode(self, low: int, high: int, slow: Way) -> Way:
+        """Both states as they are listed."""
+        return listed({0: False, 1: True}, slow)
+
+    def quick_encode(self, allowed: Allowed, slow: Way) -> Way:
+        """Both states as they are listed, if both may be written."""
+        return chosen(bool, {False: 0, True: 1}, slow) if allowed == ((0, 1),) else slow
+
     def decode(self, raw: int, raws: Raws) -> bool:
         """Whether the bit is 1."""
         return bool(raw)
@@ -167,8 +214,27 @@ class Bit(Form[bool, bool]):
         return int(value) if isinstance(value, bool) else whole(value)
 
 
-class Named(Form[E | int, E | int]):
-    """An enum; numbers without a name survive as they are. `closed`: only its own numbers may be written."""
+class _Members(dict[int, T]):
+    """Members of enums by their raw numbers; those without a name are made when they come."""
+
+    def __init__(self, form: Form[T, Any], low: int, high: int) -> None:
+        self._form, self._ends = form, (low, high)
+
+    def __missing__(self, raw: int) -> T:
+        if type(raw) is not int or not self._ends[0] <= raw <= self._ends[1]:
+            raise KeyError(raw)
+        member = self._form.decode(raw, {})
+        if len(self) < _REMEMBERED:
+            self[raw] = member
+        return member
+
+
+_REMEMBERED = 4096
+"""So many members without a name are remembered for each point."""
+
+
+class Named(Form[E, E]):
+    """An enum; a number without a name is a member of it, too. `closed`: only its own numbers may be written."""
 
     names: type[E]
 
@@ -176,17 +242,28 @@ class Named(Form[E | int, E | int]):
         self.wire = wire
         self.names = names
         self.closed = closed
+        self._known = {int(member): member for member in names}
         if closed:
             self.refused = UnknownValueError
 
-    def decode(self, raw: int, raws: Raws) -> E | int:
-        """The member, or the bare number where there is none."""
-        try:
-            return self.names(raw)
-        except ValueError:
-            return raw
+    def quick_decode(self, low: int, high: int, slow: Way) -> Way:
+        """The members as they are listed, and others as they came before."""
+        return listed(_Members(self, low, high), slow)
 
-    def converted(self, value: E | int, raws: Raws) -> int | None:
+    def quick_encode(self, allowed: Allowed, slow: Way) -> Way:
+        """The members that may be written, as they are listed."""
+        ends = fixed_ends(allowed)
+        if ends is None:
+            return slow
+        return chosen(
+            self.names, {member: raw for raw, member in self._known.items() if ends[0] <= raw <= ends[1]}, slow
+        )
+
+    def decode(self, raw: int, raws: Raws) -> E:
+        """The member, also for a number without a name."""
+        return self.names(operator.index(raw))
+
+    def converted(self, value: E, raws: Raws) -> int | None:
         """The member's number; a member of another enum raises UnknownValueError."""
         if isinstance(value, enum.Enum) and not isinstance(value, self.names):
             raise UnknownValueError(f"{value!r} is no {self.names.__name__}")
@@ -194,22 +271,22 @@ class Named(Form[E | int, E | int]):
 
     def checked(self, raw: int, allowed: Allowed, raws: Raws) -> int | None:
         """The same number if it is named (for a closed enum) and in range."""
-        if self.closed and not isinstance(self.decode(raw, raws), self.names):
+        if self.closed and raw not in self._known:
             return None
         return super().checked(raw, allowed, raws)
 
     def limits(self, width: int) -> tuple[int, int]:
         """The ends of a closed enum, else of the type."""
-        return (min(self.names).value, max(self.names).value) if self.closed else super().limits(width)
+        return (min(self._known), max(self._known)) if self.closed else super().limits(width)
 
     def name_of(self, raw: int) -> str | None:
         """The member's name in lower case."""
-        value = self.decode(raw, NO_RAWS)
-        return value.name.lower() if isinstance(value, self.names) else None
+        member = self._known.get(raw)
+        return None if member is None else member.name.lower()
 
     def choices(self, unit: str) -> str | None:
         """The named numbers of a closed enum."""
-        named = ", ".join(f"{entry.value} {entry.name.lower()}" for entry in self.names)
+        named = ", ".join(f"{raw} {member.name.lower()}" for raw, member in self._known.items())
         return f"none of {named}" if self.closed else None
 
 
@@ -221,6 +298,10 @@ class Flags(Form[F, F]):
     def __init__(self, wire: Type, names: type[F]) -> None:
         self.wire = wire
         self.names = names
+
+    def quick_decode(self, low: int, high: int, slow: Way) -> Way:
+        """Words that have come before, as they were then."""
+        return listed(_Members(self, low, high), slow)
 
     def decode(self, raw: int, raws: Raws) -> F:
         """All bits of the word."""

@@ -22,6 +22,9 @@ class Handle(Point):
         self.facts = point.facts
         self._device = device
 
+    def __repr__(self) -> str:
+        return f"{super().__repr__()[:-1]} of {self._device!r}>"
+
 
 class AsyncHandle(Point):
     """A point of an async device."""
@@ -30,6 +33,9 @@ class AsyncHandle(Point):
         self._form = point._form
         self.facts = point.facts
         self._device = device
+
+    def __repr__(self) -> str:
+        return f"{super().__repr__()[:-1]} of {self._device!r}>"
 
 
 class ReadHandle(Handle, Decoding[R_co]):

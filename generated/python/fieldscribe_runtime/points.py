@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from .facts import Facts, Place
+    from .fast import Way
     from .forms import Allowed, Form, Type
     from .special import Codes
 
@@ -38,6 +39,9 @@ def _shown(value: object) -> str:
         return "a number of thousands of digits"
 
 
+_SPECIALISED = frozenset({"decode", "decoder", "encode", "encoder", "sure_decoder"})
+
+
 class Point:
     """One addressable datum. Its methods need no device; what can be read or written comes with the subclasses."""
 
@@ -48,6 +52,13 @@ class Point:
     def label(self) -> str:
         """Code and name, for messages."""
         return f"{self.facts.code} {self.facts.item}" if self.facts.code else self.facts.item
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} {self.label}: {self.facts.where}>"
+
+    def __getstate__(self) -> dict[str, Any]:
+        """What makes the point, without the functions that are specialised for it: a copy makes its own."""
+        return {name: value for name, value in self.__dict__.items() if name not in _SPECIALISED}
 
     @property
     def wire(self) -> Type:
@@ -152,6 +163,12 @@ class Point:
         return result & ~fixed | bits
 
     @property
+    def bit_field(self) -> tuple[int, int, int]:
+        """The lowest bit of the number in its word, the mask for the rest, and the sign bit (0 for none)."""
+        sign = 1 << self.width - 1 if self.wire.signed else 0
+        return self._lowest_bit, (1 << self.width) - 1, sign
+
+    @property
     def _unit(self) -> str:
         """The unit as it stands behind a number."""
         return f" {self.facts.unit}" if self.facts.unit else ""
@@ -195,6 +212,22 @@ class Decoding(Point, Generic[R_co]):
         Raises ZeroFactorError, NoCaseError, ResultOverflowError and MissingRawError, none of them without such points,
         and RangeError for what is no raw number of the point.
         """
+        quick = self.__dict__["decode"] = self.decoder  # from the first call on
+        value: R_co = quick(raw, raws)
+        return value
+
+    @cached_property
+    def decoder(self) -> Way:
+        """The function that `decode` is, specialised for this point."""
+        return self._form.quick_decode(*self._ends, self._decode)
+
+    @cached_property
+    def sure_decoder(self) -> Way:
+        """The same for what is known to be a raw number of the point; it takes `raws` by position."""
+        return self._form.sure_decode(*self._ends, self._decode)
+
+    def _decode(self, raw: int, raws: Raws = NO_RAWS) -> R_co:
+        """The same for whatever comes, and with the words of what is wrong."""
         try:
             value: R_co = self._form.decode(self._possible(raw), raws)
         except CodecError as error:
@@ -230,6 +263,17 @@ class Encoding(Point, Generic[W_contra]):
         Raises RangeError, UnknownValueError, NotANumberError, ZeroFactorError, NoCaseError and MissingRawError, and
         SpecialCodeError for a value that would be a special code.
         """
+        quick = self.__dict__["encode"] = self.encoder  # from the first call on
+        raw: int = quick(value, raws)
+        return raw
+
+    @cached_property
+    def encoder(self) -> Way:
+        """The function that `encode` is, specialised for this point."""
+        return self._form.quick_encode(self.allowed, self._encode)
+
+    def _encode(self, value: W_contra, raws: Raws = NO_RAWS) -> int:
+        """The same for whatever comes, and with the words of what is wrong."""
         self.require(value)
         try:
             raw = self._form.encode(value, self.allowed, raws)

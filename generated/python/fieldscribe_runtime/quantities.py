@@ -5,18 +5,24 @@ from __future__ import annotations
 
 import math
 import struct
+import sys
 from typing import TYPE_CHECKING, TypeVar
 
 from .errors import NotANumberError, ResultOverflowError, WrongTypeError
-from .forms import Form, whole
+from .fast import from_pattern, rounded, scaled, scaled_by, to_pattern, unchecked
+from .forms import Form, fixed_ends, whole
 from .rules import NO_RAWS, Case, Rule, chosen
 
 if TYPE_CHECKING:
+    from .fast import Way
     from .forms import Allowed, Type
     from .rules import Raws
 
 
 N = TypeVar("N", int, float)
+
+_BINARY32 = struct.Struct("<f"), struct.Struct("<I")
+_BINARY64 = struct.Struct("<d"), struct.Struct("<Q")
 
 
 def _is_nan(value: float) -> bool:
@@ -55,6 +61,31 @@ class Scaled(Form[float, float]):
         cases = (Case(None, None, rule),) if isinstance(rule, Rule) else rule
         names = [name for case in cases for name in (case.point, *(factor.point for factor in case.rule.factors))]
         self.needs = tuple(dict.fromkeys(name for name in names if name is not None))
+
+    def quick_decode(self, low: int, high: int, slow: Way) -> Way:
+        """By a scale that is fixed, or that one other point decides."""
+        if not isinstance(self.rule, Rule):
+            return slow
+        if self.most is not None:
+            low, high = max(low, -self.most), min(high, self.most)
+        if self.rule.factors:
+            return scaled_by(self.rule, low, high, slow)
+        return scaled(self.rule.line(NO_RAWS), low, high, slow) if self.rule.is_safe(NO_RAWS, low, high) else slow
+
+    def sure_decode(self, low: int, high: int, slow: Way) -> Way:
+        """By a scale that is fixed, whatever the raw number is."""
+        rule = self.rule
+        if not isinstance(rule, Rule) or rule.factors or self.most is not None or not rule.is_safe(NO_RAWS, low, high):
+            return self.quick_decode(low, high, slow)
+        return unchecked(rule.line(NO_RAWS))
+
+    def quick_encode(self, allowed: Allowed, slow: Way) -> Way:
+        """By a fixed scale into one fixed range."""
+        ends = fixed_ends(allowed)
+        if not self.encodes or ends is None or not isinstance(self.rule, Rule) or self.rule.factors:
+            return slow
+        steps = self.rule.steps()
+        return slow if steps is None else rounded(steps, *ends, slow)
 
     def _counted(self) -> int:
         """The decimals of the counts; raises WrongTypeError where there are none."""
@@ -110,22 +141,39 @@ class Floating(Form[float, float]):
     def __init__(self, wire: Type, *, units: tuple[tuple[float, float], ...] = ()) -> None:
         self.wire = wire
         self.units = units
-        self._pack, self._word = ("<f", "<I") if wire.bits == 32 else ("<d", "<Q")
         self._limits = tuple((self._nearest(low), self._nearest(high)) for low, high in units)
+
+    @property
+    def _structs(self) -> tuple[struct.Struct, struct.Struct]:
+        """What takes the bits for a number, and for an integer."""
+        return _BINARY32 if self.wire.bits == 32 else _BINARY64
+
+    def quick_decode(self, low: int, high: int, slow: Way) -> Way:
+        """The number that the bits are."""
+        return from_pattern(*self._structs, high, slow)
+
+    def quick_encode(self, allowed: Allowed, slow: Way) -> Way:
+        """The nearest number of the type within one pair of limits, or any finite one."""
+        if len(self._limits) > 1:
+            return slow
+        low, high = self._limits[0] if self._limits else (-sys.float_info.max, sys.float_info.max)
+        return to_pattern(*self._structs, low, high, slow)
 
     def decode(self, raw: int, raws: Raws) -> float:
         """The number that the bits are."""
-        value: float = struct.unpack(self._pack, struct.pack(self._word, raw))[0]
+        number, word = self._structs
+        value: float = number.unpack(word.pack(raw))[0]
         return value
 
     def converted(self, value: float, raws: Raws) -> int | None:
         """The nearest number of the type, ties to even, if that is finite."""
-        number = self._nearest(value)
-        if math.isnan(number):
+        nearest = self._nearest(value)
+        if math.isnan(nearest):
             raise NotANumberError("the value is NaN")
-        if math.isinf(number):
+        if math.isinf(nearest):
             return None
-        pattern: int = struct.unpack(self._word, struct.pack(self._pack, number))[0]
+        number, word = self._structs
+        pattern: int = word.unpack(number.pack(nearest))[0]
         return pattern
 
     def _nearest(self, value: float) -> float:
@@ -133,10 +181,11 @@ class Floating(Form[float, float]):
         try:
             if _is_nan(value):
                 return math.nan
-            number: float = struct.unpack(self._pack, struct.pack(self._pack, value))[0]
+            number, _ = self._structs
+            nearest: float = number.unpack(number.pack(value))[0]
         except OverflowError:
             return math.inf if value > 0 else -math.inf
-        return number
+        return nearest
 
     def _fits(self, number: float) -> bool:
         if math.isnan(number):

@@ -12,14 +12,16 @@ from collections.abc import Generator, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
-from .descriptors import PointAttribute
+from .descriptors import PointAttribute, Renamed
 from .errors import (
+    AbsentError,
     AccessError,
     EchoError,
     FrameError,
     NoReplyError,
     RequestError,
 )
+from .lookup import find, nearest
 from .points import Decoding, Encoding, Point
 from .rules import NO_RAWS
 from .special import Special
@@ -55,6 +57,14 @@ def check_unit(unit: int, units: tuple[int, int]) -> None:
         raise RequestError("bad_unit", f"the device can be unit {low} to {high}, not {unit!r}")
 
 
+def exists(point: Point, variants: Mapping[str, str | None]) -> bool:
+    """Whether the variants that are told have a point; one of a variant needs it told."""
+    axis, values = point.facts.only_for or ("", ())
+    left = variants.get(axis) in (None, *values)
+    variant = point.facts.variant
+    return left and (variant is None or variants.get(variant[0]) == variant[1])
+
+
 class PointTable:
     """A device's points, with what its bus needs to know."""
 
@@ -65,20 +75,27 @@ class PointTable:
     DOCUMENTED: ClassVar[Mapping[str, Documented]] = {}
     """Points that are no attributes, by name, with the reason."""
 
+    OLD_NAMES: ClassVar[Mapping[str, Renamed]] = {}
+    """What points were called before."""
+
     if not TYPE_CHECKING:  # type checkers report names that do not exist
 
         def __getattr__(self, name: str) -> Any:
-            """Say why a point that the manual has is no attribute."""
-            found = type(self).DOCUMENTED.get(name)
+            """Say why a point that the manual has is no attribute, or not of this device."""
+            found = next((vars(kind)[name] for kind in type(self).__mro__ if name in vars(kind)), None)
+            if hasattr(found, "__get__"):
+                return found.__get__(self, type(self))  # an AttributeError came from there: it comes again as it was
+            documented = type(self).DOCUMENTED.get(name)
             message = f"{type(self).__name__!r} object has no attribute {name!r}"
             raise AttributeError(
-                message if found is None else f"{name} is documented only: {found}", name=name, obj=self
+                message if documented is None else f"{name} is documented only: {documented}", name=name, obj=self
             )
 
     def __init_subclass__(cls) -> None:
-        points = {name: point for name, point in vars(cls).items() if isinstance(point, PointAttribute)}
-        own = {point.facts.item: point for point in points.values() if point.new_name is None}
-        cls.POINTS = {**cls.POINTS, **own}
+        points = [point for point in vars(cls).values() if isinstance(point, PointAttribute)]
+        cls.POINTS = {**cls.POINTS, **{point.facts.item: point for point in points}}
+        renamed = {name: alias for name, alias in vars(cls).items() if isinstance(alias, Renamed)}
+        cls.OLD_NAMES = {**cls.OLD_NAMES, **renamed}
 
 
 class Session(PointTable, ABC):
@@ -93,6 +110,10 @@ class Session(PointTable, ABC):
         self.unit = unit
         self.variants = variants
         self._kept: dict[str, int] = {}
+
+    def __repr__(self) -> str:
+        known = "".join(f", {axis} {value}" for axis, value in self.variants.items() if value is not None)
+        return f"<{type(self).__name__} unit {self.unit}{known}>"
 
     @abstractmethod
     def _get_steps(self, place: Place) -> Steps[tuple[int, ...]]:
@@ -125,12 +146,23 @@ class Session(PointTable, ABC):
         """Read everything anew that was remembered because it changes rarely or never."""
         self._kept.clear()
 
-    def point(self, name: str) -> PointAttribute[Any, Any]:
-        """A point by name, that of this device's variant; raises AccessError."""
+    def _resolved(self, what: str) -> PointAttribute[Any, Any]:
+        """A point by name, old name or code, that of this device's variant; raises AccessError."""
+        name = what
+        if (old := self.OLD_NAMES.get(what)) is not None:
+            old.warn(stacklevel=4)
+            name = old.new_name.rstrip("_")
         found = self._found(name)
-        if found is None:
+        if found is not None:
+            return found
+        coded = find(self.POINTS.values(), what)
+        points = [point for point in coded if self._has(point)] or coded
+        if len({point.facts.name for point in points}) > 1:
+            raise AccessError(f"{what} means several points: {', '.join(point.facts.item for point in points)}")
+        if len(points) != 1:
+            name = points[0].facts.name if points else name
             raise AccessError(f"{name} {self._absence(name)}")
-        return found
+        return points[0]
 
     def _named(self, name: str) -> list[PointAttribute[Any, Any]]:
         """The points of that name, one for each variant that has its own."""
@@ -143,7 +175,8 @@ class Session(PointTable, ABC):
         """Why there is no such point, or not yet."""
         axes = [point.facts.variant[0] for point in self._named(name) if point.facts.variant]
         if not axes:
-            return "is no point of this device"
+            near = nearest([*self.POINTS.values()], name)
+            return "is no point of this device" + (f"; did you mean {' or '.join(near)}?" if near else "")
         if self.variants.get(axes[0]) is None:
             return f"depends on {axes[0]}: pass it when the device is made"
         return f"does not exist for {axes[0]} {self.variants[axes[0]]}"
@@ -159,16 +192,13 @@ class Session(PointTable, ABC):
         """Raises AccessError if the point belongs to another variant than the one given for this device."""
         axis, value = point.facts.variant or ("", None)
         if self.variants.get(axis, value) not in (value, None):
-            raise AccessError(f"{point.label} exists only for {axis} {value}")
+            raise AbsentError(f"{point.label} exists only for {axis} {value}")
         axis, values = point.facts.only_for or ("", ())
         if self.variants.get(axis) not in (None, *values):
-            raise AccessError(f"{point.label} exists only for {axis} {' or '.join(values)}")
+            raise AbsentError(f"{point.label} exists only for {axis} {' or '.join(values)}")
 
     def _has(self, point: Point) -> bool:
-        axis, values = point.facts.only_for or ("", ())
-        exists = self.variants.get(axis) in (None, *values)
-        variant = point.facts.variant
-        return exists and (variant is None or self.variants.get(variant[0]) == variant[1])
+        return exists(point, self.variants)
 
     def _surely_has(self, point: Point) -> bool:
         """Whether the point is there for all that is known: no condition is open."""
@@ -273,7 +303,7 @@ class Session(PointTable, ABC):
     def _listed(self, what: Iterable[str | Point]) -> list[Decoding[Any]]:
         points: list[Decoding[Any]] = []
         for one in what:
-            point = self.point(one if isinstance(one, str) else one.facts.item)
+            point = self._resolved(one if isinstance(one, str) else one.facts.item)
             self._require(point)
             if not isinstance(point, Decoding):
                 raise AccessError(f"{point.label} cannot be read")

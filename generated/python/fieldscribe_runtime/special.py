@@ -3,15 +3,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from .records import Record
+
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterator, Mapping
+    from collections.abc import Callable, Collection, Iterator, Mapping
 
 
-@dataclass(frozen=True, slots=True)
-class Special:
+class Special(Record):
     """What a point holds in the place of a quantity: a code by its name.
 
     With `no_value` it says that there is no value; only a `writable` one may be written.
@@ -54,6 +54,11 @@ class Codes:
             return next((self._made(name, raw) for low, high, name in self._bands if low <= raw <= high), None)
         return found
 
+    @property
+    def finder(self) -> Callable[[int], Special | None]:
+        """What a raw number is, without asking for bands where there are none."""
+        return self if self._bands else self._single.get
+
     def __getitem__(self, name: str) -> Special:
         """The code of that name; raises KeyError, also for a band, in which a raw number is meant."""
         low, high = self._spans[name]
@@ -62,11 +67,12 @@ class Codes:
         return self._made(name, low)
 
     def __getattr__(self, name: str) -> Special:
+        if name not in self.__dict__.get("_spans", ()):  # which a copy has not from the beginning
+            raise AttributeError(f"there is no special code {name}")
         try:
             return self[name]
         except KeyError as error:
-            known = name.startswith("_") or name not in self._spans
-            raise AttributeError(f"there is no special code {name}" if known else error.args[0]) from None
+            raise AttributeError(error.args[0]) from None
 
     def __iter__(self) -> Iterator[str]:
         """The names."""

@@ -12,9 +12,10 @@ from .forms import Form, Type, whole
 
 if TYPE_CHECKING:
     from .forms import Allowed
+    from .named import NamedNumber
     from .rules import Raws
 
-E = TypeVar("E", bound=enum.IntEnum)
+E = TypeVar("E", bound="NamedNumber")
 
 _ASCII = frozenset(range(0x20, 0x7F))
 _WRITABLE = {"ascii": _ASCII, "latin-1": _ASCII | frozenset(range(0xA0, 0x100))}
@@ -63,7 +64,7 @@ class Text(Form[str, str]):
         return f"no text of at most {self.characters} printable {self.encoding} characters"
 
 
-class Digits(Form[tuple[E | int, ...], Sequence[E | int]]):
+class Digits(Form[tuple[E, ...], Sequence[E]]):
     """A word whose decimal digits, the highest first, are each one of an enum's numbers."""
 
     names: type[E]
@@ -73,7 +74,7 @@ class Digits(Form[tuple[E | int, ...], Sequence[E | int]]):
         self.wire = wire
         self.names = names
         self.count = count
-        self._numbers = {entry.value: entry for entry in names}
+        self._numbers = {int(entry): entry for entry in names}
 
     def _digits(self, raw: int) -> tuple[int, ...]:
         """The digits as numbers; the first one is whatever the others leave."""
@@ -83,12 +84,12 @@ class Digits(Form[tuple[E | int, ...], Sequence[E | int]]):
             digits.append(digit)
         return (raw, *reversed(digits))
 
-    def decode(self, raw: int, raws: Raws) -> tuple[E | int, ...]:
-        """A member for each digit, or its bare number where there is none."""
-        return tuple([self._numbers.get(digit, digit) for digit in self._digits(raw)])
+    def decode(self, raw: int, raws: Raws) -> tuple[E, ...]:
+        """A member for each digit, also for one without a name."""
+        return tuple([self.names(digit) for digit in self._digits(raw)])
 
-    def converted(self, value: Sequence[E | int], raws: Raws) -> int | None:
-        """The word of that many members or numbers; a member of another enum raises UnknownValueError."""
+    def converted(self, value: Sequence[E], raws: Raws) -> int | None:
+        """The word of that many members; a member of another enum raises UnknownValueError."""
         if not isinstance(value, Sequence) or isinstance(value, (str, bytes)):
             raise WrongTypeError(f"takes {self.count} digits, not {value!r}")
         if len(value) != self.count:

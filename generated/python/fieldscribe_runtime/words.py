@@ -3,12 +3,15 @@
 
 from __future__ import annotations
 
-import enum
 import functools
 import operator
-from typing import TYPE_CHECKING, Generic, Never, TypeVar, overload
+from typing import TYPE_CHECKING, Any, Generic, TypeVar, overload
 
-E = TypeVar("E", bound=enum.IntEnum)
+if TYPE_CHECKING:
+    from .named import NamedNumber
+
+N = TypeVar("N", bound=int)
+M = TypeVar("M", bound="NamedNumber")
 
 
 class Flag:
@@ -40,31 +43,28 @@ class Flag:
         return name if self.number(word) == self.active else ""
 
 
-class Field(Generic[E]):
-    """Several bits of a word; on a word it is their number, by name where it has one."""
+class Field(Generic[N]):
+    """Several bits of a word; on a word it is their number, a member of `names` where they have names."""
 
     @overload
-    def __init__(self: Field[Never], low: int, width: int) -> None: ...
+    def __init__(self: Field[int], low: int, width: int) -> None: ...
     @overload
-    def __init__(self, low: int, width: int, names: type[E]) -> None: ...
-    def __init__(self, low: int, width: int, names: type[E] | None = None) -> None:
+    def __init__(self: Field[M], low: int, width: int, names: type[M]) -> None: ...
+    def __init__(self, low: int, width: int, names: type[Any] | None = None) -> None:
         self.low = low
         self.width = width
-        self.names = names
+        self.names: type[N] | None = names
 
     @overload
-    def __get__(self, word: None, owner: object) -> Field[E]: ...
+    def __get__(self, word: None, owner: object) -> Field[N]: ...
     @overload
-    def __get__(self, word: int, owner: object) -> E | int: ...
-    def __get__(self, word: int | None, owner: object) -> Field[E] | E | int:
+    def __get__(self, word: int, owner: object) -> N: ...
+    def __get__(self, word: int | None, owner: object) -> Field[N] | N | int:
         return self if word is None else self._named(word)
 
-    def _named(self, word: int) -> E | int:
+    def _named(self, word: int) -> N | int:
         number = self.number(word)
-        try:
-            return number if self.names is None else self.names(number)
-        except ValueError:
-            return number
+        return number if self.names is None else self.names(number)
 
     def number(self, word: int) -> int:
         """The bits as they are in the word, right-aligned."""
@@ -78,8 +78,7 @@ class Field(Generic[E]):
 
     def told(self, name: str, word: int) -> str:
         """The name with its number on a word."""
-        number = self._named(word)
-        return f"{name}={number.name.lower() if isinstance(number, enum.Enum) else number}"
+        return f"{name}={self._named(word)}"
 
 
 class Word:

@@ -6,10 +6,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from .errors import RangeError, SpecialCodeError, UnknownValueError, WrongTypeError
+from .fast import coded, uncoded
 from .forms import Form
 from .special import Special
 
 if TYPE_CHECKING:
+    from .fast import Way
     from .forms import Allowed
     from .rules import Raws
     from .special import Codes
@@ -29,6 +31,10 @@ class _Around(Form[R, W]):
         self.codes = form.codes
         self.names = form.names
         self.refused = form.refused
+
+    def quick_decode(self, low: int, high: int, slow: Way) -> Way:
+        """As in the form."""
+        return self.form.quick_decode(low, high, slow)
 
     def decode(self, raw: int, raws: Raws) -> R:
         """As in the form."""
@@ -80,6 +86,14 @@ class _Coded(_Around[R | Special, W]):
     def __init__(self, form: Form[Any, Any], codes: Codes) -> None:
         super().__init__(form)
         self.codes = codes
+
+    def quick_decode(self, low: int, high: int, slow: Way) -> Way:
+        """The special code, else as in the form."""
+        return coded(self.codes.finder, super().quick_decode(low, high, slow))
+
+    def quick_encode(self, allowed: Allowed, slow: Way) -> Way:
+        """As in the form, where that gives no special code."""
+        return uncoded(self.codes.finder, self.form.quick_encode(allowed, slow), slow)
 
     def decode(self, raw: int, raws: Raws) -> R | Special:
         """The special code, else as in the form."""

@@ -1,4 +1,4 @@
-"""Every point can exist: no part of its `when` is never true, and `until` does not come before `since`."""
+"""Every point can exist: its `when` can be true and does not need itself, and `until` does not precede `since`."""
 
 from __future__ import annotations
 
@@ -18,7 +18,8 @@ _MOST_SHOWN = 12
 
 
 def check(subject: Subject) -> None:
-    """Comparisons and clauses that nothing in the device can make true."""
+    """Comparisons and clauses that nothing in the device can make true, and circles of conditions."""
+    _circles(subject)
     meetings = Meetings(subject)
     points = {name: found[0] for name, found in meetings.points.items()}
     known: dict[Clause, bool] = {}
@@ -35,6 +36,25 @@ def check(subject: Subject) -> None:
                 known[clause] = meetings.possible(clause)
             if not known[clause]:
                 _never(subject, resolved, meetings, clause, points)
+
+
+def _circles(subject: Subject) -> None:
+    """Findings for points that exist only if points do that exist only if they do."""
+    from graphlib import CycleError, TopologicalSorter
+
+    drafts = {one.point.name: one for one in subject.resolved if one.point.when is not None}
+    needs = {name: one.point.when.names for name, one in drafts.items() if one.point.when is not None}
+    while needs and not subject.report.full:
+        try:
+            TopologicalSorter(needs).prepare()
+        except CycleError as error:
+            circle: list[str] = error.args[1][::-1]
+            message = f"a condition that needs itself: {' needs '.join(f'`{name}`' for name in circle)}"
+            hint = "break the circle: one of them exists whatever the others hold"
+            subject.report.error("condition-cycle", message, drafts[circle[0]].draft.span("when"), hint)
+            needs = {name: others for name, others in needs.items() if name not in circle}
+        else:
+            return
 
 
 def _never(subject: Subject, one: Resolved, meetings: Meetings, clause: Clause, points: dict[str, Point]) -> None:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from fieldscribe.checks.subject import Subject
     from fieldscribe.resolve.drafts import Draft
+    from fieldscribe.resolve.points import Resolved
 
 _OF_INTEGERS = ("enum", "flags", "scale", "decimals", "steps", "digits", "fixed")
 _OF_NUMBERS = ("enum", "flags", "scale", "decimals", "steps", "digits", "fixed", "range", "range_in_units", "default")
@@ -30,6 +31,7 @@ def check(subject: Subject) -> None:
     """Facts of one point that cannot both hold."""
     for resolved in subject.resolved:
         draft = resolved.draft
+        _shared_names(subject, resolved)
         if resolved.point.info.floating:
             _alien(
                 subject, draft, _OF_INTEGERS, "floating-point number", "the device sends the value itself in the unit"
@@ -51,6 +53,27 @@ def check(subject: Subject) -> None:
                 related = [(draft.span(first), f"`{first}` stands here")]
                 message = f"`{draft.name}` cannot have both `{first}` and `{second}`"
                 subject.report.error("two-meanings", message, draft.span(second), hint, related)
+
+
+def _shared_names(subject: Subject, resolved: Resolved) -> None:
+    """A name that is a special code and something else: whoever writes it means one of the two."""
+    point = resolved.point
+    if not point.specials:
+        return
+    enum = point.digits.enum if point.digits is not None else point.enum
+    numbers = {} if enum is None else {entry.name: entry.raw for entry in enum.entries}
+    flags = {flag.name for flag in point.flags}
+    for code in point.specials:
+        number = numbers.get(code.name)
+        if number is not None and not number == code.low == code.high:
+            other = f"the name of {number}"
+        elif code.name in flags:
+            other = "the name of a flag"
+        else:
+            continue
+        message = f"the special code `{code.name}` of `{point.name}` is {other}, too"
+        hint = "give the code another name, so that whoever writes the name means one number"
+        subject.report.error("special-twice", message, resolved.draft.span("special"), hint)
 
 
 def _alien(subject: Subject, draft: Draft, keys: tuple[str, ...], what: str, why: str) -> None:

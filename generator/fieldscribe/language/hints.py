@@ -93,6 +93,8 @@ def _about_number(value: int | Decimal, accepted: Collection[type], example: Any
         return form_hint(typed, pattern)
     if isinstance(example, str) and "wire" in example:
         return f"write a formula: {example}"
+    if isinstance(value, bool) and isinstance(example, str) and " " in example:
+        return f"for example {example}"
     if str in accepted:
         return f'quote it: "{typed}"'
     return None

@@ -95,13 +95,13 @@ def _meant(typed: str, declared: Iterable[str]) -> list[str]:
     folded = _folded(typed)
     found = [symbol for symbol in declared if _folded(symbol) == folded]
     spelled = [known for known in shipped().values() if folded in _spelled(known)]
-    near = [known for known in spelled if _same_prefix(typed, known)]
+    near = [known for known in spelled if _same_prefix(typed, known) and not _other_letter(typed, known)]
     if not near:
         return found
     exact = [known for known in near if _with_micro(typed) in (known.unit.symbol, *known.spellings)]
     if exact:
         return [known.unit.symbol for known in exact]
-    far = [known for known in spelled if known not in near]
+    far = [known for known in spelled if known not in near and not _other_letter(typed, known)]
     return list(dict.fromkeys((*found, *(known.unit.symbol for known in (*near, *far)))))
 
 
@@ -111,6 +111,14 @@ def _same_prefix(typed: str, known: Known) -> bool:
     if not known.prefix or first == known.prefix or first not in _PREFIX_LETTERS:
         return True
     return _folded(typed) in _named(known)
+
+
+def _other_letter(typed: str, known: Known) -> bool:
+    """Whether the one letter of the unit is typed in the case that makes it another: `M` is no metre, `mh` no henry."""
+    letter = typed[-1:]
+    if len(known.base) != 1 or letter == known.base or letter.casefold() != known.base.casefold():
+        return False
+    return letter in shipped() or (len(typed) == 1 and letter.isupper())
 
 
 @cache

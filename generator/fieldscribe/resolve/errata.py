@@ -72,6 +72,7 @@ def errata_of(scope: Scope, index: Index, bus: Bus) -> list[OpenErratum]:
             said(raw["taken"]),
             str(raw["why"]),
             raw["certainty"],
+            tuple(map(str, raw["printed"])) if isinstance(raw["printed"], Map) else (),
         )
         result.append(OpenErratum(text, raw, set()))
     return result

@@ -117,7 +117,10 @@ class SpecialCodes:
                     for one, pattern in zip(numbers, patterns, strict=True)
                 ]
             low, high = numbers[0], numbers[-1]
-            if low > high:
+            if low > high and all(patterns) and info.signed:
+                hint = f"split it at the sign: one code up to {greatest:X}h, one from {greatest + 1:X}h on"
+                self._report("range-reversed", f"`{key}` goes from positive numbers to negative ones", span, hint)
+            elif low > high:
                 self._report("range-reversed", f"`{key}` runs downwards", span, "the smaller number stands first")
             elif info.floating and not all(patterns):
                 message = f"a special code of an {kind} is its pattern of bits, and {key} is decimal"

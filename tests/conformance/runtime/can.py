@@ -4,8 +4,17 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from conformance.runtime.bench import refusal, refuses
-from conformance.runtime.can_bus import Bus, answers_of, beat_of, bus_frame, kinds_of, on_lines, profile_of
+from conformance.runtime.bench import devices, refusal, refuses
+from conformance.runtime.can_bus import (
+    Bus,
+    answers_of,
+    beat_of,
+    bus_frame,
+    kinds_of,
+    on_lines,
+    profile_of,
+    roles_of,
+)
 from conformance.scripts import now
 
 if TYPE_CHECKING:
@@ -174,6 +183,80 @@ def check_receiver(package: Package) -> None:
     )
     for kind in kinds_of(package):
         assert refusal(kind, Bus(package), 31).status == "bad_unit"
+
+
+def check_decoder(package: Package) -> None:
+    """The frames of a telegram to values, with what earlier ones brought."""
+    runtime = package.runtime
+    word, wide, scaled = runtime.Integer(runtime.U16), runtime.Integer(runtime.U32), runtime.Scaled
+    rule = runtime.Rule(factors=(runtime.Factor("factor"),))
+    by_both = runtime.Rule(factors=(runtime.Factor("factor"), runtime.Factor("elsewhere")))
+    at = runtime.telegram
+    points = {
+        "speed": runtime.ReadOnly(scaled(runtime.U16, rule, decimals=0), at=at("beat", 0)),
+        "inside": runtime.ReadOnly(wide, at=at("beat", 1, 2)),
+        "factor": runtime.ReadOnly(word, at=at("beat", 3)),
+        "count": runtime.ReadOnly(wide, at=at("beat", 4, 6)),
+        "sign": runtime.ReadOnly(runtime.Text(6), at=at("beat", 5, 7, 8)),
+        "both": runtime.ReadOnly(scaled(runtime.U16, by_both, decimals=0), at=at("beat", 7)),
+        "elsewhere": runtime.ReadOnly(word, at=runtime.parameter(7)),
+        "only_a": runtime.ReadOnly(word, at=at("beat", 8), variant=("model", "a"), name="only"),
+    }
+    head, low_first = "c221 m w0 w1 w2 w3 w4 w5", "m w1 w0 w3 w2 w5 w4 c221"
+    for layout in (head, low_first):
+        message = package.can.Message("cyclic", "cyclic", 0x300, roles_of(package, layout), True)
+        telegrams = (package.can.Telegram("beat", "cyclic", 9, "cyclic"),)
+        table = {
+            "PROFILE": package.can.Profile((1, 30), 11, (message,), telegrams),
+            "VARIANTS": {"model": ("a",)},
+            **points,
+        }
+        for kind in devices(package, table, package.can.CanDevice, package.can.AsyncCanDevice):
+            decoder = package.can.Decoder(kind, "beat", 9)
+
+            def told(place: int, *words: int, layout: str = layout, decoder: Any = decoder, **more: Any) -> Any:
+                data = b"".join(one.to_bytes(2, "big" if layout == head else "little") for one in words)
+                whole = bytes((221, place)) + data if layout == head else bytes((place,)) + data + bytes((221,))
+                return decoder.decode(package.can.Frame(0x309, whole), **more)
+
+            assert told(0, 12, 1, 2) == {"inside": 0x10002}
+            assert told(1, 4, 5, 0x4142) == {"factor": 4}
+            assert told(0, 12, 1, 2) == {"inside": 0x10002, "speed": 3.0}
+            assert told(2, 6, 0x4344, 0x4520) == {"sign": "ABCDE"}
+            assert told(2, 6, 0x3000, 0x2020, raws={"elsewhere": 2})["both"] == 0x3000 / 8
+            assert told(1, 2, 5, 0x4142, raws={"factor": 9}) == {"factor": 2, "count": 0x50006}
+            assert told(0, 12, 1, 2, raws={"factor": 9})["speed"] == 6.0
+            assert told(1, 2, 6, 0x4142) == {"factor": 2}
+            assert (decoder.newer((0,), 0.0), told(0, 12, 1, 2, moment=5.0)["speed"], decoder.newer((0,), 5.0)) == (
+                True, 6.0, True,
+            )  # fmt: skip
+            assert (told(3, 1, 2, 3), decoder.decode(package.can.Frame(0x308, bytes(8)))) == ({}, {})
+            chosen = package.can.Decoder(kind, "beat", 9, model="a")
+            assert list(told(2, 6, 0x3000, 7, decoder=chosen)) == ["only"]
+            layouts = kind.layouts("beat")
+            assert [(list(one.words), one.size) for one in layouts] == [
+                ([0, 1, 2], 6), ([3, 4, 5], 6), ([6, 7, 8], 6),
+            ]  # fmt: skip
+            assert layouts[1].decode(bytes((0, 4, 0, 0, 0, 0))) == {"factor": 4}
+            refuses(runtime.AccessError, "the device has no telegram none", kind.layouts, "none")
+
+
+def check_recognized(package: Package) -> None:
+    """Receivers and parsers take the same frames, whatever bytes a message knows beforehand."""
+    message = package.can.Message("m", "cyclic", 0x300, roles_of(package, "c7 u m w0 w1 a0 x13 x48"), True)
+    telegrams = (package.can.Telegram("beat", "cyclic", 1, "m"),)
+    receiver = package.can.Receiver(package.can.Profile((1, 30), 11, (message,), telegrams), "beat", 9)
+    good = bytearray((7, 9, 0, 1, 2, 3, 0, 0))
+    good[6] = good[0] ^ good[2] ^ good[3]
+    good[7] = good[4] ^ good[5]
+    frame = package.can.Frame
+    assert (receiver.take(frame(0x309, bytes(good))), receiver.word(0)) == (True, 0x102)
+    for at in (0, 1, 3, 4, 5, 6, 7):
+        bad = bytearray(good)
+        bad[at] ^= 1
+        assert not receiver.take(frame(0x309, bytes(bad))), at
+    for one in (frame(0x308, bytes(good)), frame(0x309, bytes(good[:7])), frame(0x309, bytes(good) + b"\0")):
+        assert not receiver.take(one)
 
 
 def check_messages(package: Package) -> None:

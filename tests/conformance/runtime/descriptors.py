@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import inspect
 import warnings
 from typing import TYPE_CHECKING, Any
 
-from conformance.runtime.bench import AsyncMemory, Memory, devices, refusal, refuses
+from conformance.runtime.bench import AsyncMemory, Memory, devices, refusal, refuses, table
 from conformance.scripts import now
 
 if TYPE_CHECKING:
@@ -78,25 +79,25 @@ def check_commands(package: Package) -> None:
 
 def check_variants(package: Package) -> None:
     """A name that variants share is the point of the device's variant."""
-    access = package.runtime.AccessError
+    access, absent = package.runtime.AccessError, package.runtime.AbsentError
     for kind, line in zip(_made(package), (Memory, AsyncMemory), strict=True):
         devices = {value: kind(line({5: 1, 6: 2, 7: 3}), 1, {"model": value}) for value in ("a", "b", "c", None)}
         assert [now(devices[value].one.read()) for value in ("a", "b")] == [1, 2]
-        assert (devices["b"].point("one"), devices["a"].point("one")) == (kind.one_b, kind.one_a)
+        assert (devices["b"].point("one"), devices["a"].point("one")) == (devices["b"].one, devices["a"].one_a)
         assert kind.one.points == {"a": kind.one_a, "b": kind.one_b}
-        refuses(access, "one does not exist for model c", getattr, devices["c"], "one")
-        refuses(access, "one depends on model: pass it when the device is made", getattr, devices[None], "one")
+        refuses(absent, "one does not exist for model c", getattr, devices["c"], "one")
+        refuses(absent, "one depends on model: pass it when the device is made", getattr, devices[None], "one")
         refuses(access, "one does not exist for model c", devices["c"].point, "one")
         refuses(access, "one depends on model: pass it when the device is made", devices[None].point, "one")
-        refuses(access, "none is no point of this device", devices["a"].point, "none")
-        refuses(access, "one_a exists only for model a", getattr, devices["b"], "one_a")
-        refuses(access, "some exists only for model a or c", getattr, devices["b"], "some")
+        refuses(access, "nothing is no point of this device", devices["a"].point, "nothing")
+        refuses(absent, "one_a exists only for model a", getattr, devices["b"], "one_a")
+        refuses(absent, "some exists only for model a or c", getattr, devices["b"], "some")
         assert [now(devices[value].some.read()) for value in ("a", "c", None)] == [3, 3, 3]
         assert now(devices[None].one_a.read()) == 1
         assert [now(devices[value].read_many("g")) for value in ("a", "b", "c", None)] == [
             {"one": 1, "some": 3}, {"one": 2}, {"some": 3}, {"some": 3},
         ]  # fmt: skip
-        refuses(access, "some exists only for model a or c", devices["b"].read_many, ["some"])
+        refuses(absent, "some exists only for model a or c", devices["b"].read_many, ["some"])
         refuses(ValueError, "the device has no variants by 'shape'", kind, line({}), 1, {"shape": "x"})
         refuses(ValueError, "model is one of a, b, c, not 'd'", kind, line({}), 1, {"model": "d"})
         assert (kind(line({}), 1).variants, devices["a"].variants) == ({}, {"model": "a"})
@@ -115,3 +116,105 @@ def check_old_names(package: Package) -> None:
     told = [(str(one.message), one.category, one.filename) for one in caught]
     names = ["old is now called both", "old_one is now called one"] * 2
     assert told == [(name, DeprecationWarning, __file__) for name in names]
+
+
+def check_old_names_as_text(package: Package) -> None:
+    """An old name as text warns where it is used, too."""
+    for kind, line in zip(_made(package), (Memory, AsyncMemory), strict=True):
+        device = kind(line({3: 7, 5: 1}), 1, {"model": "a"})
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            assert (device.point("old"), device.point("old_one")) == (device.both, device.one_a)
+        told = [(str(one.message), one.filename) for one in caught]
+        assert told == [("old is now called both", __file__), ("old_one is now called one", __file__)]
+
+
+def check_points_by_text(package: Package) -> None:
+    """Points by name or code, an element by its index, and near names for what is none."""
+    runtime = package.runtime
+    word = runtime.Integer(runtime.U16)
+    points: dict[str, Any] = {
+        "PROFILE": runtime.Profile(functions={3: 8}),
+        "VARIANTS": {"model": ("a", "b")},
+        "speed": runtime.ReadWrite(word, at=runtime.holding(1), code="A020"),
+        "class_": runtime.ReadOnly(word, at=runtime.holding(2), code="A021"),
+        "first": runtime.ReadOnly(word, at=runtime.holding(3, index=0), code="P1"),
+        "second": runtime.ReadOnly(word, at=runtime.holding(4, index=1), code="P1"),
+        "level_a": runtime.ReadOnly(word, at=runtime.holding(5), code="L", variant=("model", "a"), name="level"),
+        "level_b": runtime.ReadOnly(word, at=runtime.holding(6), code="L", variant=("model", "b"), name="level"),
+        "nameless": runtime.ReadOnly(word, at=runtime.holding(7)),
+    }
+    access = runtime.AccessError
+    kinds = devices(package, points, runtime.ModbusDevice, runtime.AsyncModbusDevice)
+    for kind, line in zip(kinds, (Memory, AsyncMemory), strict=True):
+        device, undecided = kind(line({}), 1, {"model": "b"}), kind(line({}), 1)
+        for what, item in (
+            *(("speed", "speed"), ("A020", "speed"), ("a020", "speed"), ("class", "class"), ("A021", "class")),
+            *(("P1[1]", "second"), ("p1[0]", "first"), ("L", "level_b"), ("level", "level_b"), ("level_b", "level_b")),
+        ):
+            assert device.point(what).facts.item == item, what
+        assert device.point("A020") is device.speed
+        refuses(access, "P1 means several points: first, second", device.point, "P1")
+        refuses(access, "P1[2] is no point of this device; did you mean P1?", device.point, "P1[2]")
+        refuses(access, "A02 is no point of this device; did you mean A021 or A020?", device.point, "A02")
+        refuses(access, "zzz is no point of this device", device.point, "zzz")
+        refuses(access, " is no point of this device", device.point, "")
+        refuses(access, "level depends on model: pass it when the device is made", undecided.point, "L")
+        refuses(runtime.AbsentError, "L level_a exists only for model a", device.point, "level_a")
+        assert now(device.read_many(["A020", "P1[1]"])) == {"speed": 0, "second": 0}
+
+
+def check_shown(package: Package) -> None:
+    """Points, commands and devices say what they are, and where."""
+    runtime = package.runtime
+    kind, _ = _made(package)
+    device = kind(Memory({}), 5, {"model": "b", "size": None})
+    own = "<Made unit 5, model b>"
+    assert (repr(device), repr(kind(Memory({}), 1))) == (own, "<Made unit 1>")
+    assert (repr(kind.read), repr(device.read)) == (
+        "<ReadOnly R1 read: holding 0x0001>",
+        f"<ReadHandle R1 read: holding 0x0001 of {own}>",
+    )
+    assert (repr(kind.one), repr(kind.any)) == (
+        "<ByVariant one: one_a or one_b, as model says>",
+        "<Command any: holding 0x0009>",
+    )
+    facts = {"references": {"modicon": 4138, "manual": "M7"}, "bits": (7, 4)}
+    point = table(package, one=runtime.ReadOnly(runtime.Integer(runtime.U8), at=runtime.holding(4137), **facts)).one
+    assert repr(point) == "<ReadOnly one: holding 0x1029 bits 7..4 (modicon 4138, manual M7)>"
+    places = (runtime.parameter(10, index=2), runtime.telegram("status", 1, 2), runtime.coil(10, 11))
+    assert [str(place) for place in places] == ["parameter 10 index 2", "status word 1, 2", "coil 0x000A, 0x000B"]
+
+
+def check_looked_at(package: Package) -> None:
+    """What Python's own tools ask of any object is answered, whatever the variant has."""
+    for kind, line in zip(_made(package), (Memory, AsyncMemory), strict=True):
+        for variants in ({}, {"model": "b"}, {"model": "c"}):
+            device = kind(line({}), 1, variants)
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                members, static = dict(inspect.getmembers(device)), dict(inspect.getmembers(kind))
+            assert (members["read"], static["one"]) == (device.read, kind.one)
+            has = [hasattr(device, name) for name in ("one", "one_b", "some", "odd", "none", "read")]
+            model = variants.get("model")
+            assert has == [model == "b", True if model is None else model == "b", model != "b", False, False, True]
+            assert getattr(device, "odd", None) is None
+        assert (hasattr(kind, "odd"), hasattr(kind, "one")) == (False, True)
+
+
+def check_records(package: Package) -> None:
+    """Facts are equal where their fields are, and do not change."""
+    runtime = package.runtime
+    place = runtime.Place("holding", (1, 2), index=3)
+    assert (place, hash(place)) == (runtime.Place("holding", (1, 2), None, 3), hash(place.replaced(index=3)))
+    assert (place != place.replaced(index=4), place == ("holding", (1, 2), None, 3, None)) == (True, False)
+    assert runtime.Special("a", 1) != runtime.Case("a", 1, None)
+    assert repr(place) == "Place(space='holding', addresses=(1, 2), function=None, index=3, telegram=None)"
+    refuses(AttributeError, "index cannot be changed: Place is a fact", setattr, place, "index", 4)
+    fields = "Place takes space, addresses, function, index, telegram, not"
+    wrong: tuple[tuple[tuple[Any, ...], dict[str, Any]], ...] = (
+        (("holding",), {}), ((), {"addresses": (1,)}), (("holding", (1,)), {"space": "coil"}),
+        (("holding", (1,)), {"place": 1}), (("holding", (1,), 1, 2, "x", 5), {}),
+    )  # fmt: skip
+    for values, named in wrong:
+        refuses(TypeError, f"{fields} {values} and {named}", runtime.Place, *values, **named)

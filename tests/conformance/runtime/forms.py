@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import copy
 import enum
+import json
 from typing import TYPE_CHECKING, Any
 
 from conformance.runtime.bench import refusal, refuses, table
@@ -11,11 +13,9 @@ if TYPE_CHECKING:
     from conformance.package import Package
 
 
-class Color(enum.IntEnum):
-    """Names of numbers."""
-
-    RED = 1
-    BLUE = 3
+def _names(package: Package, **numbers: int) -> Any:
+    """An enum with these names."""
+    return package.runtime.NamedNumber("Color", numbers)
 
 
 class Other(enum.IntEnum):
@@ -109,30 +109,59 @@ def check_bits(package: Package) -> None:
 
 def check_names(package: Package) -> None:
     """Enums, open and closed, and words of flags."""
-    runtime = package.runtime
-    closed = _point(package, runtime.Named(runtime.U16, Color, closed=True))
-    assert (closed.decode(3), closed.decode(2), closed.encode(Color.RED)) == (Color.BLUE, 2, 1)
+    runtime, color = package.runtime, _names(package, RED=1, BLUE=3)
+    closed = _point(package, runtime.Named(runtime.U16, color, closed=True))
+    assert (closed.decode(3), closed.decode(2), closed.encode(color.RED)) == (color.BLUE, color(2), 1)
     assert (closed.raw_limits, closed.name_of(1), closed.name_of(2)) == ((1, 3), "red", None)
     refuses(runtime.UnknownValueError, "A1 one: 2 V is none of 1 red, 3 blue", closed.encode, 2)
     refuses(runtime.UnknownValueError, "A1 one: raw 2 is none of 1 red, 3 blue", closed.check, 2)
     refuses(runtime.UnknownValueError, f"A1 one: {Other.ONE!r} is no Color", closed.encode, Other.ONE)
-    bounded = _point(package, runtime.Named(runtime.U16, Color, closed=True), allowed=((0, 2),))
+    bounded = _point(package, runtime.Named(runtime.U16, color, closed=True), allowed=((0, 2),))
     assert bounded.encode(1) == 1
     assert refusal(bounded.encode, 3).status == "unknown_value"
-    opened = _point(package, runtime.Named(runtime.U16, Color))
+    refuses(runtime.UnknownValueError, "A1 one: 2 V is none of 1 red, 3 blue", closed.encode, color(2))
+    opened = _point(package, runtime.Named(runtime.U16, color))
+    assert (opened.encode(color(2)), type(opened.encode(color(2))), type(opened.decode(2))) == (2, int, color)
+    refuses(TypeError, "'float' object cannot be interpreted as an integer", opened.decode, 2.5)
     assert (opened.encode(2), opened.raw_limits) == (2, (0, 65535))
     refuses(runtime.RangeError, "A1 one: 65536 V is outside 0..65535 V", opened.encode, 65536)
     word = _point(package, runtime.Flags(runtime.S16, Bits))
     assert (word.decode(-1), word.encode(Bits.TOP), word.encode(Bits.LOW)) == (Bits(0xFFFF), -0x8000, 1)
     assert (word.encode(-2), word.names) == (-2, Bits)
-    refuses(runtime.UnknownValueError, f"A1 one: {Color.RED!r} is no Bits", word.encode, Color.RED)
+    refuses(runtime.UnknownValueError, f"A1 one: {color.RED!r} is no Bits", word.encode, color.RED)
     assert refusal(word.encode, 0x10000).status == "out_of_range"
     assert refusal(_point(package, runtime.Flags(runtime.U16, Bits)).encode, -1).status == "out_of_range"
 
 
+def check_open_enums(package: Package) -> None:
+    """A number without a name is a member all the same."""
+    color = _names(package, RED=1, BLUE=3)
+    unknown, red = color(77), color.RED
+    assert (unknown, hash(unknown), int(unknown), unknown.value) == (77, hash(77), 77, 77)
+    assert (isinstance(unknown, color), unknown.is_named, red.is_named, list(color)) == (
+        True,
+        False,
+        True,
+        [red, color.BLUE],
+    )
+    assert (repr(unknown), unknown.name, str(unknown), f"{unknown}", f"{unknown:04x}") == (
+        "Color(77)", "Color(77)", "77", "77", "004d",
+    )  # fmt: skip
+    assert (repr(red), red.name, str(red), f"{red}", f"{red:d}") == ("<Color.RED: 1>", "RED", "red", "red", "1")
+    assert (unknown == color(77), unknown != color(78), {unknown: "x"}[77], json.dumps(unknown)) == (
+        True,
+        True,
+        "x",
+        "77",
+    )
+    assert (copy.deepcopy(unknown), color(True)) == (unknown, red)
+    for bad in ("RED", 2.5, None):
+        assert str(refusal(color, bad)) == f"{bad!r} is not a valid Color"
+
+
 def check_texts(package: Package) -> None:
     """Texts and digits."""
-    runtime = package.runtime
+    runtime, color = package.runtime, _names(package, RED=1, BLUE=3)
     text = _point(package, runtime.Text(4))
     assert (text.decode(0x41422020), text.encode("AB"), text.encode("")) == ("AB", 0x41422020, 0x20202020)
     for bad in ("ABCDE", "\u20ac", "\xe4", "\x7f", 5):
@@ -146,8 +175,9 @@ def check_texts(package: Package) -> None:
     for function in (text.decode_count, text.encode_count):
         refuses(TypeError, "a text has no integer path", function, 1)
     refuses(runtime.RangeError, "A1 one: 4294967296 is no raw number, which is 0..4294967295", text.decode, 1 << 32)
-    digits = _point(package, runtime.Digits(runtime.U16, Color, count=3))
-    assert (digits.decode(4132), digits.encode((1, Color.BLUE, 1))) == ((41, Color.BLUE, 2), 131)
+    digits = _point(package, runtime.Digits(runtime.U16, color, count=3))
+    assert (digits.decode(4132), digits.encode((1, color.BLUE, 1))) == ((41, color.BLUE, 2), 131)
+    assert [type(digit) for digit in digits.decode(4132)] == [color] * 3
     digits.check(131)
     assert [refusal(digits.check, raw).status for raw in (132, -1, 65536 + 133)] == ["unknown_value"] * 3
     assert (digits.name_of(3), digits.name_of(2)) == ("blue", None)
@@ -157,7 +187,7 @@ def check_texts(package: Package) -> None:
     refuses(runtime.UnknownValueError, f"A1 one: {Other.ONE!r} is no Color", digits.encode, (1, 3, Other.ONE))
     wrong = "A1 one: (1, 2, 3) V is not made of 3 digits out of 1 red, 3 blue"
     refuses(runtime.UnknownValueError, wrong, digits.encode, (1, 2, 3))
-    narrow = _point(package, runtime.Digits(runtime.U8, Color, count=3))
-    edge = _point(package, runtime.Digits(runtime.U8, enum.IntEnum("Edge", {"TWO": 2, "FIVE": 5, "SIX": 6}), count=3))
+    narrow = _point(package, runtime.Digits(runtime.U8, color, count=3))
+    edge = _point(package, runtime.Digits(runtime.U8, _names(package, TWO=2, FIVE=5, SIX=6), count=3))
     assert (edge.encode((2, 5, 5)), refusal(edge.encode, (2, 5, 6)).status) == (255, "unknown_value")
     assert (narrow.encode((1, 1, 1)), refusal(narrow.encode, (3, 3, 3)).status) == (111, "unknown_value")

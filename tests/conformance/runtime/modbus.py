@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from typing import TYPE_CHECKING, Any
 
 from conformance.runtime.bench import AsyncMemory, Memory, devices, refusal, refuses
@@ -62,7 +63,7 @@ def check_many(package: Package) -> None:
         assert memory.since() == [(1, 7, 1), (2, 7, 1), (3, 7, 1), (4, 9, 1), (4, 7, 1)]
         refuses(package.runtime.AccessError, "there is no group none", device.read_many, "none")
         refuses(package.runtime.AccessError, "H1 high cannot be read", device.read_many, ["high"])
-        refuses(package.runtime.AccessError, "none is no point of this device", device.read_many, ["none"])
+        refuses(package.runtime.AccessError, "nobody is no point of this device", device.read_many, ["nobody"])
 
 
 def check_plan(package: Package) -> None:
@@ -207,6 +208,26 @@ def check_sizes(package: Package) -> None:
         "long_frame",
         "the reply would have 261 bytes, and a frame has at most 260",
     )
+
+
+def check_receiving(package: Package) -> None:
+    """A whole reply is read, just so many bytes as are known to come."""
+    for reply, framing, sizes in (
+        (b"\1\3\2\0\7\x38\x46", "rtu", [1, 1, 1, 4]),
+        (b"\0\1\0\0\0\3\1\x83\2", "tcp", [1, 1, 1, 1, 1, 1, 3]),
+    ):
+        line = io.BytesIO(reply + b"rest")
+        asked: list[int] = []
+
+        def read(size: int, line: io.BytesIO = line, asked: list[int] = asked) -> bytes:
+            asked.append(size)
+            return line.read(size)
+
+        assert (package.modbus.receive(read, framing), asked, line.read()) == (reply, sizes, b"rest")
+    assert package.modbus.receive(io.BytesIO(b"\1\x83\2\xc0\xf1").read) == b"\1\x83\2\xc0\xf1"
+    short = io.BytesIO(b"\1\3\2\0")
+    refuses(TimeoutError, "4 bytes came and no more", package.modbus.receive, short.read)
+    refuses(TimeoutError, "0 bytes came and no more", package.modbus.receive, short.read)
 
 
 def check_requests(package: Package) -> None:

@@ -120,6 +120,20 @@ def check_factors(package: Package) -> None:
     )
 
 
+def check_beyond_binary64(package: Package) -> None:
+    """A scale that takes numbers beyond binary64 is refused there, and right elsewhere."""
+    runtime = package.runtime
+    point = _point(package, runtime.Scaled(runtime.U16, runtime.Rule(den=10**400), decimals=0))
+    assert point.decode(0) == 0.0
+    refuses(runtime.ResultOverflowError, "one: raw 1 gives no binary64", point.decode, 1)
+    assert runtime.Layout([point], range(4, 5)).decode(b"\0\0") == {"one": 0.0}
+    overflows = "one: raw 1 gives no binary64"
+    refuses(runtime.ResultOverflowError, overflows, runtime.Layout([point], range(4, 5)).decode, b"\0\1")
+    edge = _point(package, runtime.Scaled(runtime.U16, runtime.Rule(den=10**305), decimals=0))
+    assert edge.decode(100) == 1e307
+    refuses(runtime.ResultOverflowError, "one: raw 2000 gives no binary64", edge.decode, 2000)
+
+
 def check_cases(package: Package) -> None:
     """A scale that another point chooses."""
     runtime = package.runtime

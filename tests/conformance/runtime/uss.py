@@ -226,3 +226,12 @@ def check_requests(package: Package) -> None:
     }
     for reason, reply in wrong.items():
         refuses(package.runtime.FrameError, reason, uss.parse, asked, reply, profile, link)
+
+
+def check_layouts_of_telegrams(package: Package) -> None:
+    """The process data of a telegram, all of it or what the link carries."""
+    for kind in kinds_of(package):
+        (answer,), (short,) = kind.layouts("answer"), kind.layouts("answer", words=2)
+        assert answer.decode(bytes((0, 1, 0, 2, 0, 3))) == {"state": 1, "actual": 0x20003}
+        assert (answer.size, short.size, short.decode(bytes((0, 1, 0, 2)))) == (6, 4, {"state": 1})
+        refuses(package.runtime.AccessError, "the device has no telegram none", kind.layouts, "none")

@@ -12,11 +12,9 @@ if TYPE_CHECKING:
     from conformance.package import Package
 
 
-class Mode(enum.IntEnum):
+def _mode(package: Package) -> Any:
     """Names of a field."""
-
-    IDLE = 0
-    FAST = 2
+    return package.runtime.NamedNumber("Mode", {"IDLE": 0, "FAST": 2})
 
 
 def _word(package: Package) -> Any:
@@ -24,7 +22,7 @@ def _word(package: Package) -> Any:
     runtime = package.runtime
 
     flags = {"on": runtime.Flag(0), "fault": runtime.Flag(1, active=0)}
-    fields = {"mode": runtime.Field(4, 2, Mode), "rest": runtime.Field(8, 3)}
+    fields = {"mode": runtime.Field(4, 2, _mode(package)), "rest": runtime.Field(8, 3)}
     return _named(type("Readers", (runtime.Word,), {**flags, **fields}))
 
 
@@ -39,17 +37,17 @@ def _named(readers: type) -> Any:
 def check_flags(package: Package) -> None:
     """A word is read, shown and put together by what its flags mean."""
     word = _word(package)
-    one = word(0x0521)
-    assert (one.on, one.fault, one.mode, one.rest) == (True, True, Mode.FAST, 5)
+    one, names = word(0x0521), word.mode.names
+    assert (one.on, one.fault, one.mode, one.rest, type(one.mode)) == (True, True, names.FAST, 5, names)
     assert (str(one), repr(one)) == (
         "0x0521 (on, fault, mode=fast, rest=5)",
         "<Word 0x0521 (on, fault, mode=fast, rest=5)>",
     )
     assert (f"{one}", f"{one:04x}", word(0x0012).mode, word(0x0012).fault) == (str(one), "0521", 1, False)
     assert [word.on.place(True), word.on.place(False), word.fault.place(True), word.fault.place(False)] == [1, 0, 0, 2]
-    assert (word.mode.place(Mode.FAST), word.rest.place(7), word._joined(1, 4, 5), word._joined()) == (32, 0x700, 5, 0)
+    assert (word.mode.place(names.FAST), word.rest.place(7), word._joined(1, 4, 5), word._joined()) == (32, 0x700, 5, 0)
     refuses(ValueError, "4 does not fit into 2 bits", word.mode.place, 4)
-    assert (word.on.width, word.mode.width, word.mode.names, word.rest.names) == (1, 2, Mode, None)
+    assert (word.on.width, word.mode.width, word.mode.names, word.rest.names) == (1, 2, names, None)
     assert (word.on.told("on", 1), word.on.told("on", 0), word.mode.told("mode", 0x10)) == ("on", "", "mode=1")
 
     bare = _named(package.runtime.Word)
@@ -145,8 +143,10 @@ def check_around(package: Package) -> None:
         runtime.RangeError,
     )
     assert (around.shown(30, {"other": 2}), around.limits(4), around.choices(" V")) == ("1.5", (-8, 7), None)
-    named = runtime.WithCodes(runtime.Named(runtime.U16, Mode, closed=True), runtime.Codes({"off": 5}))
-    assert (named.names, named.name_of(2), named.refused) == (Mode, "fast", runtime.UnknownValueError)
+    named = runtime.WithCodes(
+        runtime.Named(runtime.U16, mode := _mode(package), closed=True), runtime.Codes({"off": 5})
+    )
+    assert (named.names, named.name_of(2), named.refused) == (mode, "fast", runtime.UnknownValueError)
     assert (named.limits(16), named.choices("")) == ((0, 2), "none of 0 idle, 2 fast")
     floating = runtime.WithCodes(runtime.Floating(runtime.F32), runtime.Codes({"off": 5}))
     assert (floating.same(0, 1 << 31), floating.same(0, 1)) == (True, False)

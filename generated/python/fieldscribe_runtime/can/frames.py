@@ -3,20 +3,21 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
 from ..errors import AccessError, FrameError, RequestError
+from ..records import Record
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from ..facts import Telegram
 
 LENGTH = 8
 """How many bytes every message has."""
 
 
-@dataclass(frozen=True, slots=True)
-class Frame:
+class Frame(Record):
     """A data frame on the bus: its identifier and its bytes."""
 
     id: int
@@ -35,8 +36,7 @@ class Role(NamedTuple):
     number: int = 0
 
 
-@dataclass(frozen=True, slots=True)
-class Message:
+class Message(Record):
     """A layout of 8 bytes with an identifier: `can_id`, plus the unit number if `adds_unit`."""
 
     name: str
@@ -55,8 +55,7 @@ class Message:
         return any(role.kind == kind for role in self.roles)
 
 
-@dataclass(frozen=True, slots=True)
-class Profile:
+class Profile(Record):
     """What a device says and hears: unit numbers, the bits of identifiers, messages and telegrams."""
 
     units: tuple[int, int]
@@ -135,6 +134,25 @@ def check(message: Message, unit: int, frame: Frame) -> None:
         for role, byte in found:
             if role.kind == kind and byte != _expected(role, unit, frame.data):
                 raise FrameError(status, f"a byte that {message.name} has as its {what} is {byte:02X}h")
+
+
+def recognizer(message: Message, unit: int) -> Callable[[Frame], bool]:
+    """Whether `check` has nothing against a frame, by bytes that are known beforehand."""
+    can_id = message.identifier(unit)
+    roles = list(enumerate(message.roles))
+    known = tuple([(at, _expected(role, unit, b"")) for at, role in roles if role.kind in ("constant", "unit")])
+    combined = tuple([(at, role.number) for at, role in roles if role.kind == "xor"])
+
+    def is_it(frame: Frame) -> bool:
+        data = frame.data
+        if frame.id != can_id or len(data) != LENGTH:
+            return False
+        for at, byte in known:
+            if data[at] != byte:
+                return False
+        return not combined or all(data[at] == _combined(data, mask) for at, mask in combined)
+
+    return is_it
 
 
 _FIXED = (("constant", "wrong_constant", "constant"), ("unit", "wrong_unit", "unit"), ("xor", "wrong_check", "check"))

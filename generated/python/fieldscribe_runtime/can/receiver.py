@@ -3,27 +3,27 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from ..errors import FrameError, RequestError, TelegramError
+from ..errors import RequestError, TelegramError
 from ..session import check_unit
-from .frames import Frame, Message, Profile, check
+from .frames import recognizer
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
+    from .frames import Frame, Message, Profile
 
-@dataclass(slots=True)
+
 class _Slot:
-    """The words of one multiplexer number: the last ones and those before.
+    """The last frame of one multiplexer number, and that before.
 
     `number` counts the taken frames, 0 is never; `moment` is what the caller said of the last one.
     """
 
-    words: tuple[int, ...] = ()
+    data: bytes = b""
     number: int = 0
-    words_before: tuple[int, ...] = ()
+    data_before: bytes = b""
     number_before: int = 0
     moment: float = 0.0
 
@@ -40,27 +40,31 @@ class Receiver:
         self.telegram = layout.name
         self.unit = unit
         self._message = profile.message(layout.message)
-        self._pairs = _pairs(self._message)
+        self._pairs = pairs_of(self._message)
         self._count = 0
         self._slots = [_Slot() for _ in range(-(-layout.words // len(self._pairs)))]
         self._words = layout.words
+        self._is_own = recognizer(self._message, unit)
+        kinds = [role.kind for role in self._message.roles]
+        self._multiplexer = kinds.index("multiplexer") if "multiplexer" in kinds else None
 
     def take(self, frame: Frame, moment: float = 0.0) -> bool:
         """Whether the frame belongs to the telegram; if so its words are kept, with the `moment` when it came."""
-        try:
-            check(self._message, self.unit, frame)
-        except FrameError:
-            return False
-        roles = zip(self._message.roles, frame.data, strict=True)
-        place = next((byte for role, byte in roles if role.kind == "multiplexer"), 0)
+        return self._taken(frame, moment) is not None
+
+    def _taken(self, frame: Frame, moment: float) -> int | None:
+        """Which of the telegram's frames it is, from 0; None if it is another one."""
+        if not self._is_own(frame):
+            return None
+        data = frame.data
+        place = 0 if self._multiplexer is None else data[self._multiplexer]
         if place >= len(self._slots):
-            return False
+            return None
         self._count += 1
         slot = self._slots[place]
-        slot.words_before, slot.number_before = slot.words, slot.number
-        slot.words = tuple([frame.data[high] << 8 | frame.data[low] for high, low in self._pairs])
-        slot.number, slot.moment = self._count, moment
-        return True
+        slot.data_before, slot.number_before = slot.data, slot.number
+        slot.data, slot.number, slot.moment = data, self._count, moment
+        return place
 
     def word(self, position: int) -> int:
         """One word of the telegram, counted from 0; raises TelegramError `missing`."""
@@ -82,13 +86,18 @@ class Receiver:
             raise TelegramError("missing", f"not all frames of {self.telegram} with words {positions} came yet")
         (high, high_word), (low, low_word) = found[0], found[-1]
         if high is low or len(found) > 2:
-            return tuple([slot.words[word] for slot, word in found])
-        if high.number_before and high.words[high_word] == high.words_before[high_word]:
+            return tuple([self._word(slot.data, word) for slot, word in found])
+        first = self._word(high.data, high_word)
+        if high.number_before and first == self._word(high.data_before, high_word):
             if high.number_before < low.number < high.number:
-                return high.words[high_word], low.words[low_word]
+                return first, self._word(low.data, low_word)
             if high.number_before < low.number_before < high.number < low.number:
-                return high.words[high_word], low.words_before[low_word]
+                return first, self._word(low.data_before, low_word)
         raise TelegramError("torn", f"words {positions} of {self.telegram} may belong to different values")
+
+    def _word(self, data: bytes, word: int) -> int:
+        high, low = self._pairs[word]
+        return data[high] << 8 | data[low]
 
     def _slot(self, position: int) -> _Slot:
         if not 0 <= position < self._words:
@@ -96,7 +105,7 @@ class Receiver:
         return self._slots[position // len(self._pairs)]
 
 
-def _pairs(message: Message) -> list[tuple[int, int]]:
+def pairs_of(message: Message) -> list[tuple[int, int]]:
     """Where the high and the low byte of each word of a frame are."""
     places = {role.number: place for place, role in enumerate(message.roles) if role.kind == "word"}
     return [(places[2 * word], places[2 * word + 1]) for word in range(len(places) // 2)]

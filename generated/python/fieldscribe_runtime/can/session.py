@@ -16,11 +16,13 @@ from ..errors import (
     TelegramError,
 )
 from ..facts import Place
-from ..session import Session, check_unit
+from ..session import Session, check_unit, exists
+from .decoder import layouts_of
 from .frames import Frame, Message, Profile, build, parse
 from .receiver import Receiver
 
 if TYPE_CHECKING:
+    from ..layouts import Layout
     from ..points import Point
 
 
@@ -64,6 +66,11 @@ class CanSession(Session):
         moment = monotonic()
         taken = [receiver.take(frame, moment) for receiver in self._receivers.values()]
         return any(taken)
+
+    @classmethod
+    def layouts(cls, telegram: str, **variants: str) -> tuple[Layout, ...]:
+        """The words of a telegram's frames, with the points in them; variants as for the device."""
+        return layouts_of(cls.PROFILE, telegram, [one for one in cls.POINTS.values() if exists(one, variants)])
 
     def _get_steps(self, place: Place) -> Steps[tuple[int, ...]]:
         """Read parameters one by one, or listen for words of a telegram; in ascending order of address."""

@@ -6,10 +6,12 @@ from __future__ import annotations
 from collections.abc import Generator, Mapping, Sequence
 from typing import TYPE_CHECKING, ClassVar, TypeVar
 
-from ..errors import NoReplyError, RequestError
+from ..errors import AccessError, NoReplyError, RequestError
+from ..layouts import Layout
 from ..points import Decoding, Point
-from ..session import Session, check_unit
+from ..session import Session, check_unit, exists
 from .frames import (
+    BIT_READS,
     WRITE_COIL,
     WRITE_COILS,
     WRITE_REGISTER,
@@ -93,6 +95,19 @@ class ModbusSession(Session):
                     own = [words[address - block.address] for address in sorted(point.facts.at.addresses)]
                     raws[point.facts.item] = self._taken(point, own)
         return raws
+
+    @classmethod
+    def layouts(cls, group: str, **variants: str) -> tuple[Layout, ...]:
+        """The registers of a group's planned reads, with the points in them; variants as for the device."""
+        blocks: tuple[Block, ...] = tuple([one for one in cls.BLOCKS.get(group, ()) if one.function not in BIT_READS])
+        if not blocks:
+            raise AccessError(f"there is no group {group} with registers")
+        points = [point for point in cls.POINTS.values() if exists(point, variants)]
+        made = []
+        for block in blocks:
+            inside = [point for point in points if block.covers(point.facts.at)]
+            made.append(Layout(inside, range(block.address, block.address + block.count)))
+        return tuple(made)
 
     def _bridges(self) -> frozenset[tuple[str, int]]:
         """The addresses of all points that are known to be there, and readable."""

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING, Generic, TypeVar
 
 from ..descriptors import PointAttribute
@@ -24,7 +23,7 @@ W_contra = TypeVar("W_contra", contravariant=True)
 def _place(point: Point, keep: bool) -> Place:
     """Where a value is written, with the task that keeps it in EEPROM if it is to be kept."""
     place = point.facts.write_at or point.facts.at
-    return replace(place, function=EEPROM.get((point.size, place.index is not None))) if keep else place
+    return place.replaced(function=EEPROM.get((point.size, place.index is not None))) if keep else place
 
 
 class StoredWriteHandle(WriteHandle[W_contra]):

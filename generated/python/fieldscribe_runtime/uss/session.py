@@ -4,13 +4,13 @@
 from __future__ import annotations
 
 from collections.abc import Generator, Mapping, Sequence
-from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar, TypeVar
 
-from ..errors import EchoError, FrameError, NoReplyError, RequestError
+from ..errors import AccessError, EchoError, FrameError, NoReplyError, RequestError
 from ..facts import Place
-from ..session import Session, check_unit
+from ..layouts import Layout
+from ..session import Session, check_unit, exists
 from .frames import (
     NO_TASK,
     RAM,
@@ -61,6 +61,16 @@ class UssSession(Session):
     def drop_process_data(self) -> None:
         """Let all words of process data be 0 until they are written again, because others have commanded the device."""
         self._sent = {}
+
+    @classmethod
+    def layouts(cls, telegram: str, *, words: int | None = None, **variants: str) -> tuple[Layout, ...]:
+        """The process data of a telegram, or its first words, with the points in them; variants as for the device."""
+        for one in cls.PROFILE.telegrams:
+            if one.name == telegram:
+                points = [point for point in cls.POINTS.values() if exists(point, variants)]
+                own = [point for point in points if point.facts.at.telegram == telegram]
+                return (Layout(own, range(one.words if words is None else words)),)
+        raise AccessError(f"the device has no telegram {telegram}")
 
     def _get_steps(self, place: Place) -> Steps[tuple[int, ...]]:
         """Read a parameter (the high word first), or words of the process data that comes back."""
@@ -141,7 +151,7 @@ class UssSession(Session):
 
     def _exchange_steps(self, request: Request, sent: Mapping[int, int]) -> Steps[Reply]:
         """One task with process data, and the reply; a task is repeated until the device answers it."""
-        request = replace(request, words=self._words(sent))
+        request = request.replaced(words=self._words(sent))
         frame = build(request, self.PROFILE, self.link)
         left = self.repeats
         while True:

@@ -54,10 +54,11 @@ class EnumClass:
 
 @dataclass(frozen=True, slots=True)
 class EnumsView:
-    """The enums module."""
+    """The enums module: its classes, what it takes from the runtime, and whether words are among them, or are made."""
 
     classes: tuple[EnumClass, ...]
     runtime: tuple[str, ...]
+    has_words: bool
     composes: bool
 
 
@@ -68,12 +69,15 @@ def enums_view(device: Device, names: Identifiers) -> EnumsView:
     for point in device.points:
         if point.form == "flags" and point.generated:
             classes += _word(point, names, used)
-    return EnumsView(tuple(classes), tuple(sorted(used)), any(one.composer for one in classes))
+    if any(not one.readers for one in classes):
+        used.add("NamedNumber")
+    has_words, composes = "Word" in used, any(one.composer for one in classes)
+    return EnumsView(tuple(classes), tuple(sorted(used)), has_words, composes)
 
 
 def _enum(name: str, title: Titles, entries: tuple[Entry, ...]) -> EnumClass:
     members = tuple(Member(upper(entry.name), str(entry.raw), _entry_doc(entry)) for entry in entries)
-    return EnumClass(name, f"class {name}(enum.IntEnum):", (_sentence(title["en"]),), members)
+    return EnumClass(name, f"class {name}(NamedNumber):", (_sentence(title["en"]),), members)
 
 
 def _word(point: Point, names: Identifiers, used: set[str]) -> list[EnumClass]:

@@ -17,6 +17,7 @@ DEVICE_MEMBERS = frozenset(
         "broadcast",
         "drop_process_data",
         "forget",
+        "layouts",
         "fresh_for",
         "link",
         "patience",
@@ -58,7 +59,7 @@ WORD_MEMBERS = frozenset(
 )
 """Public members of IntFlag and of words of flags, which no flag may hide."""
 
-_CLASS_TAKEN = PYTHON_RESERVED | {"Field", "Flag", "Literal", "Points", "Self", "Word"}
+_CLASS_TAKEN = PYTHON_RESERVED | {"Field", "Flag", "Literal", "NamedNumber", "Points", "Self", "Word"}
 """What no class may be called: the modules of enums and of the device refer to these."""
 
 _ATTRIBUTE_TAKEN = PYTHON_RESERVED | DEVICE_MEMBERS | HELPERS

@@ -18,9 +18,9 @@ from fieldscribe.text import python_doc, python_string
 from fieldscribe.wording import codes_text, condition_text, range_text
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Collection, Iterable, Mapping
 
-    from fieldscribe.model import Device, Erratum, Point
+    from fieldscribe.model import Device, Point
 
 _DOC = WIDTH - 4 - 6  # what an indentation and two triple quotes leave
 _BODY = 8  # the indentation of an attribute's arguments
@@ -39,11 +39,10 @@ class PointView:
 
 @dataclass(slots=True)
 class GroupView:
-    """The points of one group, and comments on those that are only documented."""
+    """The points of one group."""
 
     title: str
     points: list[PointView] = field(default_factory=list)
-    left_out: list[str] = field(default_factory=list)
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,13 +69,12 @@ def points_view(device: Device, names: Identifiers) -> PointsView:
     """All points, group by group."""
     family = FAMILIES[device.family]
     scope = Scope(names, {point.name: point for point in device.points}, device.variants, {"PointTable"})
-    errata = {one.id: one for one in device.errata}
+    errata = frozenset([one.id for one in device.errata if one.facts])
     groups = {group.name: GroupView(comment(f"{group.name}: {group.title['en']}")) for group in device.groups}
     by_name: dict[str, list[Point]] = {}
     for point in device.points:
         group = groups.setdefault(point.group, GroupView(comment(point.group)))
         if not point.generated:
-            group.left_out.append(_left_out(point))
             continue
         group.points.append(_point(point, family, scope, errata))
         if point.variant is not None:
@@ -94,7 +92,7 @@ def points_view(device: Device, names: Identifiers) -> PointsView:
         blocks="" if blocks is None else laid_out(blocks, 4),
         variants=laid_out(assigned("VARIANTS: ClassVar", variants(device)), 4) if device.variants else "",
         documented=laid_out(assigned("DOCUMENTED: ClassVar", Group("{", documented, "}")), 4) if documented else "",
-        groups=[group for group in groups.values() if group.points or group.left_out],
+        groups=[group for group in groups.values() if group.points],
         commands=made,
         codes=tuple(laid_out(one, 0) for one in scope.codes.values()),
     )
@@ -115,7 +113,7 @@ def _imports(used: set[str], family: Family) -> list[tuple[str, list[str]]]:
     return [(module, names) for module, names in found if names]
 
 
-def _point(point: Point, family: Family, scope: Scope, errata: Mapping[str, Erratum]) -> PointView:
+def _point(point: Point, family: Family, scope: Scope, errata: Collection[str]) -> PointView:
     maker = family.maker(point)
     scope.used.add(maker)
     old_names = tuple(map(attribute, point.was)) if point.variant is None else ()
@@ -188,7 +186,7 @@ def _by_variant(points: list[Point], scope: Scope) -> PointView:
     return PointView(attribute(points[0].name), "ByVariant", arguments, tuple(doc), old_names)
 
 
-def _doc(point: Point, errata: Mapping[str, Erratum], by_name: Mapping[str, Point]) -> tuple[str, ...]:
+def _doc(point: Point, errata: Collection[str], by_name: Mapping[str, Point]) -> tuple[str, ...]:
     limits = range_text(point, by_name) if point.writable and point.form in ("scaled", "float", "integer") else ""
     first = f"{point.title['en']}: {limits}" if limits else point.title["en"]
     first = first if first.endswith(".") else f"{first}."
@@ -199,21 +197,14 @@ def _doc(point: Point, errata: Mapping[str, Erratum], by_name: Mapping[str, Poin
     if point.specials:
         first += f" {codes_text(point)}."
     lines = _wrapped(python_doc(first))
-    for one in point.errata:
-        erratum = errata[one]
-        facts = f"printed: {erratum.printed.rstrip('.')}; taken: {erratum.taken.rstrip('.')}"
-        text = f"Erratum {erratum.id} ({erratum.certainty}), {facts}."
-        lines += ("", *_wrapped(python_doc(text)))
+    if changing := [one for one in point.errata if one in errata]:
+        lines += ("", *_wrapped(f"Errata: {', '.join(changing)}."))
     return tuple(lines)
 
 
 def _wrapped(text: str) -> list[str]:
     """Docstring text in lines that fit below an attribute; most of it does so as it is."""
     return [text] if len(text) <= _DOC else textwrap.wrap(text, _DOC, break_long_words=False, break_on_hyphens=False)
-
-
-def _left_out(point: Point) -> str:
-    return comment(f"{_labelled(point)} is only documented: {point.reason or 'no reason given'}")
 
 
 def _labelled(point: Point) -> str:

@@ -3,22 +3,11 @@
 
 from __future__ import annotations
 
-import copy
 import warnings
-from typing import (
-    TYPE_CHECKING,
-    Any,
-    ClassVar,
-    Generic,
-    Never,
-    Self,
-    TypeVar,
-    Unpack,
-    overload,
-)
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar, overload
 
-from .errors import AccessError
-from .facts import FactArguments, Facts
+from .errors import AbsentError
+from .facts import Facts
 from .handles import (
     AsyncHandle,
     AsyncReadHandle,
@@ -34,8 +23,10 @@ from .wrappers import with_fixed
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
+    from typing import Never, Self, Unpack
 
     from .device import AnyAsyncDevice, AnyDevice
+    from .facts import FactArguments
     from .forms import Decodes, Encodes, Form
 
 R_co = TypeVar("R_co", covariant=True)
@@ -48,17 +39,16 @@ A_co = TypeVar("A_co", covariant=True)
 
 
 class _Attribute:
-    """What an attribute of a table of points knows of its name; a renamed one still works and warns."""
+    """An attribute of a table of points."""
 
-    old_name: str | None = None
-    new_name: str | None = None
+    name: str
+    """What it is called in the class."""
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self.name = name
 
     def __set__(self, device: Any, value: Never) -> None:
         raise AttributeError("a point is not assigned to: use its write method")
-
-    def _warn(self) -> None:
-        if self.new_name is not None:
-            warnings.warn(f"{self.old_name} is now called {self.new_name}", DeprecationWarning, stacklevel=3)
 
 
 class PointAttribute(_Attribute, Point, Generic[H_co, A_co]):
@@ -73,11 +63,9 @@ class PointAttribute(_Attribute, Point, Generic[H_co, A_co]):
         self._form = with_fixed(form, *fixed) if fixed else form
 
     def __set_name__(self, owner: type, name: str) -> None:
-        if self.new_name is not None:
-            self.old_name = name
-        else:
-            self.facts.item = name.rstrip("_")
-            self.facts.name = self.facts.name or self.facts.item
+        super().__set_name__(owner, name)
+        self.facts.item = name.rstrip("_")
+        self.facts.name = self.facts.name or self.facts.item
 
     @overload
     def __get__(self, device: None, owner: object) -> Self: ...
@@ -86,7 +74,6 @@ class PointAttribute(_Attribute, Point, Generic[H_co, A_co]):
     @overload
     def __get__(self, device: AnyAsyncDevice, owner: object) -> A_co: ...
     def __get__(self, device: AnyDevice | AnyAsyncDevice | None, owner: object) -> object:
-        self._warn()
         return self if device is None else device._bound(self)
 
 
@@ -131,9 +118,6 @@ class ByVariant(_Attribute, Generic[P_co]):
         self.axis = axis
         self.points = points
 
-    def __set_name__(self, owner: type, name: str) -> None:
-        self.old_name = name
-
     @overload
     def __get__(self, device: None, owner: object) -> ByVariant[P_co]: ...
     @overload
@@ -141,22 +125,42 @@ class ByVariant(_Attribute, Generic[P_co]):
     @overload
     def __get__(self: ByVariant[PointAttribute[H, A]], device: AnyAsyncDevice, owner: object) -> A: ...
     def __get__(self, device: AnyDevice | AnyAsyncDevice | None, owner: object) -> object:
-        self._warn()
         if device is None:
             return self
         chosen = device.variants.get(self.axis)
         if chosen is None:
-            raise AccessError(f"{self.old_name} depends on {self.axis}: pass it when the device is made")
+            raise AbsentError(f"{self.name} depends on {self.axis}: pass it when the device is made")
         if chosen not in self.points:
-            raise AccessError(f"{self.old_name} does not exist for {self.axis} {chosen}")
+            raise AbsentError(f"{self.name} does not exist for {self.axis} {chosen}")
         return device._bound(self.points[chosen])
 
+    def __repr__(self) -> str:
+        items = " or ".join(point.facts.item for point in self.points.values())
+        return f"<{type(self).__name__} {self.name}: {items}, as {self.axis} says>"
 
-Named = TypeVar("Named", bound=_Attribute)
+
+Attribute = TypeVar("Attribute", bound=_Attribute)
 
 
-def renamed(attribute: Named, new_name: str) -> Named:
+class Renamed(_Attribute):
+    """An attribute by its old name, which warns."""
+
+    def __init__(self, attribute: Any, new_name: str) -> None:
+        self.attribute = attribute
+        self.new_name = new_name
+
+    def __get__(self, device: object, owner: object) -> Any:
+        self.warn(stacklevel=3)
+        return self.attribute.__get__(device, owner)
+
+    def warn(self, stacklevel: int) -> None:
+        """Say what it is called now."""
+        text = f"{self.name} is now called {self.new_name}"
+        warnings.warn(text, DeprecationWarning, stacklevel=stacklevel)
+
+
+def renamed(attribute: Attribute, new_name: str) -> Attribute:
     """The same attribute for its old name; using it warns."""
-    alias = copy.copy(attribute)
-    alias.new_name = new_name
-    return alias
+    alias: Any = Renamed(attribute, new_name)
+    made: Attribute = alias
+    return made

@@ -92,6 +92,10 @@ class AccessError(FieldscribeError):
     status = "no_access"
 
 
+class AbsentError(AccessError, AttributeError):
+    """The variant of the device decides whether it has this point, and it has not, or nobody said which one it is."""
+
+
 class RequestError(FieldscribeError, ValueError):
     """The request cannot be sent to this device; `status` says why (bad_unit, bad_count, ...)."""
 

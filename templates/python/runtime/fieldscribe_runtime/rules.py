@@ -6,15 +6,21 @@ from __future__ import annotations
 import math
 import struct
 from collections.abc import Mapping
-from dataclasses import dataclass
-from fractions import Fraction
+from typing import TYPE_CHECKING
 
 from .errors import MissingRawError, NoCaseError, ResultOverflowError, ZeroFactorError
+from .records import Record
+
+if TYPE_CHECKING:
+    from fractions import Fraction
 
 Raws = Mapping[str, int]
 """Raw numbers of other points by name."""
 
 NO_RAWS: Raws = {}
+
+Line = tuple[int, int, int]
+"""A scale as (times, less, over): value = (raw * times - less) / over, exactly, and `over` is positive."""
 
 
 def round_ratio(num: int, den: int) -> int:
@@ -40,12 +46,13 @@ def raw_of(point: str, raws: Raws) -> int:
 
 def _binary32(pattern: int) -> Fraction:
     """The number that the bits are; 0 for infinities and NaN."""
+    from fractions import Fraction  # only scales by floating-point points need it
+
     value: float = struct.unpack("<f", struct.pack("<I", pattern & 0xFFFF_FFFF))[0]
     return Fraction(value) if math.isfinite(value) else Fraction(0)
 
 
-@dataclass(frozen=True, slots=True)
-class Factor:
+class Factor(Record):
     """raw * slope + intercept of another point, to the power of 1 or -1.
 
     With `ten_to` it is ten to that number, and the pair says between which raw numbers of the point this holds. With
@@ -75,8 +82,7 @@ class Factor:
         return self.ten_to is None or self.ten_to[0] <= raw_of(self.point, raws) <= self.ten_to[1]
 
 
-@dataclass(frozen=True, slots=True)
-class Rule:
+class Rule(Record):
     """raw = value * num / den * product(factors) + offset; the offset is a pair, numerator and denominator."""
 
     num: int = 1
@@ -116,15 +122,33 @@ class Rule:
             return None
         return round_float(result) if math.isfinite(result) else None
 
-    def decode(self, raw: int, raws: Raws) -> float:
-        """The binary64 nearest to the exact value."""
+    def line(self, raws: Raws) -> Line:
+        """The rule solved for the value, in lowest terms; raises as `ratio` does."""
         num, den = self.ratio(raws)
         over, under = self.offset
-        top, bottom = (raw * under - over) * den, num * under
+        found = (under * den, over * den, num * under)
+        shared = math.gcd(*found) if num > 0 else -math.gcd(*found)
+        return found[0] // shared, found[1] // shared, found[2] // shared
+
+    def steps(self) -> tuple[float, float, float] | None:
+        """What a value is multiplied with and divided by, and what is added; None beyond binary64."""
         try:
-            return -top / -bottom if bottom < 0 else top / bottom  # int / int is correctly rounded
+            return float(self.num), float(self.den), self.offset[0] / self.offset[1]
+        except OverflowError:
+            return None
+
+    def decode(self, raw: int, raws: Raws) -> float:
+        """The binary64 nearest to the exact value."""
+        times, less, over = self.line(raws)
+        try:
+            return (raw * times - less) / over  # int / int is correctly rounded
         except OverflowError:
             raise ResultOverflowError(f"raw {raw} gives no binary64") from None
+
+    def is_safe(self, raws: Raws, low: int, high: int) -> bool:
+        """Whether no raw number from `low` to `high` gives a value beyond binary64."""
+        times, less, over = self.line(raws)
+        return all(abs(raw * times - less) >> 1023 < over for raw in (low, high))
 
     def encode_count(self, count: int, decimals: int, raws: Raws, *, zero_allowed: bool = False) -> int:
         """The raw number of `count` units of 10^-decimals, by integers alone."""
@@ -143,8 +167,7 @@ class Rule:
         return count
 
 
-@dataclass(frozen=True, slots=True)
-class Case:
+class Case(Record):
     """`rule` holds when the raw number of `point` equals `raw`; without a point it always holds."""
 
     point: str | None
@@ -161,8 +184,7 @@ def chosen(cases: tuple[Case, ...], raws: Raws) -> Rule:
     raise NoCaseError(f"no scale for these raw numbers of {points}")
 
 
-@dataclass(frozen=True, slots=True)
-class Limit:
+class Limit(Record):
     """A limit that other points set: `rule` applied to 1.
 
     It does not hold while a point has a number in one of its bands (first, last) of `unless`.

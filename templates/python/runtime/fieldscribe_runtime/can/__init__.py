@@ -2,6 +2,7 @@
 """The CAN family: messages of 8 bytes, multiplexed telegrams, and devices over a transport."""
 
 from ..facts import Telegram
+from .decoder import Decoder
 from .device import (
     AsyncCanDevice,
     AsyncCanTransport,
@@ -21,6 +22,7 @@ __all__ = [
     "CanDevice",
     "CanSession",
     "CanTransport",
+    "Decoder",
     "Frame",
     "Message",
     "Profile",

@@ -26,6 +26,7 @@ from .frames import (
     check_request,
     crc,
     parse,
+    receive,
     reply_size,
 )
 from .planner import Block, plan, read_function
@@ -63,5 +64,6 @@ __all__ = [
     "parse",
     "plan",
     "read_function",
+    "receive",
     "reply_size",
 ]

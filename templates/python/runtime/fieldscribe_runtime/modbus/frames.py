@@ -3,13 +3,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from ..errors import ExceptionReplyError, FrameError, RequestError
+from ..records import Record
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Mapping
+    from collections.abc import Callable, Collection, Mapping
 
 READ_COILS, READ_DISCRETE, READ_HOLDING, READ_INPUT = 0x01, 0x02, 0x03, 0x04
 WRITE_COIL, WRITE_REGISTER, DIAGNOSTICS, WRITE_COILS, WRITE_REGISTERS = 0x05, 0x06, 0x08, 0x0F, 0x10
@@ -24,8 +24,7 @@ ECHOES = frozenset({WRITE_COIL, WRITE_REGISTER, DIAGNOSTICS})
 RTU, TCP = "rtu", "tcp"
 
 
-@dataclass(frozen=True, slots=True)
-class Profile:
+class Profile(Record):
     """What a device takes: functions with the most items of one request, unit numbers, and its peculiarities.
 
     `broadcast` is the unit number that means all units, `broadcasts` the functions that may be sent to it. `framings`
@@ -36,13 +35,12 @@ class Profile:
     units: tuple[int, int] = (1, 247)
     broadcast: int | None = 0
     pad_coil_bytes_even: bool = False
-    exceptions: Mapping[int, str] = field(default_factory=dict)
+    exceptions: Mapping[int, str] = {}
     broadcasts: Collection[int] = WRITES
     framings: tuple[str, ...] = (RTU, TCP)
 
 
-@dataclass(frozen=True, slots=True)
-class Request:
+class Request(Record):
     """One request. Reads name `count`, writes `values`; a loop-back test (08h) sends values[0] to `address` 0."""
 
     unit: int
@@ -153,6 +151,20 @@ def reply_size(received: bytes, framing: str = RTU) -> int | None:
     if size is not None and size > most:
         raise FrameError("long_frame", f"the reply would have {size} bytes, and a frame has at most {most}")
     return size
+
+
+def receive(read: Callable[[int], bytes], framing: str = RTU) -> bytes:
+    """The whole reply. For transports: `read` gives up to so many bytes, such as pyserial's; none when nothing comes.
+
+    Raises TimeoutError then, and FrameError as `reply_size` does.
+    """
+    received = b""
+    while (size := reply_size(received, framing)) is None or len(received) < size:
+        more = read(1 if size is None else size - len(received))
+        if not more:
+            raise TimeoutError(f"{len(received)} bytes came and no more")
+        received += more
+    return received
 
 
 _LONGEST = {RTU: 256, TCP: 260}

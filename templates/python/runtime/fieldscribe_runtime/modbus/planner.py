@@ -3,10 +3,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from ..errors import RequestError
+from ..records import Record
 from .frames import READ_COILS, READ_DISCRETE, READ_HOLDING, READ_INPUT, READS, Profile
 
 if TYPE_CHECKING:
@@ -17,8 +17,7 @@ if TYPE_CHECKING:
 _READS = {"coil": READ_COILS, "discrete": READ_DISCRETE, "holding": READ_HOLDING, "input": READ_INPUT}
 
 
-@dataclass(frozen=True, slots=True)
-class Block:
+class Block(Record):
     """One read: `count` words or bits from `address` on."""
 
     space: str

@@ -3,10 +3,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from ..errors import FrameError, RefusedError, RequestError
+from ..records import Record
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -30,8 +30,7 @@ _PAGE = 2000
 _PAGE_BITS = (15, 12, 13, 14)
 
 
-@dataclass(frozen=True, slots=True)
-class Link:
+class Link(Record):
     """How the link is set: `pkw` words of the parameter part (127: variable), `pzd` words of process data.
 
     `single_first`: the firmware that keeps single words in the first value word although the part has 4 words.
@@ -52,8 +51,7 @@ class Link:
         return self.pkw == 4 and not self.single_first
 
 
-@dataclass(frozen=True, slots=True)
-class Profile:
+class Profile(Record):
     """What a device takes: unit numbers, the address byte for all of them, lengths, tasks with their answers.
 
     `errors` names the numbers with which tasks are refused, `telegrams` the process data. `pzd` holds for all variants
@@ -65,13 +63,12 @@ class Profile:
     pzd: tuple[int, int]
     tasks: Mapping[int, tuple[int, ...]]
     broadcast: int | None = None
-    errors: Mapping[int, str] = field(default_factory=dict)
+    errors: Mapping[int, str] = {}
     telegrams: tuple[Telegram, ...] = ()
-    variant_pzd: Mapping[tuple[str, str], tuple[int, int]] = field(default_factory=dict)
+    variant_pzd: Mapping[tuple[str, str], tuple[int, int]] = {}
 
 
-@dataclass(frozen=True, slots=True)
-class Request:
+class Request(Record):
     """What is asked: a task for a parameter (or an element of one) with a value of `width` words, and process data."""
 
     unit: int
@@ -83,8 +80,7 @@ class Request:
     words: tuple[int, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class Reply:
+class Reply(Record):
     """A good answer: its response id, a value of `width` words (0 without a task), and process data."""
 
     response: int = 0

@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: 0BSD
+"""The frames of a telegram to values, one by one as they come."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ..errors import TelegramError
+from ..layouts import Layout
+from ..points import Decoding, Point
+from ..rules import NO_RAWS
+from ..session import exists
+from .frames import LENGTH
+from .receiver import Receiver, pairs_of
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from ..rules import Raws
+    from ..session import Value
+    from .frames import Frame, Profile
+    from .session import CanSession
+
+
+def layouts_of(profile: Profile, telegram: str, points: Sequence[Point], *, whole: bool = False) -> tuple[Layout, ...]:
+    """The words of each frame of a telegram, with the points in them; of `whole` frames, those around the words too."""
+    told = profile.telegram(telegram)
+    message = profile.message(told.message)
+    own = [point for point in points if point.facts.at.telegram == telegram]
+    wanted = {name for point in own for name in point.scale_needs}
+    words, before = len(pairs_of(message)), pairs_of(message)[0][0]
+    around = (before, LENGTH - before - 2 * words) if whole else (0, 0)
+    return tuple([Layout(own, range(at, at + words), wanted, around) for at in range(0, told.words, words)])
+
+
+class Decoder(Receiver):
+    """Tells what the frames of a telegram mean that one unit sends: `Decoder(WoodwardMpu2s, "visualisation", unit=1)`.
+
+    It remembers of earlier frames what the scales of points need, and the words of numbers that two frames carry.
+    """
+
+    def __init__(self, device: type[CanSession], telegram: str, unit: int, **variants: str) -> None:
+        super().__init__(device.PROFILE, telegram, unit)
+        self._known: dict[str, int] = {}
+        self._places = [place for pair in pairs_of(self._message) for place in pair]
+        first = self._places[0]
+        self._in_order = self._places == list(range(first, first + len(self._places)))
+        points = [one for one in device.POINTS.values() if one.facts.at.telegram == telegram and exists(one, variants)]
+        self._layouts = layouts_of(device.PROFILE, telegram, points, whole=self._in_order)
+        apart = [one for one in points if not any(one in layout.points for layout in self._layouts)]
+        self._apart = [self._parts(number, apart) for number in range(len(self._layouts))]
+
+    def _parts(self, number: int, apart: Sequence[Point]) -> list[Decoding[Value]]:
+        """The points in several frames of which this one can be the last to come: the high word of a counter."""
+        words = self._layouts[number].words
+        ends = [(one, one.facts.at.addresses) for one in apart if isinstance(one, Decoding)]
+        return [one for one, at in ends if (at[0] if len(at) == 2 else max(at)) in words]
+
+    def decode(self, frame: Frame, raws: Raws = NO_RAWS, moment: float = 0.0) -> dict[str, Value]:
+        """The values that a frame brings, by the names of points; none for a frame of something else.
+
+        `raws` holds the raw numbers that scales need of points that are not in the telegram. What needs a number that
+        has not come yet is left out, and so is a number that two frames carry while they may not belong together.
+        """
+        number = self._taken(frame, moment)
+        if number is None:
+            return {}
+        layout, data, known = self._layouts[number], frame.data, self._known
+        if not self._in_order:
+            data = bytes([data[place] for place in self._places])
+        if layout.gives:
+            known.update(layout.wanted(data))
+        if raws:
+            known = {**raws, **known}
+        is_known = not layout.needs or layout.needs <= known.keys()
+        values: dict[str, Value] = (layout.decoder if is_known else layout.decode_known)(data, known)
+        for point in self._apart[number]:
+            if known.keys() >= set(point.scale_needs) and (raw := self._joined(point)) is not None:
+                values[point.facts.name] = point.decode(raw, known)
+        return values
+
+    def _joined(self, point: Point) -> int | None:
+        """The raw number of a point in several frames; None while these may not belong together."""
+        addresses = point.facts.at.addresses
+        try:
+            by_address = dict(zip(addresses, self.words(addresses), strict=True))
+        except TelegramError:
+            return None
+        return point.from_words([by_address[at] for at in sorted(by_address)])

@@ -1,0 +1,205 @@
+# SPDX-License-Identifier: 0BSD
+"""Words that travel together, and the points in them: one prebuilt Struct takes each layout apart."""
+
+from __future__ import annotations
+
+import struct
+from collections import Counter
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from .errors import AccessError, RequestError, WrongLengthError
+from .fast import bits_of, itself, put_together, taken_apart
+from .points import Decoding, Encoding
+from .rules import NO_RAWS
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+    from typing import Never
+
+    from .fast import Way
+    from .points import Point
+    from .rules import Raws
+    from .session import Value
+
+_LETTERS = {16: "H", 32: "I", 64: "Q"}
+
+
+class _Piece(NamedTuple):
+    """A point: where it is among the fields of a Struct, what decodes that, and what makes a raw number of it.
+
+    `whole` says that one field is just the number.
+    """
+
+    point: Point
+    at: int | slice
+    way: Way
+    raw: Callable[[Any], int]
+    whole: bool
+
+
+class Layout:
+    """Points in words that travel together, big-endian: in a planned read, or in a frame of a telegram.
+
+    Values are by the names of points, `size` is how many bytes the words take. A point is here if all of its words are.
+    `wanted` names points whose raw numbers scales elsewhere need, `needs` those that scales here need; `around` is how
+    many bytes of something else stand before the words and behind them.
+    """
+
+    def __init__(
+        self, points: Iterable[Point], words: range, wanted: Collection[str] = (), around: tuple[int, int] = (0, 0)
+    ) -> None:
+        self.words, self.size = words, around[0] + 2 * len(words) + around[1]
+        ordered = sorted(points, key=lambda point: point.facts.at.address)
+        self.points = tuple([point for point in ordered if all(at in words for at in addresses_of(point))])
+        letters, self._pieces = _cut(self.points, words)
+        self._struct = struct.Struct(f">{around[0]}x{letters}{around[1]}x")
+        self._read = [piece for piece in self._pieces if isinstance(piece.point, Decoding)]
+        self.needs = frozenset([name for piece in self._read for name in piece.point.scale_needs])
+        self._own = {piece.point.facts.name: piece for piece in self._pieces if piece.point.facts.name in self.needs}
+        self._wanted = {piece.point.facts.name: piece for piece in self._pieces if piece.point.facts.name in wanted}
+        self.gives = bool(self._wanted)
+
+    def decode(self, data: bytes, raws: Raws = NO_RAWS) -> dict[str, Value]:
+        """The values in the bytes of the words; `raws` holds the raw numbers that scales need of points elsewhere.
+
+        Points that are only written have none. Raises WrongLengthError, and what decoding a point raises.
+        """
+        if not self._own:
+            self.__dict__["decode"] = self.decoder  # from the first call on
+        if self._own and len(data) == self.size:
+            raws = {**raws, **self._numbers(self._own, data)}
+        values: dict[str, Value] = self.decoder(data, raws)
+        return values
+
+    @cached_property
+    def decoder(self) -> Way:
+        """What decodes, given all raw numbers that scales need."""
+        return self._decoder(self._read)
+
+    def _decoder(self, pieces: Sequence[_Piece]) -> Way:
+        plan = [(piece.point.facts.name, piece.at, piece.way) for piece in pieces]
+        return taken_apart(self._struct.unpack, plan, self._refuse)
+
+    def _refuse(self, data: bytes, raws: Raws) -> Never:
+        """Say that these are not the bytes of the words."""
+        del raws
+        raise WrongLengthError(f"takes {self.size} bytes, not {len(data)}") from None
+
+    def decode_known(self, data: bytes, raws: Raws) -> dict[str, Value]:
+        """The same without the points whose scales need what is not there."""
+        known = {**raws, **self._numbers(self._own, data)}
+        read = [piece for piece in self._read if known.keys() >= set(piece.point.scale_needs)]
+        values: dict[str, Value] = self._decoder(read)(data, known)
+        return values
+
+    def wanted(self, data: bytes) -> dict[str, int]:
+        """The raw numbers in the bytes that scales elsewhere need."""
+        return self._numbers(self._wanted, data)
+
+    def _numbers(self, pieces: Mapping[str, _Piece], data: bytes) -> dict[str, int]:
+        fields = self._struct.unpack(data)
+        return {name: piece.raw(fields[piece.at]) for name, piece in pieces.items()}
+
+    def encode(self, values: Mapping[str, Any], raws: Raws = NO_RAWS) -> bytes:
+        """The bytes of the words for a value of every point; `raws` as for decoding, and what limits need.
+
+        Raises AccessError where a point cannot be written or bits belong to none, RequestError (bad_value) unless there
+        are just the values of all points, and what encoding a point raises.
+        """
+        quick = self._quick
+        try:
+            if len(values) == len(self.points):
+                data: bytes = quick(values, raws)
+                return data
+        except KeyError:
+            pass
+        different = ", ".join(sorted(values.keys() ^ {point.facts.name for point in self.points}))
+        raise RequestError("bad_value", f"takes a value of each point and no other: see {different}")
+
+    def _encode(self, values: Mapping[str, Any], raws: Raws) -> bytes:
+        """The same point by point, those first that others may need."""
+        known = dict(raws)
+        words = dict.fromkeys(self.words, 0)
+        for point in sorted(self._written, key=lambda one: bool(one.scale_needs or one.limit_needs)):
+            known[point.facts.name] = raw = point.encode(values[point.facts.name], known)
+            first = point.facts.at.address
+            own = point.to_words(raw) if point.facts.bits is None else (point.insert(words[first], raw),)
+            words.update(zip(addresses_of(point), own, strict=True))
+        return struct.pack(f">{len(self.words)}H", *words.values())
+
+    @cached_property
+    def _written(self) -> tuple[Encoding[Any], ...]:
+        """All points, which have to say every bit of the words; raises AccessError."""
+        said = dict.fromkeys(self.words, 0)
+        written: list[Encoding[Any]] = []
+        for point in self.points:
+            if not isinstance(point, Encoding) or point.facts.write_at is not None:
+                raise AccessError(f"{point.label} cannot be written with these words")
+            bits = 0xFFFF if point.facts.bits is None else point.insert(0, -1) | (point.facts.fixed or (0, 0))[0]
+            said.update({address: said[address] | bits for address in addresses_of(point)})
+            written.append(point)
+        gaps = ", ".join([str(address) for address, bits in said.items() if bits != 0xFFFF])
+        if gaps:
+            raise AccessError(f"no point says all bits of the words at {gaps}")
+        return tuple(written)
+
+    @cached_property
+    def _quick(self) -> Way:
+        """What makes the bytes: field by field where each is a point that needs no other one."""
+        needs = any(point.scale_needs or point.limit_needs for point in self._written)
+        if needs or not all(piece.whole for piece in self._pieces):
+            return self._encode
+        return put_together(self._struct.pack, [(point.facts.name, point.encoder) for point in self._written])
+
+
+def addresses_of(point: Point) -> Sequence[int]:
+    """The addresses of a point's words in ascending order; where only the first is said, of those behind it, too."""
+    addresses = point.facts.at.addresses
+    return sorted(addresses) if len(addresses) > 1 else range(addresses[0], addresses[0] + point.size)
+
+
+def _is_whole(point: Point) -> bool:
+    """Whether the raw number is its words as they are, the high one first."""
+    addresses = point.facts.at.addresses
+    in_order = list(addresses) == sorted(addresses)
+    return point.facts.bits is None and point.wire.bits in _LETTERS and in_order
+
+
+def _cut(points: Sequence[Point], words: range) -> tuple[str, tuple[_Piece, ...]]:
+    """The letters of the Struct, and where the points are in its fields, in the order of these."""
+    users = Counter(at for point in points for at in addresses_of(point))
+    whole = {point.facts.at.address: point for point in points if _is_whole(point)}
+    whole = {at: point for at, point in whole.items() if all(users[one] == 1 for one in addresses_of(point))}
+    letters: list[str] = []
+    fields: dict[int, int] = {}
+    inside = {address for at, point in whole.items() for address in addresses_of(point) if address != at}
+    for at in words:
+        if at in inside:
+            continue
+        letter = _LETTERS[whole[at].wire.bits] if at in whole else "H"
+        if users[at]:
+            fields[at] = len(fields)
+            letters.append(letter.lower() if at in whole and whole[at].wire.signed else letter)
+        else:
+            letters.append("2x")
+    pieces = [_piece(point, [fields[at] for at in addresses_of(point) if at in fields], whole) for point in points]
+    return "".join(letters), tuple(pieces)
+
+
+def _piece(point: Point, fields: Sequence[int], whole: Mapping[int, Point]) -> _Piece:
+    """A point in its fields."""
+    decoder = point.sure_decoder if isinstance(point, Decoding) else itself
+    if whole.get(point.facts.at.address) is point:
+        return _Piece(point, fields[0], decoder, int, True)
+    if len(fields) == 1:
+        return _Piece(point, fields[0], bits_of(*point.bit_field, decoder), bits_of(*point.bit_field, itself), False)
+    chosen = [at - fields[0] for at in fields]
+
+    def raw(found: Sequence[int]) -> int:
+        return point.from_words([found[at] for at in chosen])
+
+    def way(found: Sequence[int], raws: Raws) -> Any:
+        return decoder(raw(found), raws)
+
+    return _Piece(point, slice(fields[0], fields[-1] + 1), way, raw, False)

@@ -1,0 +1,279 @@
+# SPDX-License-Identifier: 0BSD
+"""The quick way through a point: functions that are specialised for its facts.
+
+Each tests inline what is usual (the exact type, one range) and computes; whatever else comes goes the `slow` way, which
+knows every case and words the errors. Both ways give the same bits.
+"""
+
+from __future__ import annotations
+
+import struct
+from typing import TYPE_CHECKING, Any
+
+from .rules import NO_RAWS
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping, Sequence
+
+    from .rules import Line, Raws, Rule
+    from .special import Special
+
+    Way = Callable[..., Any]
+    """Takes a raw number or a value, and the raw numbers that are needed of other points."""
+
+_NUMBERS = (float, int)
+_REMEMBERED = 256
+"""For so many raw numbers of another point its part of a scale is remembered."""
+
+
+def same(low: int, high: int, slow: Way) -> Way:
+    """Both ways for integers of a range that are their own raw numbers."""
+
+    def convert(number: int, raws: Raws = NO_RAWS) -> Any:
+        """The same number, if it may be; raises as the point's class says."""
+        if type(number) is int and low <= number <= high:
+            return number
+        return slow(number, raws)
+
+    return convert
+
+
+def listed(known: Mapping[int, Any], slow: Way) -> Way:
+    """From raw numbers to what each of them stands for."""
+
+    def decode(raw: int, raws: Raws = NO_RAWS) -> Any:
+        """The value (or special code) of a raw number; raises as the point's class says."""
+        try:
+            return known[raw]
+        except KeyError:
+            pass
+        return slow(raw, raws)
+
+    return decode
+
+
+def chosen(kind: type, known: Mapping[Any, int], slow: Way) -> Way:
+    """From the values of just one type to raw numbers."""
+
+    def encode(value: Any, raws: Raws = NO_RAWS) -> Any:
+        """The raw number for a value; raises as the point's class says."""
+        if type(value) is kind and value in known:
+            return known[value]
+        return slow(value, raws)
+
+    return encode
+
+
+def scaled(line: Line, low: int, high: int, slow: Way) -> Way:
+    """From raw numbers of a range to values, by a fixed scale."""
+    times, less, over = line
+
+    def decode(raw: int, raws: Raws = NO_RAWS) -> Any:
+        """The value (or special code) of a raw number; raises as the point's class says."""
+        if type(raw) is int and low <= raw <= high:
+            return raw / over
+        return slow(raw, raws)
+
+    def decode_by_line(raw: int, raws: Raws = NO_RAWS) -> Any:
+        """The value (or special code) of a raw number; raises as the point's class says."""
+        if type(raw) is int and low <= raw <= high:
+            return (raw * times - less) / over
+        return slow(raw, raws)
+
+    return decode if (times, less) == (1, 0) else decode_by_line
+
+
+def unchecked(line: Line) -> Way:
+    """As `scaled` for what is known to be a raw number of the point."""
+    times, less, over = line
+
+    def decode(raw: int, raws: Raws) -> Any:
+        return raw / over
+
+    def decode_by_line(raw: int, raws: Raws) -> Any:
+        return (raw * times - less) / over
+
+    return decode if (times, less) == (1, 0) else decode_by_line
+
+
+def itself(raw: int, raws: Raws) -> int:
+    """What is known to be a raw number of the point, and its value."""
+    del raws
+    return raw
+
+
+def scaled_by(rule: Rule, low: int, high: int, slow: Way) -> Way:
+    """From raw numbers of a range to values, by a scale that other points decide: these seldom change."""
+    points = tuple([factor.point for factor in rule.factors])
+    point = points[0]
+    lines: dict[Any, Line] = {}
+
+    def decode(raw: int, raws: Raws = NO_RAWS) -> Any:
+        """The value (or special code) of a raw number; raises as the point's class says."""
+        numbers = raws.get(point) if len(points) == 1 else tuple(map(raws.get, points))
+        line = lines.get(numbers)
+        if line is not None and type(raw) is int and low <= raw <= high:
+            times, less, over = line
+            return (raw * times - less) / over
+        value = slow(raw, raws)  # raises what is to be raised
+        if len(lines) < _REMEMBERED and rule.is_safe(raws, low, high):
+            lines[numbers] = rule.line(raws)
+        return value
+
+    return decode
+
+
+def rounded(steps: tuple[float, float, float], low: int, high: int, slow: Way) -> Way:
+    """From values to raw numbers of a range: by steps in binary64, then to nearest, halves away from zero."""
+    num, den, offset = steps
+
+    def encode(value: float, raws: Raws = NO_RAWS) -> Any:
+        """The raw number for a value; raises as the point's class says."""
+        if type(value) in _NUMBERS:
+            try:
+                result = value * num / den + offset
+                raw = int(result)
+            except (OverflowError, ValueError):  # beyond every integer, or NaN
+                return slow(value, raws)
+            rest = result - raw  # exact: both lie within a factor of two, or the integer is zero
+            if rest >= 0.5:
+                raw += 1
+            elif rest <= -0.5:
+                raw -= 1
+            if low <= raw <= high:
+                return raw
+        return slow(value, raws)
+
+    return encode
+
+
+def from_pattern(number: struct.Struct, word: struct.Struct, high: int, slow: Way) -> Way:
+    """From the bit patterns of IEEE 754 numbers to those."""
+    pack, unpack = word.pack, number.unpack
+
+    def decode(raw: int, raws: Raws = NO_RAWS) -> Any:
+        """The number that the bits are; raises as the point's class says."""
+        if type(raw) is int and 0 <= raw <= high:
+            return unpack(pack(raw))[0]
+        return slow(raw, raws)
+
+    return decode
+
+
+def to_pattern(number: struct.Struct, word: struct.Struct, low: float, high: float, slow: Way) -> Way:
+    """From values to the bit patterns of IEEE 754 numbers of a range."""
+    pack, unpack, nearest = number.pack, word.unpack, number.unpack
+
+    def encode(value: float, raws: Raws = NO_RAWS) -> Any:
+        """The bit pattern for a value; raises as the point's class says."""
+        if type(value) in _NUMBERS:
+            try:
+                data = pack(value)
+            except (OverflowError, struct.error):
+                return slow(value, raws)
+            if low <= nearest(data)[0] <= high:
+                return unpack(data)[0]
+        return slow(value, raws)
+
+    return encode
+
+
+def coded(find: Callable[[int], Special | None], plain: Way) -> Way:
+    """From raw numbers to special codes, else the `plain` way."""
+
+    def decode(raw: int, raws: Raws = NO_RAWS) -> Any:
+        """The value (or special code) of a raw number; raises as the point's class says."""
+        return find(raw) or plain(raw, raws)
+
+    return decode
+
+
+def uncoded(find: Callable[[int], Special | None], plain: Way, slow: Way) -> Way:
+    """The `plain` way from values to raw numbers, if those are no special codes."""
+
+    def encode(value: Any, raws: Raws = NO_RAWS) -> Any:
+        """The raw number for a value; raises as the point's class says."""
+        raw = plain(value, raws)
+        return raw if find(raw) is None else slow(value, raws)
+
+    return encode
+
+
+def bits_of(low: int, mask: int, sign: int, then: Way) -> Way:
+    """From words to what a way makes of some bits of them; `sign` is the highest of these where they are signed."""
+
+    def decode(word: int, raws: Raws = NO_RAWS) -> Any:
+        return then((word >> low & mask ^ sign) - sign, raws)
+
+    return decode
+
+
+def taken_apart(unpack: Callable[[bytes], tuple[int, ...]], plan: Sequence[tuple[str, Any, Way]], slow: Way) -> Way:
+    """From bytes to values by name: the plan says which field each is of, and by which way.
+
+    Most frames have a few points, for which a loop would cost as much as the work.
+    """
+
+    def decode(data: bytes, raws: Raws = NO_RAWS) -> Any:
+        """The values in the bytes; raises as the layout's class says."""
+        try:
+            fields = unpack(data)
+        except struct.error:
+            return slow(data, raws)
+        return {name: way(fields[at], raws) for name, at, way in plan}
+
+    if len(plan) == 3:
+        (name_1, at_1, way_1), (name_2, at_2, way_2), (name_3, at_3, way_3) = plan
+
+        def decode_3(data: bytes, raws: Raws = NO_RAWS) -> Any:
+            """The values in the bytes; raises as the layout's class says."""
+            try:
+                fields = unpack(data)
+            except struct.error:
+                return slow(data, raws)
+            return {
+                name_1: way_1(fields[at_1], raws),
+                name_2: way_2(fields[at_2], raws),
+                name_3: way_3(fields[at_3], raws),
+            }
+
+        return decode_3
+    if len(plan) == 4:
+        (name_1, at_1, way_1), (name_2, at_2, way_2), (name_3, at_3, way_3), (name_4, at_4, way_4) = plan
+
+        def decode_4(data: bytes, raws: Raws = NO_RAWS) -> Any:
+            """The values in the bytes; raises as the layout's class says."""
+            try:
+                fields = unpack(data)
+            except struct.error:
+                return slow(data, raws)
+            return {
+                name_1: way_1(fields[at_1], raws),
+                name_2: way_2(fields[at_2], raws),
+                name_3: way_3(fields[at_3], raws),
+                name_4: way_4(fields[at_4], raws),
+            }
+
+        return decode_4
+    return decode
+
+
+def put_together(pack: Callable[..., bytes], plan: Sequence[tuple[str, Way]]) -> Way:
+    """From values by name to bytes: the plan has a way for each field."""
+
+    def encode(values: Mapping[str, Any], raws: Raws) -> bytes:
+        return pack(*[way(values[name], raws) for name, way in plan])
+
+    if len(plan) == 4:
+        (name_1, way_1), (name_2, way_2), (name_3, way_3), (name_4, way_4) = plan
+
+        def encode_4(values: Mapping[str, Any], raws: Raws) -> bytes:
+            return pack(
+                way_1(values[name_1], raws),
+                way_2(values[name_2], raws),
+                way_3(values[name_3], raws),
+                way_4(values[name_4], raws),
+            )
+
+        return encode_4
+    return encode

@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: 0BSD
+"""Numbers that a manual names, and all others beside them: the enums of generated devices."""
+
+from __future__ import annotations
+
+import enum
+from typing import Self
+
+
+class NamedNumber(enum.IntEnum):
+    """An enum that is open: `RunSource(77)` is a `RunSource` too, though no manual names it.
+
+    So what a device sends keeps its type and its number. It compares and hashes as that number.
+    """
+
+    @classmethod
+    def _missing_(cls, value: object) -> Self | None:
+        """A member for a number without a name; it is in no list of members."""
+        if not isinstance(value, int):
+            return None
+        member = int.__new__(cls, value)
+        member._name_ = f"{cls.__name__}({value})"
+        member._value_ = int(value)
+        return member
+
+    @property
+    def is_named(self) -> bool:
+        """Whether the manual names this number."""
+        return self._name_ in type(self).__members__
+
+    def __repr__(self) -> str:
+        return super().__repr__() if self.is_named else self._name_
+
+    def __str__(self) -> str:
+        return self._name_.lower() if self.is_named else str(int(self))
+
+    def __format__(self, spec: str) -> str:
+        return format(int(self), spec) if spec else str(self)
