@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 from pathlib import Path
 
@@ -24,7 +25,7 @@ HERE = Path(__file__).parent / "proofs"
 
 PLANTED = {
     "cores": ("text_of_words", "at < count; ++at", "at <= count; ++at", "text"),
-    "words": ("layout_store", "at < layout->words; ++at", "at <= layout->words; ++at", "layout_store"),
+    "words": ("take_text", "at < text->words; ++at", "at <= text->words; ++at", "take_text"),
     "modbus": ("crc", "at < length; ++at", "at <= length; ++at", "crc"),
     "can": ("listen", "at < fieldscribe_can_slots(telegram)", "at <= fieldscribe_can_slots(telegram)", "listen"),
     "uss": ("assemble", "at < head_bytes; ++at", "at <= head_bytes; ++at", "assemble__words"),
@@ -65,10 +66,12 @@ def test_a_planted_bug_is_found(family: str, tmp_path: Path) -> None:
     for path in RUNTIME.glob("fieldscribe*.h"):
         shutil.copy(path, tmp_path)
     header = header_of(family, tmp_path)
-    start = f" fieldscribe_{'' if family in ('cores', 'words') else f'{family}_'}{function}("
-    before, name, after = header.read_text("utf-8").rpartition(start)
+    start = rf"\bfieldscribe_{'' if family in ('cores', 'words') else f'{family}_'}{function}\([^;{{}}]*\)\n\{{"
+    text = header.read_text("utf-8")
+    [begin] = [found.end() for found in re.finditer(start, text)]
+    before, after = text[:begin], text[begin:]
     assert right in after
-    header.write_text(before + name + after.replace(right, wrong, 1), "utf-8")
+    header.write_text(before + after.replace(right, wrong, 1), "utf-8")
     proof = prove(family, harness, "x86_64", tmp_path)
     assert proof.alarms
     assert any("out of bounds" in line for line in alarm_lines(proof.said))
