@@ -492,6 +492,7 @@ static inline bool fieldscribe_holds(fieldscribe_vector *v, size_t size)
         fieldscribe_agree(v, (word & (uint32_t)(macro##_MASK)) ==                                \
             ((uint32_t)fieldscribe_bits(v, "raw") & ones) << macro##_SHIFT);                     \
         fieldscribe_is_number(v, "raw", (uint64_t)function##_extract(word));                     \
+        fieldscribe_agree(v, function##_extract(macro##_MASK) == function##_extract(0xFFFFU));   \
         fieldscribe_is_number(v, "result", (uint64_t)function##_insert(word, put));              \
     }
 

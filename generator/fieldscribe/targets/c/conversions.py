@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fieldscribe.names import upper
 from fieldscribe.targets.c.layout import function
 from fieldscribe.targets.c.limits import check, is_moving, known, refused
 from fieldscribe.targets.c.literals import (
@@ -53,7 +54,7 @@ class Writer:
     def __init__(self, point: Point, special: SpecialView | None, scope: Scope) -> None:
         self.point, self.special, self.scope = point, special, scope
         self.name = f"{scope.prefix}_{point.item}"
-        self.macro = self.name.upper()
+        self.macro = f"{scope.upper}_{upper(point.item)}"
         self.type, self.kind = raw_type(point), raw_kind(point)
         self.limits = (0, 0) if point.info.floating else point.outer
         self.reach = encoded_limits(point) if point.specials and not point.info.floating else self.limits
@@ -164,8 +165,13 @@ class Writer:
         if point.readable:
             yield self._decode("decode", real, scale.value_of_raw, floating=True)
 
+    def _outer(self) -> str:
+        """The limits of a whole number. Where a check follows, which knows them too, they are named."""
+        named = is_rechecked(self.point) and self.reach == self.limits
+        return f"{self.macro}_RAW_MIN, {self.macro}_RAW_MAX" if named else ", ".join(map(bare, self.reach))
+
     def _rounded(self, scale: Scaled) -> tuple[str, ...]:
-        limits = ", ".join(map(bare, self.reach))
+        limits = self._outer()
         if not scale.wide and not is_rechecked(self.point) and self.kind in ("u8", "s8", "u16", "s16"):
             if scale.factor:
                 return (f"return fieldscribe_scale_{self.kind}(value, {scale.factor}, {limits}, raw);",)
@@ -183,7 +189,7 @@ class Writer:
             parameters = scope.parameters(point, point.scale_arguments)
             body = f"return {rule_of(point, scope)};"
             yield Function(function(f"{INLINE} fieldscribe_rule", f"{self.name}_rule", parameters, body))
-        tens, limits = bare(10 ** (point.decimals or 0)), ", ".join(map(bare, self.reach))
+        tens, limits = bare(10 ** (point.decimals or 0)), self._outer()
         counts = point.decimals is not None
         if point.writable and counts:
             rule = self._rule(point.arguments)
