@@ -85,7 +85,7 @@ def test_the_words_are_reached_raw(texts: dict[str, str]) -> None:
         assert f"#define MADE_UP_{name}_ADDRESS {address}U\n" in header
         assert f"#define MADE_UP_{name}_WORDS {words}U\n" in header
         _, _, rest = points.partition(f"pub const {name}: ")
-        assert f"address: {address},\n        words: {words},\n" in rest.partition("};")[0]
+        assert f"Documented::new(runtime::Space::Holding, {address}, {words}, None)" in rest.partition(";")[0]
     assert "NOWHERE_ADDRESS" not in header
     assert "NOWHERE" not in points
 

@@ -6,9 +6,7 @@ import json
 import re
 import shutil
 from dataclasses import replace
-from fractions import Fraction
 from functools import partial
-from math import floor
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -21,13 +19,12 @@ from fieldscribe.render import render
 from fieldscribe.resources import templates_dir
 from fieldscribe.targets import rust
 from fieldscribe.targets.identifiers import clashes as found_clashes
-from fieldscribe.targets.rust.documentation import left_out
+from fieldscribe.targets.rust.documentation import left_out, wrapped
 from fieldscribe.targets.rust.families import family_traits
 from fieldscribe.targets.rust.identifiers import identifiers
-from fieldscribe.targets.rust.layout import assignment, binding, calls, comparison, short_array
-from fieldscribe.targets.rust.rules import count_path
+from fieldscribe.targets.rust.layout import assignment, binding, calls, chained, comparison, filled
 from fieldscribe.targets.rust.subjects import scope_of
-from models import entry, kitchen_sink, linear, point, sample_device, titles, trip_device
+from models import entry, kitchen_sink, point, sample_device, titles, trip_device
 from rust_crates import can_device, odd_device, rare_device, uss_device, write_crate
 from toolchains import run, succeed, tool
 from vector_file import counts_of
@@ -36,7 +33,7 @@ if TYPE_CHECKING:
     import subprocess
     from collections.abc import Callable, Iterator
 
-    from fieldscribe.model import Device, Linear
+    from fieldscribe.model import Device
     from fieldscribe.targets.rust.subjects import Subject
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -56,6 +53,7 @@ MODELS: dict[str, Callable[[], Device]] = {
     "odd_can": can_device,
     "odd_uss": uss_device,
 }
+RUNTIMES = ("fieldscribe_runtime", "fieldscribe_conformance")
 GATEWAYS = ("siemens_mm4", "woodward_mpu2s")
 """Real devices that programs of users are written for."""
 
@@ -70,7 +68,7 @@ def workspace(tmp_path_factory: pytest.TempPathFactory, request: pytest.FixtureR
         shutil.copytree(ROOT / "generated/rust" / device, out / "rust" / device)
         shutil.copy(ROOT / "generated/vectors" / f"{device}.txt", out / "vectors")
     folder = out / "rust"
-    members = json.dumps(["fieldscribe_runtime", *MODELS, *SHIPPED])
+    members = json.dumps([*RUNTIMES, *MODELS, *SHIPPED])
     (folder / "Cargo.toml").write_text(f'[workspace]\nresolver = "2"\nmembers = {members}\n', encoding="utf-8")
     built = request.config.cache.mkdir("rust") if request.config.cache else out / "target"
     (folder / ".cargo").mkdir()
@@ -121,31 +119,9 @@ def cargo(workspace: Path, *words: str) -> subprocess.CompletedProcess[str]:
     return done if done.returncode == 0 else run([tool("cargo"), *words], cwd=workspace)
 
 
-@pytest.mark.parametrize("ratio", ["10", "1/2", "3/7", "-7/5", "256"])
-@pytest.mark.parametrize("offset", ["0", "5/2", "-4/3"])
-@pytest.mark.parametrize("ends", [(-9, 9), (0, 30), (3, 3), (-1, 0), (1, 2)])
-def test_counts_in_bounds_are_all_that_give_a_raw_number_in_bounds(
-    ratio: str, offset: str, ends: tuple[int, int]
-) -> None:
-    low, high = ends
-    rule = linear(ratio, offset)
-    path = count_path(rule, 1, "i16", low, high)
-    found = [count for count in range(-1000, 1000) if low <= nearest(rule, Fraction(count, 10)) <= high]
-    inside = range(int(path.low.replace("_", "")), int(path.high.replace("_", "")) + 1)
-    assert found == list(inside)
-
-
-def nearest(rule: Linear, value: Fraction) -> int:
-    exact = value * rule.ratio + rule.offset
-    return floor(abs(exact) + Fraction(1, 2)) * (1 if exact > 0 else -1)
-
-
 def test_long_lines_break_as_rustfmt_breaks_them() -> None:
     """The crates' own lines are held against rustfmt itself; these say which break is meant."""
     name = "x" * 60
-    assert short_array(4, "const A: &[u16]", ["1", "2"]) == ("const A: &[u16] = &[1, 2];",)
-    many = short_array(4, "const A: &[u16]", [f"0x{number:04X}" for number in range(20)])
-    assert [len(line) for line in many] == [20, 91, 75, 2]
     assert assignment(4, f"const {name}: A", ("A::new(", "    1,", ")"))[0].endswith("A::new(")
     assert binding(4, f"const {name}: &'static str", '"abc"') == (f'const {name}: &\'static str = "abc";',)
     assert assignment(4, f"const {name}: {name}", ("A::new(", "    1,", ")"))[0].endswith("=")
@@ -153,6 +129,17 @@ def test_long_lines_break_as_rustfmt_breaks_them() -> None:
     assert calls(4, "const A: B", [("C", (name, name))])[2] == f"        {name},"
     assert comparison(8, name, "== 0") == (f"{name} == 0",)
     assert comparison(36, name, "== 0") == (name, "    == 0")
+
+
+def test_lines_that_rustfmt_leaves_alone_are_broken_too() -> None:
+    assert filled("a [", ", ", ["1", "2"], "];") == ("a [1, 2];",)
+    many = filled("a [", ", ", [f"0x{number:04X}" for number in range(40)], "];")
+    assert max(map(len, many)) <= 104
+    assert "".join(line.strip() for line in many).count("0x") == 40
+    steps = "?".join(f".times(with.factor_{number})" for number in range(9))
+    assert chained("Rule::new(1, 1).times(with.a)") == ("Rule::new(1, 1).times(with.a)",)
+    assert chained(f"Rule::new(1, 1){steps}")[1] == "    ?.times(with.factor_1)"
+    assert list(wrapped("a " * 60 + "- b `c`")) == [("a " * 52).strip(), ("a " * 8) + "- b `c`"]
 
 
 def clashes(device: Device) -> list[str]:
@@ -206,12 +193,9 @@ def test_what_is_only_documented_has_its_address() -> None:
 
 def test_all_crates_name_the_compiler_that_they_need() -> None:
     """Checked by clippy's `incompatible_msrv` beside; Debian bookworm's `rustc-web` is 1.85 or later."""
-    runtime = (templates_dir() / "rust/runtime/fieldscribe_runtime/Cargo.toml").read_text("utf-8")
-    named = {
-        re.search(r'rust-version = "1\.(\d+)"', text) for text in (runtime, sources(sample_device())["Cargo.toml"])
-    }
-    versions = {int(found[1]) for found in named if found}
-    assert len(named) == 2
+    texts = [(templates_dir() / f"rust/runtime/{name}/Cargo.toml").read_text("utf-8") for name in RUNTIMES]
+    texts.append(sources(sample_device())["Cargo.toml"])
+    versions = {int(found[1]) for text in texts if (found := re.search(r'rust-version = "1\.(\d+)"', text))}
     assert len(versions) == 1
     assert max(versions) <= 85
 
@@ -352,7 +336,7 @@ def probe_source(device: str) -> str:
     scope = scope_of(model)
     for subject in scope.subjects:
         name = f"{device}::points::{subject.name}"
-        traits = " ".join(line for lines in family_traits(subject, scope) for line in lines)
+        traits = " ".join(family_traits(subject, scope))
         bodies = [*probes(subject, name), *client_probes(subject, name, traits)]
         item = subject.point.item
         lines += [f"#[inline(never)] pub fn {head.replace('(', f'_{item}(', 1)} {{ {body} }}" for head, body in bodies]

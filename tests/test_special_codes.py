@@ -375,7 +375,7 @@ def test_python_and_rust_have_shared_codes_once() -> None:
     files = dict(rust.outputs(device(), render))
     assert files["rust/kitchen_codes/src/special.rs"].count("0xFFF8") == 1
     assert "special::MeasuredU16::CODES" in files["rust/kitchen_codes/src/points.rs"]
-    assert "type Value = runtime::Reading<f64, u16>;" in files["rust/kitchen_codes/src/points.rs"]
+    assert "=> reading f64 as scaled(10, 1);" in files["rust/kitchen_codes/src/points.rs"]
 
 
 def test_a_point_without_codes_has_nothing_of_them() -> None:

@@ -104,7 +104,8 @@ fn reads_and_writes(framing: Framing) {
     assert_eq!(client.update::<points::DelayClass>(3), Ok(()));
     let refused = Err(ClientError::Reply(ReplyError::Exception(2)));
     assert_eq!(client.read::<points::BaseFrequency>(), refused);
-    assert_eq!(client.write::<points::BaseFrequency>(401.0), Err(ClientError::Point(Error::OutOfRange)));
+    let far = client.write::<points::BaseFrequency>(401.0).unwrap_err();
+    assert_eq!(far.to_string(), "base_frequency: 401 is outside 0 to 400");
     let block = blocks::MAIN.iter().find(|block| block.brings::<points::AccelerationTime>()).unwrap();
     let reply = client.exchange(Request::block(1, block)).unwrap().unwrap();
     let raw = reply.raw::<points::AccelerationTime>().unwrap();
@@ -152,6 +153,15 @@ fn clients_share_a_bus() {
     let mut client = AsyncClient::new(&mut slow, &PROFILE, Framing::Rtu, 1);
     assert_eq!(finish(client.read::<points::BaseFrequency>()), Ok(50.0));
     assert_eq!(slow.0.sent.len(), 1);
+}
+
+/// Executors of several threads take the futures over any transport; this would not compile if they did not.
+#[allow(dead_code)]
+fn futures_are_send<T: AsyncTransport>(client: &mut AsyncClient<T>) {
+    fn send<F: Future + Send>(_: F) {}
+    send(client.read::<points::BaseFrequency>());
+    send(client.write::<points::BaseFrequency>(50.0));
+    send(client.update::<points::DelayClass>(3));
 }
 
 fn main() {

@@ -1,11 +1,9 @@
 //! A gateway for a MICROMASTER 4 as its maker would write it, on a drive made after the manual: blocking and async.
 
-use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::future::{ready, Future};
 use std::pin::pin;
-use std::rc::Rc;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 use std::task::{Context, Poll, Wake, Waker};
 
 use fieldscribe_runtime::client::{AsyncTransport, Transport};
@@ -27,14 +25,14 @@ struct Drive {
     telegrams: usize,
 }
 
-type Shared = Rc<RefCell<Drive>>;
+type Shared = Arc<Mutex<Drive>>;
 
 impl Drive {
     fn new() -> Shared {
         let words = [(700, vec![4]), (1000, vec![4]), (1082, vec![0x4248, 0]), (1120, vec![0x4120, 0])];
         let page = [(2000, vec![0x4248, 0]), (2009, vec![0]), (2010, vec![6])];
         let words = words.into_iter().chain(page).collect();
-        Rc::new(RefCell::new(Self {
+        Arc::new(Mutex::new(Self {
             words,
             pkw: 127,
             single_first: false,
@@ -123,7 +121,7 @@ impl Transport for Port {
     type Error = &'static str;
 
     fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Self::Error> {
-        self.0.borrow_mut().exchange(request, reply)
+        self.0.lock().unwrap().exchange(request, reply)
     }
 }
 
@@ -131,7 +129,7 @@ impl AsyncTransport for Port {
     type Error = &'static str;
 
     fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> impl Future<Output = Result<usize, Self::Error>> {
-        ready(self.0.borrow_mut().exchange(request, reply))
+        ready(self.0.lock().unwrap().exchange(request, reply))
     }
 }
 
@@ -156,49 +154,50 @@ fn runs_and_stops() {
     assert_eq!(setpoint, forty_hertz());
     client.set_with::<points::MainSetpoint>(40.0, setpoint).unwrap();
     client.send::<points::ControlWord>(READY).unwrap();
-    assert_eq!((drive.borrow().control, drive.borrow().setpoint), (0x047E, 0x3333));
+    assert_eq!(drive.lock().unwrap().control, 0x047E);
+    assert_eq!(drive.lock().unwrap().setpoint, 0x3333);
     assert_eq!(u16::from(client.heard::<points::StatusWord>().unwrap()), 0xFA31);
     client.send::<points::ControlWord>(RUN).unwrap();
-    assert_eq!(drive.borrow().control, 0x047F);
+    assert_eq!(drive.lock().unwrap().control, 0x047F);
     let status = client.receive::<points::StatusWord>().unwrap();
     assert!(status.operation_enabled() && !status.motor_overload() && !status.off2_pending());
     let actual = with::MainActualValue { uss_normalisation: normalisation, reference_frequency: reference };
     let hertz = client.heard_with::<points::MainActualValue>(actual).unwrap();
     assert!((hertz - 40.0).abs() < 0.01);
     // A refused task tells of the fault that came with it.
-    drive.borrow_mut().faulty = true;
+    drive.lock().unwrap().faulty = true;
     let refused = client.read::<points::UserAccessLevel>().unwrap_err();
     assert_eq!(refused, ClientError::Reply(ParseError::Refused(exceptions::PARAMETER_NUMBER_NOT_ALLOWED)));
     assert!(client.heard::<points::StatusWord>().unwrap().fault());
-    assert!(drive.borrow().control & 1 == 1);
+    assert!(drive.lock().unwrap().control & 1 == 1);
 }
 
 fn a_lost_stop_stays_a_stop() {
     let drive = Drive::new();
     let mut client = Client::new(Port(drive.clone()), &PROFILE, Link::new(127, 2), 3);
     client.send::<points::ControlWord>(RUN).unwrap();
-    drive.borrow_mut().loses = 1;
+    drive.lock().unwrap().loses = 1;
     assert!(client.send::<points::ControlWord>(READY).is_err());
     for _ in 0..3 {
         client.cycle().unwrap();
         client.read::<points::CommandSource>().unwrap();
-        assert!(!drive.borrow().turns());
+        assert!(!drive.lock().unwrap().turns());
     }
     assert_eq!(client.words(), [0, 0]);
 }
 
 fn a_setpoint_alone_stops_nothing() {
     let drive = Drive::new();
-    drive.borrow_mut().control = 0x047F;
+    drive.lock().unwrap().control = 0x047F;
     let mut client = Client::new(Port(drive.clone()), &PROFILE, Link::new(127, 2), 3);
     client.send_with::<points::MainSetpoint>(40.0, forty_hertz()).unwrap();
-    assert!(drive.borrow().turns());
+    assert!(drive.lock().unwrap().turns());
 }
 
 fn wrong_links_are_noticed() {
     let drive = Drive::new();
-    drive.borrow_mut().pkw = 4;
-    drive.borrow_mut().single_first = true;
+    drive.lock().unwrap().pkw = 4;
+    drive.lock().unwrap().single_first = true;
     let mut client = Client::new(Port(drive.clone()), &PROFILE, Link::new(4, 2), 3);
     let usual = enums::CommandSource::from(5);
     let wrong = ClientError::EchoMismatch(Value::Word(0));
@@ -230,7 +229,7 @@ fn all_drives_are_stopped() {
     client.set::<points::ControlWord>(READY).unwrap();
     assert!(client.broadcast([2, ControlWord::ON, 0, 0]).is_err());
     client.broadcast([2, ControlWord::ON | ControlWord::SETPOINTS_VALID, 0, 0]).unwrap();
-    assert!(!drive.borrow().turns());
+    assert!(!drive.lock().unwrap().turns());
 }
 
 fn words_are_shown_by_what_is_true() {
@@ -281,5 +280,6 @@ fn main() {
     words_are_shown_by_what_is_true();
     let drive = Drive::new();
     assert!(finish(runs_async(&drive)).unwrap().operation_enabled());
-    assert!(drive.borrow().turns() && drive.borrow().telegrams == 5);
+    assert!(drive.lock().unwrap().turns());
+    assert_eq!(drive.lock().unwrap().telegrams, 5);
 }

@@ -150,7 +150,8 @@ fn parameters_are_changed() {
     assert_eq!(client.write::<points::GeneratorFrequencySetpoint>(60.0), Ok(()));
     assert_eq!(client.read::<points::GeneratorFrequencySetpoint>(), Ok(60.0));
     let far = client.write::<points::GeneratorFrequencySetpoint>(71.0);
-    assert_eq!(far, Err(ClientError::Point(Error::OutOfRange)));
+    let Err(ClientError::Point(Error::OutOfRange(refused))) = far else { panic!("{far:?}") };
+    assert_eq!(refused.point(), "generator_frequency_setpoint");
     let factor = with::GeneratorVoltageSetpoint400v {
         generator_voltage_factor: client.read_raw::<points::GeneratorVoltageFactor>().unwrap(),
     };

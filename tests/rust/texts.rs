@@ -64,8 +64,8 @@ fn main() {
 
     let blanks = Text::<4>::from_bytes(b"a  ").unwrap();
     assert_eq!((blanks.as_bytes(), blanks), (&b"a"[..], Text::new("a").unwrap()));
-    assert_eq!(Text::<4>::from_bytes(b"a    "), Err(Error::OutOfRange));
-    assert_eq!(Text::<4>::new("\u{100}"), Err(Error::OutOfRange));
+    assert_eq!(Text::<4>::from_bytes(b"a    "), Err(Error::BadText));
+    assert_eq!(Text::<4>::new("\u{100}"), Err(Error::BadText));
     let high = Text::<4>::from_bytes(b"\xe4\0").unwrap();
     assert_eq!((high.as_str(), high.to_string().as_str()), (None, "ä\0"));
     assert_eq!((Text::<4>::EMPTY.as_str(), Text::<4>::default().to_string().len()), (Some(""), 0));

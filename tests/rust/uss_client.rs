@@ -132,7 +132,8 @@ fn parameters_are_read_and_written() {
     assert_eq!(client.read::<points::Source>(), Ok(2));
     assert_eq!(client.write::<points::Source>(5), Ok(()));
     assert_eq!(client.store::<points::Source>(6), Ok(()));
-    assert_eq!(client.write::<points::Source>(7), Err(ClientError::Point(Error::OutOfRange)));
+    let far = client.write::<points::Source>(7).unwrap_err();
+    assert_eq!(far.to_string(), "source: raw 7 is outside 0 to 6");
     assert_eq!(client.read::<points::Reference>(), Ok(50.0));
     assert_eq!(client.write::<points::Reference>(60.0), Ok(()));
     assert_eq!(client.read::<points::BaudIndex1>(), Ok(6));
@@ -189,7 +190,8 @@ fn process_data_go_both_ways() {
     let none = with::MainSetpoint { reference: 0x7F80_0000 };
     assert_eq!(client.set_with::<points::MainSetpoint>(1.0, none), Err(Error::ZeroFactor));
     let limit = with::LimitedSetpoint { reference: 0x4270_0000 };
-    assert_eq!(client.set_with::<points::LimitedSetpoint>(16385, limit), Err(Error::OutOfRange));
+    let far = client.set_with::<points::LimitedSetpoint>(16385, limit).unwrap_err();
+    assert_eq!(far.to_string(), "limited_setpoint: raw 16385 is outside 0 to 16384");
     assert_eq!(client.receive_with::<points::MainActual>(with::MainActual { reference: fifty }), Ok(25.0));
     assert_eq!(client.exchange(Request::new(3, tasks::TASK_1, 700, 0)).unwrap().word(), Ok(2));
     assert_eq!(client.broadcast([6, 0xFFFF, 0, 0]), Ok(()));
@@ -346,6 +348,15 @@ fn a_dropped_exchange_is_a_failed_one() {
         assert!(stop.as_mut().poll(&mut Context::from_waker(&waker)).is_pending());
     }
     assert_eq!(client.words(), [0; 4]);
+}
+
+/// Executors of several threads take the futures over any transport; this would not compile if they did not.
+#[allow(dead_code)]
+fn futures_are_send<T: AsyncTransport>(client: &mut AsyncClient<T>) {
+    fn send<F: Future + Send>(_: F) {}
+    send(client.read::<points::Source>());
+    send(client.write::<points::Source>(5));
+    send(client.cycle());
 }
 
 fn main() {

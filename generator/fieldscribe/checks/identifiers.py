@@ -20,6 +20,7 @@ RUST_CONSTANTS = frozenset(
     {"name", "code", "space", "address", "words", "unit", "raw_min", "raw_max", "shift", "mask"}
     | {"decimals", "read_function", "write_function", "write_address"}
     | {"telegram", "index", "addresses", "codes", "numbers", "fixed_bits", "fixed_mask", "floating"}
+    | {"is_grouped", "is_closed", "is_contiguous", "is_wide", "raw_reach", "scale"}
 )
 """Associated constants of the Rust point traits, which a special code of the same name would hide."""
 

@@ -8,14 +8,47 @@ use core::future::Future;
 pub use crate::modbus::{AsyncClient, Client, ClientError};
 
 /// Sends a request and waits for its reply.
+///
+/// ```
+/// use fieldscribe_runtime::modbus::{Client, Framing, Function, Profile};
+/// use fieldscribe_runtime::{point, Transport};
+///
+/// /// A line on which this is answered.
+/// struct Canned(&'static [u8]);
+///
+/// impl Transport for Canned {
+///     type Error = std::io::Error;
+///
+///     fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Self::Error> {
+///         assert_eq!(request, b"\x01\x03\x10\x28\x00\x01\x00\xC2");
+///         reply[..self.0.len()].copy_from_slice(self.0);
+///         Ok(self.0.len())
+///     }
+/// }
+///
+/// point! {
+///     /// Jump frequency.
+///     JumpFrequency: u16 = "jump_frequency";
+///     at Holding 0x1028;
+///     unit "Hz";
+///     decimals 1;
+///     => value f64 as scaled(10, 1);
+///     read { count i32; }
+/// }
+///
+/// static PROFILE: Profile = Profile::new(&[Function::new(3, 4)], &[Framing::Rtu], (1, 32), Some(0));
+/// let line = Canned(b"\x01\x03\x02\x01\xF4\xB8\x53");
+/// let mut client = Client::new(line, &PROFILE, Framing::Rtu, 1);
+/// assert_eq!(client.read::<JumpFrequency>().unwrap(), 50.0);
+/// ```
 pub trait Transport {
     /// What can go wrong on the line.
     type Error;
 
     /// Sends `request`, puts the reply into `reply` and gives its length in bytes.
     ///
-    /// What came before the request is to be thrown away first: a late answer to an earlier request, which was given up,
-    /// could else be taken for the answer to this one, as nothing in it tells them apart.
+    /// What came before the request is to be thrown away first: a late answer to an earlier request, which was
+    /// given up, could else be taken for the answer to this one, as nothing in it tells them apart.
     ///
     /// An empty `reply` says that none will come: the request went to all units.
     ///
@@ -25,9 +58,23 @@ pub trait Transport {
 }
 
 /// Sends a request and waits for its reply without blocking.
-pub trait AsyncTransport {
+///
+/// Its futures are [`Send`], and so are those of the clients over it: executors of several threads take them.
+///
+/// ```
+/// use fieldscribe_runtime::modbus::AsyncClient;
+/// use fieldscribe_runtime::{AsyncTransport, Readable};
+///
+/// fn spawn(task: impl Future + Send) {}
+/// # use std::future::Future;
+///
+/// fn poll<T: AsyncTransport, P: Readable<Factors = ()>>(mut client: AsyncClient<T>) {
+///     spawn(async move { client.read::<P>().await });
+/// }
+/// ```
+pub trait AsyncTransport: Send {
     /// What can go wrong on the line.
-    type Error;
+    type Error: Send;
 
     /// As [`Transport::exchange`].
     ///
@@ -36,7 +83,7 @@ pub trait AsyncTransport {
         &mut self,
         request: &[u8],
         reply: &mut [u8],
-    ) -> impl Future<Output = Result<usize, Self::Error>>;
+    ) -> impl Future<Output = Result<usize, Self::Error>> + Send;
 }
 
 /// Several clients share one bus: each borrows it for as long as it lives.
@@ -56,7 +103,7 @@ impl<T: AsyncTransport + ?Sized> AsyncTransport for &mut T {
         &mut self,
         request: &[u8],
         reply: &mut [u8],
-    ) -> impl Future<Output = Result<usize, Self::Error>> {
+    ) -> impl Future<Output = Result<usize, Self::Error>> + Send {
         (**self).exchange(request, reply)
     }
 }

@@ -2,6 +2,7 @@
 //! What a point is. Each point of a device is a type that implements [`Point`] and what its access allows.
 
 use crate::arithmetic::{extract, extract_signed, insert};
+use crate::scale::Scale;
 use crate::{Error, Raw, Rule};
 
 /// Where the words of a point are that is documented only: nothing says what they mean.
@@ -15,6 +16,19 @@ pub struct Documented {
     pub words: u16,
     /// Its index in an array.
     pub index: Option<u16>,
+}
+
+impl Documented {
+    /// The words at an address, and the index beside it.
+    #[must_use]
+    pub const fn new(space: Space, address: u16, words: u16, index: Option<u16>) -> Self {
+        Self {
+            space,
+            address,
+            words,
+            index,
+        }
+    }
 }
 
 /// Where an address counts.
@@ -58,7 +72,7 @@ pub trait Point {
     /// The number on the wire.
     type Raw: Raw;
     /// What the number means; a [`Reading`](crate::Reading) if the point has special codes.
-    type Value;
+    type Value: Send;
     /// The point's name in the description.
     const NAME: &'static str;
     /// The manual's own code for the point.
@@ -91,9 +105,13 @@ pub trait Point {
     /// The greatest raw number that the manual allows.
     const RAW_MAX: Self::Raw = <Self::Raw as Raw>::MAX;
 
+    /// Whether the point is a group of bits in a word which it shares with others.
+    const IS_GROUPED: bool = false;
+
     /// The raw number from the point's words, in the order of their addresses.
+    #[inline]
     fn from_words(words: <Self::Raw as Raw>::Words) -> Self::Raw {
-        Self::Raw::from_words(words)
+        Self::Raw::from_words(in_reading_order(words, Self::ADDRESSES))
     }
 
     /// The raw number from received words, in the order of their addresses.
@@ -115,8 +133,9 @@ pub trait Point {
 /// A point that has its words for itself, so that writing them touches nothing else.
 pub trait Whole: Point {
     /// The point's words in the order of their addresses.
+    #[inline]
     fn to_words(raw: Self::Raw) -> <Self::Raw as Raw>::Words {
-        raw.into_words()
+        in_address_order(raw.into_words(), Self::ADDRESSES)
     }
 }
 
@@ -163,10 +182,33 @@ pub trait Digits: Point {
     const NUMBERS: &'static [u16];
 }
 
+/// A point whose scale needs no other point.
+pub trait FixedScale: Point {
+    /// The scale.
+    const SCALE: Scale;
+    /// The least and the greatest raw number that a value may become, special codes and all.
+    const RAW_REACH: (i128, i128) = <Self::Raw as Raw>::ENDS;
+}
+
+/// A point whose numbers, or whose digits, have names.
+pub trait Named: Point {
+    /// What the enum carries: the raw number, or a wider one where points of several types share the enum.
+    type Carried: From<Self::Raw> + Into<i128>;
+}
+
 /// A point whose scale needs the raw numbers of other points.
 pub trait Scaled: Point {
     /// The raw numbers that the scale needs.
-    type Factors: Copy;
+    type Factors: Copy + Send;
+
+    /// Whether it takes divisions of 128 bits to tell a value.
+    const IS_WIDE: bool = false;
+
+    /// Whether the raw number is too large for the scale.
+    #[must_use]
+    fn is_beyond(_: Self::Raw) -> bool {
+        false
+    }
 
     /// The scale that holds now.
     ///
@@ -199,7 +241,7 @@ impl<V> Decoded<V> for Result<V, Error> {
 /// A point that the device answers with.
 pub trait Readable: Point {
     /// The raw numbers of other points that the scale needs; `()` if it needs none.
-    type Factors: Copy;
+    type Factors: Copy + Send;
     /// `V` where decoding cannot fail, else `Result<V, Error>`.
     type Output<V>: Decoded<V>;
     /// The function that reads the point, where it is not the usual one of its space.
@@ -220,11 +262,15 @@ pub trait Readable: Point {
 /// A point that the device takes.
 pub trait Writable: Point {
     /// The raw numbers of other points that the scale or the limits need; `()` if they need none.
-    type With: Copy;
+    type With: Copy + Send;
     /// The function that writes the point, where it is not the usual one of its space.
     const WRITE_FUNCTION: Option<u8> = None;
     /// The address that takes the point.
     const WRITE_ADDRESS: u16 = Self::ADDRESS;
+    /// Whether the numbers that have names, or the digits that a word may have, are all that is taken.
+    const IS_CLOSED: bool = false;
+    /// Whether every number from [`Point::RAW_MIN`] to [`Point::RAW_MAX`] may be written.
+    const IS_CONTIGUOUS: bool = Self::IS_GROUPED || Self::FIXED_MASK == 0;
 
     /// Whether the raw number may be written.
     ///
@@ -306,32 +352,6 @@ pub trait CountWritable: Writable {
     }
 }
 
-/// What a check of a range says.
-///
-/// # Errors
-/// [`Error::OutOfRange`] if it does not hold.
-#[inline]
-pub const fn allowed(holds: bool) -> Result<(), Error> {
-    if holds {
-        Ok(())
-    } else {
-        Err(Error::OutOfRange)
-    }
-}
-
-/// What a check of a closed enum says.
-///
-/// # Errors
-/// [`Error::UnknownValue`] if it does not hold.
-#[inline]
-pub const fn listed(holds: bool) -> Result<(), Error> {
-    if holds {
-        Ok(())
-    } else {
-        Err(Error::UnknownValue)
-    }
-}
-
 const fn low_word(bits: u32) -> u16 {
     let [_, _, high, low] = bits.to_be_bytes();
     u16::from_be_bytes([high, low])
@@ -348,24 +368,37 @@ pub(crate) fn joined<P: Point>(words: <P::Raw as Raw>::Words) -> P::Raw {
 
 /// Words in the order of their addresses as words in reading order, which `addresses` has.
 #[must_use]
-pub fn in_reading_order<const W: usize>(words: [u16; W], addresses: &[u16]) -> [u16; W] {
+#[inline]
+pub fn in_reading_order<W: Copy + AsRef<[u16]> + AsMut<[u16]>>(words: W, addresses: &[u16]) -> W {
     let mut found = words;
-    for (place, address) in found.iter_mut().zip(addresses) {
-        let rank = addresses.iter().filter(|other| *other < address).count();
-        *place = words.get(rank).copied().unwrap_or(*place);
+    if addresses.windows(2).any(|pair| pair.first() > pair.last()) {
+        for (place, address) in found.as_mut().iter_mut().zip(addresses) {
+            let rank = rank(addresses, *address);
+            *place = words.as_ref().get(rank).copied().unwrap_or(*place);
+        }
     }
     found
 }
 
 /// Words in reading order, which `addresses` has, as words in the order of their addresses.
 #[must_use]
-pub fn in_address_order<const W: usize>(words: [u16; W], addresses: &[u16]) -> [u16; W] {
+#[inline]
+pub fn in_address_order<W: Copy + AsRef<[u16]> + AsMut<[u16]>>(words: W, addresses: &[u16]) -> W {
     let mut found = words;
-    for (word, address) in words.iter().zip(addresses) {
-        let rank = addresses.iter().filter(|other| *other < address).count();
-        if let Some(place) = found.get_mut(rank) {
-            *place = *word;
+    if addresses.windows(2).any(|pair| pair.first() > pair.last()) {
+        for (word, address) in words.as_ref().iter().zip(addresses) {
+            let rank = rank(addresses, *address);
+            if let Some(place) = found.as_mut().get_mut(rank) {
+                *place = *word;
+            }
         }
     }
     found
+}
+
+/// How many of the addresses are below one.
+#[inline]
+fn rank(addresses: &[u16], address: u16) -> usize {
+    let below = addresses.iter().map(|other| usize::from(*other < address));
+    below.fold(0, usize::wrapping_add)
 }

@@ -8,9 +8,9 @@ mod sealed {
 }
 
 /// A raw number: an integer, a bit, the bit pattern of a floating-point number; or the words of a text.
-pub trait Raw: Copy + PartialOrd + sealed::Sealed + 'static {
+pub trait Raw: Copy + PartialOrd + Send + sealed::Sealed + 'static {
     /// The 16-bit words that hold the number.
-    type Words: Copy + AsRef<[u16]> + AsMut<[u16]>;
+    type Words: Copy + Send + AsRef<[u16]> + AsMut<[u16]>;
     /// The smallest number of the type.
     const MIN: Self;
     /// The largest number of the type.
@@ -21,8 +21,46 @@ pub trait Raw: Copy + PartialOrd + sealed::Sealed + 'static {
     fn from_words(words: Self::Words) -> Self;
     /// The integer nearest to `number`, halves away from zero; none if the type cannot hold it.
     fn round(number: f64) -> Option<Self>;
+    /// The smallest and the largest number of the type.
+    const ENDS: (i128, i128);
     /// The number as an `i64`; a `u64` beyond it becomes `i64::MAX`.
     fn to_i64(self) -> i64;
+    /// The number as an `i128`.
+    fn to_i128(self) -> i128;
+    /// The number, if the type holds it.
+    fn from_i128(number: i128) -> Option<Self>;
+    /// The number without the upper bits that the type does not have.
+    fn truncated(number: i64) -> Self;
+}
+
+/// What every integer type has.
+macro_rules! integer {
+    ($type:ty) => {
+        const MIN: Self = <$type>::MIN;
+        const MAX: Self = <$type>::MAX;
+        #[allow(clippy::cast_lossless, reason = "there is no other way in a constant")]
+        const ENDS: (i128, i128) = (<$type>::MIN as i128, <$type>::MAX as i128);
+
+        #[inline]
+        fn to_i128(self) -> i128 {
+            i128::from(self)
+        }
+
+        #[inline]
+        fn from_i128(number: i128) -> Option<Self> {
+            Self::try_from(number).ok()
+        }
+
+        #[allow(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "what is lost is what it says"
+        )]
+        #[inline]
+        fn truncated(number: i64) -> Self {
+            number as Self
+        }
+    };
 }
 
 /// One byte lies in the low half of its word; a negative one fills the high half with its sign.
@@ -32,8 +70,7 @@ macro_rules! byte {
 
         impl Raw for $type {
             type Words = [u16; 1];
-            const MIN: Self = <$type>::MIN;
-            const MAX: Self = <$type>::MAX;
+            integer!($type);
 
             fn into_words(self) -> [u16; 1] {
                 [u16::from_be_bytes(i16::from(self).to_be_bytes())]
@@ -64,8 +101,7 @@ macro_rules! words {
 
         impl Raw for $type {
             type Words = [u16; $count];
-            const MIN: Self = <$type>::MIN;
-            const MAX: Self = <$type>::MAX;
+            integer!($type);
 
             fn into_words(self) -> [u16; $count] {
                 let [$($high, $low),+] = self.to_be_bytes();
@@ -107,6 +143,7 @@ impl Raw for bool {
     type Words = [u16; 1];
     const MIN: Self = false;
     const MAX: Self = true;
+    const ENDS: (i128, i128) = (0, 1);
 
     fn into_words(self) -> [u16; 1] {
         [u16::from(self)]
@@ -130,6 +167,25 @@ impl Raw for bool {
     fn to_i64(self) -> i64 {
         i64::from(self)
     }
+
+    #[inline]
+    fn to_i128(self) -> i128 {
+        i128::from(self)
+    }
+
+    #[inline]
+    fn from_i128(number: i128) -> Option<Self> {
+        match number {
+            0 => Some(false),
+            1 => Some(true),
+            _ => None,
+        }
+    }
+
+    #[inline]
+    fn truncated(number: i64) -> Self {
+        number & 1 == 1
+    }
 }
 
 impl<const W: usize> sealed::Sealed for [u16; W] {}
@@ -139,6 +195,7 @@ impl<const W: usize> Raw for [u16; W] {
     type Words = Self;
     const MIN: Self = [0; W];
     const MAX: Self = [u16::MAX; W];
+    const ENDS: (i128, i128) = (0, 0);
 
     #[inline]
     fn into_words(self) -> Self {
@@ -158,5 +215,20 @@ impl<const W: usize> Raw for [u16; W] {
     #[inline]
     fn to_i64(self) -> i64 {
         0
+    }
+
+    #[inline]
+    fn to_i128(self) -> i128 {
+        0
+    }
+
+    #[inline]
+    fn from_i128(_: i128) -> Option<Self> {
+        None
+    }
+
+    #[inline]
+    fn truncated(_: i64) -> Self {
+        Self::MIN
     }
 }

@@ -12,7 +12,7 @@ use crate::Error;
 ///
 /// let text: Text<16> = "Generator 1".try_into()?;
 /// assert_eq!(text.as_str(), Some("Generator 1"));
-/// assert_eq!(Text::<4>::new("too long"), Err(Error::OutOfRange));
+/// assert_eq!(Text::<4>::new("too long"), Err(Error::BadText));
 /// # Ok::<(), Error>(())
 /// ```
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
@@ -31,13 +31,13 @@ impl<const N: usize> Text<N> {
     /// The text of that string, whose characters up to `U+00FF` are bytes of Latin-1.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] if it is longer than `N` characters or has one that is no such byte.
+    /// [`Error::BadText`] if it is longer than `N` characters or has one that is no such byte.
     pub fn new(text: &str) -> Result<Self, Error> {
         let mut found = Self::EMPTY;
         let mut places = found.bytes.iter_mut();
         for character in text.chars() {
-            let place = places.next().ok_or(Error::OutOfRange)?;
-            *place = u8::try_from(character).map_err(|_| Error::OutOfRange)?;
+            let place = places.next().ok_or(Error::BadText)?;
+            *place = u8::try_from(character).map_err(|_| Error::BadText)?;
         }
         Ok(found.measured())
     }
@@ -45,11 +45,11 @@ impl<const N: usize> Text<N> {
     /// The text of these bytes, which are characters whatever they are.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] if there are more than `N`.
+    /// [`Error::BadText`] if there are more than `N`.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, Error> {
         let mut found = Self::EMPTY;
         let places = found.bytes.get_mut(..bytes.len());
-        places.ok_or(Error::OutOfRange)?.copy_from_slice(bytes);
+        places.ok_or(Error::BadText)?.copy_from_slice(bytes);
         Ok(found.measured())
     }
 

@@ -5,8 +5,28 @@
 //! `Hitachi L200`.
 //!
 //! Each point is a type of [`points`]; what may be done with it is a trait: [`Readable`], [`Writable`], [`Encodable`].
-//! [`Client`](runtime::modbus::Client) and [`AsyncClient`](runtime::modbus::AsyncClient) do it over a transport that you bring.
+//! [`Client`] and [`AsyncClient`] do it over a [`Transport`] or an [`AsyncTransport`] that you bring.
 //! No warranty, no affiliation with the maker; a write may move a machine.
+//!
+//! ```
+//! use hitachi_l200::runtime::modbus::Framing;
+//! use hitachi_l200::{points, Client, ClientError, Transport, PROFILE};
+//!
+//! struct Line; // your port
+//!
+//! impl Transport for Line {
+//!     type Error = std::io::Error;
+//!
+//!     fn exchange(&mut self, _request: &[u8], _reply: &mut [u8]) -> Result<usize, Self::Error> {
+//!         // throw away what came before, send the request, read until the line is silent
+//!         Err(std::io::ErrorKind::TimedOut.into())
+//!     }
+//! }
+//!
+//! let mut client = Client::new(Line, &PROFILE, Framing::Rtu, 1);
+//! let found = client.read::<points::RunCommand>();
+//! assert!(matches!(found, Err(ClientError::Transport(_)))); // nothing answered
+//! ```
 
 #![no_std]
 #![forbid(unsafe_code)]
@@ -17,6 +37,8 @@ pub mod points;
 pub mod with;
 
 pub use fieldscribe_runtime as runtime;
+pub use fieldscribe_runtime::modbus::{AsyncClient, Client, ClientError};
+pub use fieldscribe_runtime::{AsyncTransport, Transport};
 pub use fieldscribe_runtime::{BitGroup, Coded, CountReadable, CountWritable, Encodable, Error};
 pub use fieldscribe_runtime::{Point, Readable, Reading, Scaled, Space, Special, Whole, Writable};
 

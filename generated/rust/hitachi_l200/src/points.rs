@@ -31,16751 +31,3861 @@ pub mod documented {
     use fieldscribe_runtime as runtime;
 
     /// The words of `scaled_output_frequency`.
-    pub const SCALED_OUTPUT_FREQUENCY: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Holding,
-        address: 0x1008,
-        words: 2,
-        index: None,
-    };
+    pub const SCALED_OUTPUT_FREQUENCY: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Holding, 0x1008, 2, None);
 }
 
-use fieldscribe_runtime as runtime;
-use fieldscribe_runtime::arithmetic;
+use fieldscribe_runtime::{self as runtime, point};
 
 use crate::enums;
 use crate::flags;
 use crate::with;
 
-/// Run command.
-///
-/// At coil 0000h (0), `bit`, raw `0, 1`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct RunCommand;
-
-impl runtime::Point for RunCommand {
-    type Raw = u8;
-    type Value = enums::RunCommand;
-    const NAME: &'static str = "run_command";
-    const SPACE: runtime::Space = runtime::Space::Coil;
-    const ADDRESS: u16 = 0x0000;
-    const RAW_MAX: u8 = 1;
-}
-
-impl runtime::Whole for RunCommand {}
-
-impl runtime::Readable for RunCommand {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::RunCommand::from(raw)
-    }
-}
-
-impl runtime::CountReadable for RunCommand {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for RunCommand {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for RunCommand {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for RunCommand {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl RunCommand {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 1;
-}
-
-/// Direction command.
-///
-/// At coil 0001h (1), `bit`, raw `0, 1`, read and write.
-///
-/// Errata: `coil_reverse_spelling`, `rotation_words`.
-#[derive(Clone, Copy, Debug)]
-pub struct DirectionCommand;
-
-impl runtime::Point for DirectionCommand {
-    type Raw = u8;
-    type Value = enums::DirectionCommand;
-    const NAME: &'static str = "direction_command";
-    const SPACE: runtime::Space = runtime::Space::Coil;
-    const ADDRESS: u16 = 0x0001;
-    const RAW_MAX: u8 = 1;
-}
-
-impl runtime::Whole for DirectionCommand {}
-
-impl runtime::Readable for DirectionCommand {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::DirectionCommand::from(raw)
-    }
-}
-
-impl runtime::CountReadable for DirectionCommand {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for DirectionCommand {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for DirectionCommand {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for DirectionCommand {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl DirectionCommand {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 2;
-}
-
-/// External trip.
-///
-/// At coil 0002h (2), `bit`, raw `0, 1`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct ExternalTrip;
-
-impl runtime::Point for ExternalTrip {
-    type Raw = u8;
-    type Value = enums::ExternalTrip;
-    const NAME: &'static str = "external_trip";
-    const SPACE: runtime::Space = runtime::Space::Coil;
-    const ADDRESS: u16 = 0x0002;
-    const RAW_MAX: u8 = 1;
-}
-
-impl runtime::Whole for ExternalTrip {}
-
-impl runtime::Readable for ExternalTrip {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::ExternalTrip::from(raw)
-    }
-}
-
-impl runtime::CountReadable for ExternalTrip {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for ExternalTrip {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for ExternalTrip {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for ExternalTrip {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl ExternalTrip {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 3;
-}
-
-/// Trip reset.
-///
-/// At coil 0003h (3), `bit`, raw `0, 1`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct TripReset;
-
-impl runtime::Point for TripReset {
-    type Raw = u8;
-    type Value = enums::TripReset;
-    const NAME: &'static str = "trip_reset";
-    const SPACE: runtime::Space = runtime::Space::Coil;
-    const ADDRESS: u16 = 0x0003;
-    const RAW_MAX: u8 = 1;
-}
-
-impl runtime::Whole for TripReset {}
-
-impl runtime::Readable for TripReset {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::TripReset::from(raw)
-    }
-}
-
-impl runtime::CountReadable for TripReset {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for TripReset {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for TripReset {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for TripReset {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl TripReset {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4;
-}
-
-/// Digital input 1.
-///
-/// At coil 0006h (6), `bit`, raw `0, 1`, read and write.
-///
-/// Errata: `coil_broken_line`.
-#[derive(Clone, Copy, Debug)]
-pub struct DigitalInput1;
-
-impl runtime::Point for DigitalInput1 {
-    type Raw = u8;
-    type Value = enums::OffOn;
-    const NAME: &'static str = "digital_input_1";
-    const SPACE: runtime::Space = runtime::Space::Coil;
-    const ADDRESS: u16 = 0x0006;
-    const RAW_MAX: u8 = 1;
-}
-
-impl runtime::Whole for DigitalInput1 {}
-
-impl runtime::Readable for DigitalInput1 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::OffOn::from(raw)
-    }
-}
-
-impl runtime::CountReadable for DigitalInput1 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for DigitalInput1 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for DigitalInput1 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for DigitalInput1 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl DigitalInput1 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 7;
-}
-
-/// Digital input 2.
-///
-/// At coil 0007h (7), `bit`, raw `0, 1`, read and write.
-///
-/// Errata: `coil_input_note_mark`, `coil_broken_line`.
-#[derive(Clone, Copy, Debug)]
-pub struct DigitalInput2;
-
-impl runtime::Point for DigitalInput2 {
-    type Raw = u8;
-    type Value = enums::OffOn;
-    const NAME: &'static str = "digital_input_2";
-    const SPACE: runtime::Space = runtime::Space::Coil;
-    const ADDRESS: u16 = 0x0007;
-    const RAW_MAX: u8 = 1;
-}
-
-impl runtime::Whole for DigitalInput2 {}
-
-impl runtime::Readable for DigitalInput2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::OffOn::from(raw)
-    }
-}
-
-impl runtime::CountReadable for DigitalInput2 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for DigitalInput2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for DigitalInput2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for DigitalInput2 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl DigitalInput2 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 8;
-}
-
-/// Digital input 3.
-///
-/// At coil 0008h (8), `bit`, raw `0, 1`, read and write.
-///
-/// Errata: `coil_input_note_mark`, `coil_broken_line`.
-#[derive(Clone, Copy, Debug)]
-pub struct DigitalInput3;
-
-impl runtime::Point for DigitalInput3 {
-    type Raw = u8;
-    type Value = enums::OffOn;
-    const NAME: &'static str = "digital_input_3";
-    const SPACE: runtime::Space = runtime::Space::Coil;
-    const ADDRESS: u16 = 0x0008;
-    const RAW_MAX: u8 = 1;
-}
-
-impl runtime::Whole for DigitalInput3 {}
-
-impl runtime::Readable for DigitalInput3 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::OffOn::from(raw)
-    }
-}
-
-impl runtime::CountReadable for DigitalInput3 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for DigitalInput3 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for DigitalInput3 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for DigitalInput3 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl DigitalInput3 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 9;
-}
-
-/// Digital input 4.
-///
-/// At coil 0009h (9), `bit`, raw `0, 1`, read and write.
-///
-/// Errata: `coil_input_note_mark`, `coil_broken_line`.
-#[derive(Clone, Copy, Debug)]
-pub struct DigitalInput4;
-
-impl runtime::Point for DigitalInput4 {
-    type Raw = u8;
-    type Value = enums::OffOn;
-    const NAME: &'static str = "digital_input_4";
-    const SPACE: runtime::Space = runtime::Space::Coil;
-    const ADDRESS: u16 = 0x0009;
-    const RAW_MAX: u8 = 1;
-}
-
-impl runtime::Whole for DigitalInput4 {}
-
-impl runtime::Readable for DigitalInput4 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::OffOn::from(raw)
-    }
-}
-
-impl runtime::CountReadable for DigitalInput4 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for DigitalInput4 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for DigitalInput4 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for DigitalInput4 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl DigitalInput4 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 10;
-}
-
-/// Digital input 5.
-///
-/// At coil 000Ah (10), `bit`, raw `0, 1`, read and write.
-///
-/// Errata: `coil_input_note_mark`, `coil_broken_line`.
-#[derive(Clone, Copy, Debug)]
-pub struct DigitalInput5;
-
-impl runtime::Point for DigitalInput5 {
-    type Raw = u8;
-    type Value = enums::OffOn;
-    const NAME: &'static str = "digital_input_5";
-    const SPACE: runtime::Space = runtime::Space::Coil;
-    const ADDRESS: u16 = 0x000A;
-    const RAW_MAX: u8 = 1;
-}
-
-impl runtime::Whole for DigitalInput5 {}
-
-impl runtime::Readable for DigitalInput5 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::OffOn::from(raw)
-    }
-}
-
-impl runtime::CountReadable for DigitalInput5 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for DigitalInput5 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for DigitalInput5 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for DigitalInput5 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl DigitalInput5 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 11;
-}
-
-/// Running.
-///
-/// At coil 000Dh (13), `bit`, raw `0, 1`, read only.
-///
-/// Errata: `coil_running_reference`.
-#[derive(Clone, Copy, Debug)]
-pub struct Running;
-
-impl runtime::Point for Running {
-    type Raw = u8;
-    type Value = enums::Running;
-    const NAME: &'static str = "running";
-    const SPACE: runtime::Space = runtime::Space::Coil;
-    const ADDRESS: u16 = 0x000D;
-    const RAW_MAX: u8 = 1;
-}
-
-impl runtime::Whole for Running {}
-
-impl runtime::Readable for Running {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::Running::from(raw)
-    }
-}
-
-impl runtime::CountReadable for Running {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl Running {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 14;
-}
-
-/// Direction status.
-///
-/// At coil 000Eh (14), `bit`, raw `0, 1`, read only.
-///
-/// Errata: `coil_reverse_spelling`, `rotation_words`.
-#[derive(Clone, Copy, Debug)]
-pub struct DirectionStatus;
-
-impl runtime::Point for DirectionStatus {
-    type Raw = u8;
-    type Value = enums::DirectionStatus;
-    const NAME: &'static str = "direction_status";
-    const SPACE: runtime::Space = runtime::Space::Coil;
-    const ADDRESS: u16 = 0x000E;
-    const RAW_MAX: u8 = 1;
-}
-
-impl runtime::Whole for DirectionStatus {}
-
-impl runtime::Readable for DirectionStatus {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::DirectionStatus::from(raw)
-    }
-}
-
-impl runtime::CountReadable for DirectionStatus {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl DirectionStatus {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 15;
-}
-
-/// Ready.
-///
-/// At coil 000Fh (15), `bit`, raw `0, 1`, read only.
-#[derive(Clone, Copy, Debug)]
-pub struct Ready;
-
-impl runtime::Point for Ready {
-    type Raw = u8;
-    type Value = enums::Ready;
-    const NAME: &'static str = "ready";
-    const SPACE: runtime::Space = runtime::Space::Coil;
-    const ADDRESS: u16 = 0x000F;
-    const RAW_MAX: u8 = 1;
-}
-
-impl runtime::Whole for Ready {}
-
-impl runtime::Readable for Ready {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::Ready::from(raw)
-    }
-}
-
-impl runtime::CountReadable for Ready {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl Ready {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 16;
-}
-
-/// Alarm.
-///
-/// At coil 0013h (19), `bit`, raw `0, 1`, read only.
-#[derive(Clone, Copy, Debug)]
-pub struct Alarm;
-
-impl runtime::Point for Alarm {
-    type Raw = u8;
-    type Value = enums::Alarm;
-    const NAME: &'static str = "alarm";
-    const SPACE: runtime::Space = runtime::Space::Coil;
-    const ADDRESS: u16 = 0x0013;
-    const RAW_MAX: u8 = 1;
-}
-
-impl runtime::Whole for Alarm {}
-
-impl runtime::Readable for Alarm {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::Alarm::from(raw)
-    }
-}
-
-impl runtime::CountReadable for Alarm {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl Alarm {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 20;
-}
-
-/// Pid deviation.
-///
-/// At coil 0014h (20), `bit`, raw `0, 1`, read only.
-#[derive(Clone, Copy, Debug)]
-pub struct PidDeviation;
-
-impl runtime::Point for PidDeviation {
-    type Raw = u8;
-    type Value = enums::OffOn;
-    const NAME: &'static str = "pid_deviation";
-    const SPACE: runtime::Space = runtime::Space::Coil;
-    const ADDRESS: u16 = 0x0014;
-    const RAW_MAX: u8 = 1;
-}
-
-impl runtime::Whole for PidDeviation {}
-
-impl runtime::Readable for PidDeviation {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::OffOn::from(raw)
-    }
-}
-
-impl runtime::CountReadable for PidDeviation {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl PidDeviation {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 21;
-}
-
-/// Overload.
-///
-/// At coil 0015h (21), `bit`, raw `0, 1`, read only.
-#[derive(Clone, Copy, Debug)]
-pub struct Overload;
-
-impl runtime::Point for Overload {
-    type Raw = u8;
-    type Value = enums::OffOn;
-    const NAME: &'static str = "overload";
-    const SPACE: runtime::Space = runtime::Space::Coil;
-    const ADDRESS: u16 = 0x0015;
-    const RAW_MAX: u8 = 1;
-}
-
-impl runtime::Whole for Overload {}
-
-impl runtime::Readable for Overload {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::OffOn::from(raw)
-    }
-}
-
-impl runtime::CountReadable for Overload {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl Overload {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 22;
-}
-
-/// Frequency arrival in acceleration.
-///
-/// At coil 0016h (22), `bit`, raw `0, 1`, read only.
-#[derive(Clone, Copy, Debug)]
-pub struct FrequencyArrivalInAcceleration;
-
-impl runtime::Point for FrequencyArrivalInAcceleration {
-    type Raw = u8;
-    type Value = enums::OffOn;
-    const NAME: &'static str = "frequency_arrival_in_acceleration";
-    const SPACE: runtime::Space = runtime::Space::Coil;
-    const ADDRESS: u16 = 0x0016;
-    const RAW_MAX: u8 = 1;
-}
-
-impl runtime::Whole for FrequencyArrivalInAcceleration {}
-
-impl runtime::Readable for FrequencyArrivalInAcceleration {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::OffOn::from(raw)
-    }
-}
-
-impl runtime::CountReadable for FrequencyArrivalInAcceleration {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl FrequencyArrivalInAcceleration {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 23;
-}
-
-/// Frequency arrival at constant speed.
-///
-/// At coil 0017h (23), `bit`, raw `0, 1`, read only.
-#[derive(Clone, Copy, Debug)]
-pub struct FrequencyArrivalAtConstantSpeed;
-
-impl runtime::Point for FrequencyArrivalAtConstantSpeed {
-    type Raw = u8;
-    type Value = enums::OffOn;
-    const NAME: &'static str = "frequency_arrival_at_constant_speed";
-    const SPACE: runtime::Space = runtime::Space::Coil;
-    const ADDRESS: u16 = 0x0017;
-    const RAW_MAX: u8 = 1;
-}
-
-impl runtime::Whole for FrequencyArrivalAtConstantSpeed {}
-
-impl runtime::Readable for FrequencyArrivalAtConstantSpeed {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::OffOn::from(raw)
-    }
-}
-
-impl runtime::CountReadable for FrequencyArrivalAtConstantSpeed {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl FrequencyArrivalAtConstantSpeed {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 24;
-}
-
-/// Run mode.
-///
-/// At coil 0018h (24), `bit`, raw `0, 1`, read only.
-#[derive(Clone, Copy, Debug)]
-pub struct RunMode;
-
-impl runtime::Point for RunMode {
-    type Raw = u8;
-    type Value = enums::OffOn;
-    const NAME: &'static str = "run_mode";
-    const SPACE: runtime::Space = runtime::Space::Coil;
-    const ADDRESS: u16 = 0x0018;
-    const RAW_MAX: u8 = 1;
-}
-
-impl runtime::Whole for RunMode {}
-
-impl runtime::Readable for RunMode {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::OffOn::from(raw)
-    }
-}
-
-impl runtime::CountReadable for RunMode {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl RunMode {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 25;
-}
-
-/// Data write.
-///
-/// At coil 0019h (25), `bit`, raw `0, 1`, read only.
-///
-/// Errata: `enter_busy_coil`.
-#[derive(Clone, Copy, Debug)]
-pub struct DataWrite;
-
-impl runtime::Point for DataWrite {
-    type Raw = u8;
-    type Value = enums::DataWrite;
-    const NAME: &'static str = "data_write";
-    const SPACE: runtime::Space = runtime::Space::Coil;
-    const ADDRESS: u16 = 0x0019;
-    const RAW_MAX: u8 = 1;
-}
-
-impl runtime::Whole for DataWrite {}
-
-impl runtime::Readable for DataWrite {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::DataWrite::from(raw)
-    }
-}
-
-impl runtime::CountReadable for DataWrite {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl DataWrite {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 26;
-}
-
-/// Crc error.
-///
-/// At coil 001Ah (26), `bit`, raw `0, 1`, read only.
-///
-/// Errata: `coil_error_flags_clearing`.
-#[derive(Clone, Copy, Debug)]
-pub struct CrcError;
-
-impl runtime::Point for CrcError {
-    type Raw = u8;
-    type Value = enums::ErrorFlag;
-    const NAME: &'static str = "crc_error";
-    const SPACE: runtime::Space = runtime::Space::Coil;
-    const ADDRESS: u16 = 0x001A;
-    const RAW_MAX: u8 = 1;
-}
-
-impl runtime::Whole for CrcError {}
-
-impl runtime::Readable for CrcError {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::ErrorFlag::from(raw)
-    }
-}
-
-impl runtime::CountReadable for CrcError {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl CrcError {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 27;
-}
-
-/// Overrun error.
-///
-/// At coil 001Bh (27), `bit`, raw `0, 1`, read only.
-///
-/// Errata: `coil_error_flags_clearing`, `coil_error_note_mark`.
-#[derive(Clone, Copy, Debug)]
-pub struct OverrunError;
-
-impl runtime::Point for OverrunError {
-    type Raw = u8;
-    type Value = enums::ErrorFlag;
-    const NAME: &'static str = "overrun_error";
-    const SPACE: runtime::Space = runtime::Space::Coil;
-    const ADDRESS: u16 = 0x001B;
-    const RAW_MAX: u8 = 1;
-}
-
-impl runtime::Whole for OverrunError {}
-
-impl runtime::Readable for OverrunError {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::ErrorFlag::from(raw)
-    }
-}
-
-impl runtime::CountReadable for OverrunError {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl OverrunError {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 28;
-}
-
-/// Framing error.
-///
-/// At coil 001Ch (28), `bit`, raw `0, 1`, read only.
-///
-/// Errata: `coil_error_flags_clearing`, `coil_error_note_mark`.
-#[derive(Clone, Copy, Debug)]
-pub struct FramingError;
-
-impl runtime::Point for FramingError {
-    type Raw = u8;
-    type Value = enums::ErrorFlag;
-    const NAME: &'static str = "framing_error";
-    const SPACE: runtime::Space = runtime::Space::Coil;
-    const ADDRESS: u16 = 0x001C;
-    const RAW_MAX: u8 = 1;
-}
-
-impl runtime::Whole for FramingError {}
-
-impl runtime::Readable for FramingError {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::ErrorFlag::from(raw)
-    }
-}
-
-impl runtime::CountReadable for FramingError {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl FramingError {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 29;
-}
-
-/// Parity error.
-///
-/// At coil 001Dh (29), `bit`, raw `0, 1`, read only.
-///
-/// Errata: `coil_parity_error_wire_decimal`, `coil_error_flags_clearing`, `coil_error_note_mark`.
-#[derive(Clone, Copy, Debug)]
-pub struct ParityError;
-
-impl runtime::Point for ParityError {
-    type Raw = u8;
-    type Value = enums::ErrorFlag;
-    const NAME: &'static str = "parity_error";
-    const SPACE: runtime::Space = runtime::Space::Coil;
-    const ADDRESS: u16 = 0x001D;
-    const RAW_MAX: u8 = 1;
-}
-
-impl runtime::Whole for ParityError {}
-
-impl runtime::Readable for ParityError {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::ErrorFlag::from(raw)
-    }
-}
-
-impl runtime::CountReadable for ParityError {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl ParityError {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 30;
-}
-
-/// Checksum error.
-///
-/// At coil 001Eh (30), `bit`, raw `0, 1`, read only.
-///
-/// Errata: `coil_error_flags_clearing`, `coil_error_note_mark`.
-#[derive(Clone, Copy, Debug)]
-pub struct ChecksumError;
-
-impl runtime::Point for ChecksumError {
-    type Raw = u8;
-    type Value = enums::ErrorFlag;
-    const NAME: &'static str = "checksum_error";
-    const SPACE: runtime::Space = runtime::Space::Coil;
-    const ADDRESS: u16 = 0x001E;
-    const RAW_MAX: u8 = 1;
-}
-
-impl runtime::Whole for ChecksumError {}
-
-impl runtime::Readable for ChecksumError {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::ErrorFlag::from(raw)
-    }
-}
-
-impl runtime::CountReadable for ChecksumError {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl ChecksumError {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 31;
-}
-
-/// Network frequency setpoint.
-///
-/// At holding 0001h (1), `u16`, raw `0..4000`, steps of `0.1 Hz`, read and write.
-///
-/// Errata: `network_frequency_setpoint_access`, `network_frequency_setpoint_title`, `status_keeps`.
-#[derive(Clone, Copy, Debug)]
-pub struct NetworkFrequencySetpoint;
-
-impl runtime::Point for NetworkFrequencySetpoint {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "network_frequency_setpoint";
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x0001;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "Hz";
-    const RAW_MAX: u16 = 4000;
-}
-
-impl runtime::Whole for NetworkFrequencySetpoint {}
-
-impl runtime::Readable for NetworkFrequencySetpoint {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for NetworkFrequencySetpoint {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for NetworkFrequencySetpoint {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=4000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for NetworkFrequencySetpoint {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for NetworkFrequencySetpoint {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 4000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl NetworkFrequencySetpoint {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 2;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 400_002;
-}
-
-/// Inverter status.
-///
-/// At holding 0002h (2), `u16`, raw `0..9`, read and write.
-///
-/// Errata: `inverter_status_access`, `status_keeps`.
-#[derive(Clone, Copy, Debug)]
-pub struct InverterStatus;
-
-impl runtime::Point for InverterStatus {
-    type Raw = u16;
-    type Value = enums::InverterStatus;
-    const NAME: &'static str = "inverter_status";
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x0002;
-    const RAW_MAX: u16 = 9;
-}
-
-impl runtime::Whole for InverterStatus {}
-
-impl runtime::Readable for InverterStatus {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::InverterStatus::from(raw)
-    }
-}
-
-impl runtime::CountReadable for InverterStatus {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for InverterStatus {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=9);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for InverterStatus {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for InverterStatus {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl InverterStatus {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 3;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 400_003;
-}
-
-/// Network process value.
-///
-/// At holding 0004h (4), `u16`, raw `0..1000`, steps of `0.1 %`, read and write.
-///
-/// Errata: `network_process_value_access`, `status_keeps`.
-#[derive(Clone, Copy, Debug)]
-pub struct NetworkProcessValue;
-
-impl runtime::Point for NetworkProcessValue {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "network_process_value";
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x0004;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "%";
-    const RAW_MAX: u16 = 1000;
-}
-
-impl runtime::Whole for NetworkProcessValue {}
-
-impl runtime::Readable for NetworkProcessValue {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for NetworkProcessValue {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for NetworkProcessValue {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for NetworkProcessValue {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for NetworkProcessValue {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 1000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl NetworkProcessValue {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 5;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 400_005;
-}
-
-/// Output frequency.
-///
-/// `d001` at holding 1001h (4097), `u16`, raw `0..4000`, steps of `0.1 Hz`, read only.
-#[doc(alias = "d001")]
-#[derive(Clone, Copy, Debug)]
-pub struct OutputFrequency;
-
-impl runtime::Point for OutputFrequency {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "output_frequency";
-    const CODE: Option<&'static str> = Some("d001");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1001;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "Hz";
-    const RAW_MAX: u16 = 4000;
-}
-
-impl runtime::Whole for OutputFrequency {}
-
-impl runtime::Readable for OutputFrequency {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for OutputFrequency {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl OutputFrequency {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4098;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_098;
-}
-
-/// Motor current.
-///
-/// `d002` at holding 1002h (4098), `u16`, raw `0..2000`, steps of `0.1 %`, read only.
-///
-/// Errata: `d002_rated_current_scale`, `d002_unit_in_title`, `d002_motor_or_rated_current`.
-#[doc(alias = "d002")]
-#[derive(Clone, Copy, Debug)]
-pub struct MotorCurrent;
-
-impl runtime::Point for MotorCurrent {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "motor_current";
-    const CODE: Option<&'static str> = Some("d002");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1002;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "%";
-    const RAW_MAX: u16 = 2000;
-}
-
-impl runtime::Whole for MotorCurrent {}
-
-impl runtime::Readable for MotorCurrent {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for MotorCurrent {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl MotorCurrent {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4099;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_099;
-}
-
-/// Rotation direction.
-///
-/// `d003` at holding 1003h (4099), `u16`, raw `0..2`, read only.
-///
-/// Errata: `rotation_words`.
-#[doc(alias = "d003")]
-#[derive(Clone, Copy, Debug)]
-pub struct RotationDirection;
-
-impl runtime::Point for RotationDirection {
-    type Raw = u16;
-    type Value = enums::RotationDirection;
-    const NAME: &'static str = "rotation_direction";
-    const CODE: Option<&'static str> = Some("d003");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1003;
-    const RAW_MAX: u16 = 2;
-}
-
-impl runtime::Whole for RotationDirection {}
-
-impl runtime::Readable for RotationDirection {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::RotationDirection::from(raw)
-    }
-}
-
-impl runtime::CountReadable for RotationDirection {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl RotationDirection {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4100;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_100;
-}
-
-/// Scaled process value.
-///
-/// `d004` at holding 1004h (4100), `u32`, raw `0..999900`, steps of `0.01 %`, read only.
-///
-/// Errata: `d004_range_in_units`, `d004_resolution`.
-#[doc(alias = "d004")]
-#[derive(Clone, Copy, Debug)]
-pub struct ScaledProcessValue;
-
-impl runtime::Point for ScaledProcessValue {
-    type Raw = u32;
-    type Value = f64;
-    const NAME: &'static str = "scaled_process_value";
-    const CODE: Option<&'static str> = Some("d004");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1004;
-    const ADDRESSES: &'static [u16] = &[0x1004, 0x1005];
-    const WORDS: u16 = 2;
-    const DECIMALS: u32 = 2;
-    const UNIT: &'static str = "%";
-    const RAW_MAX: u32 = 999_900;
-}
-
-impl runtime::Whole for ScaledProcessValue {}
-
-impl runtime::Readable for ScaledProcessValue {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u32, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 100.0
-    }
-}
-
-impl runtime::CountReadable for ScaledProcessValue {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u32, (): ()) -> Self::Output<Self::Count> {
-        i64::from(raw)
-    }
-}
-
-impl ScaledProcessValue {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4101;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_101;
-}
-
-/// Digital inputs.
-///
-/// `d005` at holding 1006h (4102), `u16`, raw `0..31`, read only.
-///
-/// Errata: `d005_range`.
-#[doc(alias = "d005")]
-#[derive(Clone, Copy, Debug)]
-pub struct DigitalInputs;
-
-impl runtime::Point for DigitalInputs {
-    type Raw = u16;
-    type Value = flags::DigitalInputs;
-    const NAME: &'static str = "digital_inputs";
-    const CODE: Option<&'static str> = Some("d005");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1006;
-    const RAW_MAX: u16 = 31;
-}
-
-impl runtime::Whole for DigitalInputs {}
-
-impl runtime::Readable for DigitalInputs {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        flags::DigitalInputs::from(raw)
-    }
-}
-
-impl runtime::CountReadable for DigitalInputs {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl DigitalInputs {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4103;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_103;
-}
-
-/// Digital outputs.
-///
-/// `d006` at holding 1007h (4103), `u16`, raw `0..7`, read only.
-#[doc(alias = "d006")]
-#[derive(Clone, Copy, Debug)]
-pub struct DigitalOutputs;
-
-impl runtime::Point for DigitalOutputs {
-    type Raw = u16;
-    type Value = flags::DigitalOutputs;
-    const NAME: &'static str = "digital_outputs";
-    const CODE: Option<&'static str> = Some("d006");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1007;
-    const RAW_MAX: u16 = 7;
-}
-
-impl runtime::Whole for DigitalOutputs {}
-
-impl runtime::Readable for DigitalOutputs {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        flags::DigitalOutputs::from(raw)
-    }
-}
-
-impl runtime::CountReadable for DigitalOutputs {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl DigitalOutputs {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4104;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_104;
-}
-
-/// Output voltage.
-///
-/// `d013` at holding 100Bh (4107), `u16`, raw `0..20000`, steps of `0.01 %`, read only.
-///
-/// Errata: `d013_unit_in_title`.
-#[doc(alias = "d013")]
-#[derive(Clone, Copy, Debug)]
-pub struct OutputVoltage;
-
-impl runtime::Point for OutputVoltage {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "output_voltage";
-    const CODE: Option<&'static str> = Some("d013");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x100B;
-    const DECIMALS: u32 = 2;
-    const UNIT: &'static str = "%";
-    const RAW_MAX: u16 = 20_000;
-}
-
-impl runtime::Whole for OutputVoltage {}
-
-impl runtime::Readable for OutputVoltage {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 100.0
-    }
-}
-
-impl runtime::CountReadable for OutputVoltage {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl OutputVoltage {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4108;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_108;
-}
-
-/// Run time.
-///
-/// `d016` at holding 100Dh (4109), `u32`, raw `0..999999`, read only.
-///
-/// Errata: `d016_range_in_units`.
-#[doc(alias = "d016")]
-#[derive(Clone, Copy, Debug)]
-pub struct RunTime;
-
-impl runtime::Point for RunTime {
-    type Raw = u32;
-    type Value = u32;
-    const NAME: &'static str = "run_time";
-    const CODE: Option<&'static str> = Some("d016");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x100D;
-    const ADDRESSES: &'static [u16] = &[0x100D, 0x100E];
-    const WORDS: u16 = 2;
-    const UNIT: &'static str = "h";
-    const RAW_MAX: u32 = 999_999;
-}
-
-impl runtime::Whole for RunTime {}
-
-impl runtime::Readable for RunTime {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u32, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for RunTime {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u32, (): ()) -> Self::Output<Self::Count> {
-        i64::from(raw)
-    }
-}
-
-impl RunTime {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4110;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_110;
-}
-
-/// Power on time.
-///
-/// `d017` at holding 100Fh (4111), `u32`, raw `0..999999`, read only.
-///
-/// Errata: `d017_range_in_units`.
-#[doc(alias = "d017")]
-#[derive(Clone, Copy, Debug)]
-pub struct PowerOnTime;
-
-impl runtime::Point for PowerOnTime {
-    type Raw = u32;
-    type Value = u32;
-    const NAME: &'static str = "power_on_time";
-    const CODE: Option<&'static str> = Some("d017");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x100F;
-    const ADDRESSES: &'static [u16] = &[0x100F, 0x1010];
-    const WORDS: u16 = 2;
-    const UNIT: &'static str = "h";
-    const RAW_MAX: u32 = 999_999;
-}
-
-impl runtime::Whole for PowerOnTime {}
-
-impl runtime::Readable for PowerOnTime {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u32, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for PowerOnTime {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u32, (): ()) -> Self::Output<Self::Count> {
-        i64::from(raw)
-    }
-}
-
-impl PowerOnTime {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4112;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_112;
-}
-
-/// Trip count.
-///
-/// `d080` at holding 0010h (16), `u16`, raw `0..65535`, read only.
-///
-/// Errata: `d080_d017_order`.
-#[doc(alias = "d080")]
-#[derive(Clone, Copy, Debug)]
-pub struct TripCount;
-
-impl runtime::Point for TripCount {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "trip_count";
-    const CODE: Option<&'static str> = Some("d080");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x0010;
-}
-
-impl runtime::Whole for TripCount {}
-
-impl runtime::Readable for TripCount {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for TripCount {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl TripCount {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 17;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 400_017;
-}
-
-/// Trip 1 error.
-///
-/// `d081` at holding 0011h (17), `u16`, raw `0..65535`, read only.
-///
-/// Errata: `d081_wire_five_digits`, `d081_titles`, `trip_code_no_fault`, `trip_record_holes`, `trip_record_no_ranges`.
-#[doc(alias = "d081")]
-#[derive(Clone, Copy, Debug)]
-pub struct Trip1Error;
-
-impl runtime::Point for Trip1Error {
-    type Raw = u16;
-    type Value = enums::TripCode;
-    const NAME: &'static str = "trip_1_error";
-    const CODE: Option<&'static str> = Some("d081");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x0011;
-}
-
-impl runtime::Whole for Trip1Error {}
-
-impl runtime::Readable for Trip1Error {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::TripCode::from(raw)
-    }
-}
-
-impl runtime::CountReadable for Trip1Error {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl Trip1Error {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 18;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 400_018;
-}
-
-/// Trip 1 output frequency.
-///
-/// `d081` at holding 0013h (19), `u16`, raw `0..65535`, steps of `0.1 Hz`, read only.
-///
-/// Errata: `trip_record_holes`, `trip_record_no_ranges`.
-#[doc(alias = "d081")]
-#[derive(Clone, Copy, Debug)]
-pub struct Trip1OutputFrequency;
-
-impl runtime::Point for Trip1OutputFrequency {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "trip_1_output_frequency";
-    const CODE: Option<&'static str> = Some("d081");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x0013;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "Hz";
-}
-
-impl runtime::Whole for Trip1OutputFrequency {}
-
-impl runtime::Readable for Trip1OutputFrequency {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for Trip1OutputFrequency {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl Trip1OutputFrequency {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 20;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 400_020;
-}
-
-/// Trip 1 motor current.
-///
-/// `d081` at holding 0015h (21), `u16`, raw `0..65535`, steps of `0.1 %`, read only.
-///
-/// Errata: `trip_record_holes`, `trip_record_no_ranges`.
-#[doc(alias = "d081")]
-#[derive(Clone, Copy, Debug)]
-pub struct Trip1MotorCurrent;
-
-impl runtime::Point for Trip1MotorCurrent {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "trip_1_motor_current";
-    const CODE: Option<&'static str> = Some("d081");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x0015;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "%";
-}
-
-impl runtime::Whole for Trip1MotorCurrent {}
-
-impl runtime::Readable for Trip1MotorCurrent {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for Trip1MotorCurrent {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl Trip1MotorCurrent {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 22;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 400_022;
-}
-
-/// Trip 1 dc bus voltage.
-///
-/// `d081` at holding 0016h (22), `u16`, raw `0..65535`, steps of `0.1 V`, read only.
-///
-/// Errata: `trip_record_holes`, `trip_record_no_ranges`.
-#[doc(alias = "d081")]
-#[derive(Clone, Copy, Debug)]
-pub struct Trip1DcBusVoltage;
-
-impl runtime::Point for Trip1DcBusVoltage {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "trip_1_dc_bus_voltage";
-    const CODE: Option<&'static str> = Some("d081");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x0016;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "V";
-}
-
-impl runtime::Whole for Trip1DcBusVoltage {}
-
-impl runtime::Readable for Trip1DcBusVoltage {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for Trip1DcBusVoltage {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl Trip1DcBusVoltage {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 23;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 400_023;
-}
-
-/// Trip 1 run time.
-///
-/// `d081` at holding 0017h (23), `u32`, raw `0..4294967295`, read only.
-///
-/// Errata: `trip_record_holes`, `trip_record_no_ranges`.
-#[doc(alias = "d081")]
-#[derive(Clone, Copy, Debug)]
-pub struct Trip1RunTime;
-
-impl runtime::Point for Trip1RunTime {
-    type Raw = u32;
-    type Value = u32;
-    const NAME: &'static str = "trip_1_run_time";
-    const CODE: Option<&'static str> = Some("d081");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x0017;
-    const ADDRESSES: &'static [u16] = &[0x0017, 0x0018];
-    const WORDS: u16 = 2;
-    const UNIT: &'static str = "h";
-}
-
-impl runtime::Whole for Trip1RunTime {}
-
-impl runtime::Readable for Trip1RunTime {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u32, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for Trip1RunTime {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u32, (): ()) -> Self::Output<Self::Count> {
-        i64::from(raw)
-    }
-}
-
-impl Trip1RunTime {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 24;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 400_024;
-}
-
-/// Trip 1 power on time.
-///
-/// `d081` at holding 0019h (25), `u32`, raw `0..4294967295`, read only.
-///
-/// Errata: `trip_record_holes`, `trip_record_no_ranges`.
-#[doc(alias = "d081")]
-#[derive(Clone, Copy, Debug)]
-pub struct Trip1PowerOnTime;
-
-impl runtime::Point for Trip1PowerOnTime {
-    type Raw = u32;
-    type Value = u32;
-    const NAME: &'static str = "trip_1_power_on_time";
-    const CODE: Option<&'static str> = Some("d081");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x0019;
-    const ADDRESSES: &'static [u16] = &[0x0019, 0x001A];
-    const WORDS: u16 = 2;
-    const UNIT: &'static str = "h";
-}
-
-impl runtime::Whole for Trip1PowerOnTime {}
-
-impl runtime::Readable for Trip1PowerOnTime {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u32, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for Trip1PowerOnTime {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u32, (): ()) -> Self::Output<Self::Count> {
-        i64::from(raw)
-    }
-}
-
-impl Trip1PowerOnTime {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 26;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 400_026;
-}
-
-/// Trip 2 error.
-///
-/// `d082` at holding 001Bh (27), `u16`, raw `0..65535`, read only.
-///
-/// Errata: `d081_titles`, `d082_address_in_example`, `trip_code_no_fault`, `trip_record_holes`, `trip_record_no_ranges`.
-#[doc(alias = "d082")]
-#[derive(Clone, Copy, Debug)]
-pub struct Trip2Error;
-
-impl runtime::Point for Trip2Error {
-    type Raw = u16;
-    type Value = enums::TripCode;
-    const NAME: &'static str = "trip_2_error";
-    const CODE: Option<&'static str> = Some("d082");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x001B;
-}
-
-impl runtime::Whole for Trip2Error {}
-
-impl runtime::Readable for Trip2Error {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::TripCode::from(raw)
-    }
-}
-
-impl runtime::CountReadable for Trip2Error {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl Trip2Error {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 28;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 400_028;
-}
-
-/// Trip 2 output frequency.
-///
-/// `d082` at holding 001Dh (29), `u16`, raw `0..65535`, steps of `0.1 Hz`, read only.
-///
-/// Errata: `trip_record_holes`, `trip_record_no_ranges`.
-#[doc(alias = "d082")]
-#[derive(Clone, Copy, Debug)]
-pub struct Trip2OutputFrequency;
-
-impl runtime::Point for Trip2OutputFrequency {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "trip_2_output_frequency";
-    const CODE: Option<&'static str> = Some("d082");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x001D;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "Hz";
-}
-
-impl runtime::Whole for Trip2OutputFrequency {}
-
-impl runtime::Readable for Trip2OutputFrequency {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for Trip2OutputFrequency {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl Trip2OutputFrequency {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 30;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 400_030;
-}
-
-/// Trip 2 motor current.
-///
-/// `d082` at holding 001Fh (31), `u16`, raw `0..65535`, steps of `0.1 %`, read only.
-///
-/// Errata: `trip_record_holes`, `trip_record_no_ranges`.
-#[doc(alias = "d082")]
-#[derive(Clone, Copy, Debug)]
-pub struct Trip2MotorCurrent;
-
-impl runtime::Point for Trip2MotorCurrent {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "trip_2_motor_current";
-    const CODE: Option<&'static str> = Some("d082");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x001F;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "%";
-}
-
-impl runtime::Whole for Trip2MotorCurrent {}
-
-impl runtime::Readable for Trip2MotorCurrent {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for Trip2MotorCurrent {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl Trip2MotorCurrent {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 32;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 400_032;
-}
-
-/// Trip 2 dc bus voltage.
-///
-/// `d082` at holding 0020h (32), `u16`, raw `0..65535`, steps of `0.1 V`, read only.
-///
-/// Errata: `trip_record_holes`, `trip_record_no_ranges`.
-#[doc(alias = "d082")]
-#[derive(Clone, Copy, Debug)]
-pub struct Trip2DcBusVoltage;
-
-impl runtime::Point for Trip2DcBusVoltage {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "trip_2_dc_bus_voltage";
-    const CODE: Option<&'static str> = Some("d082");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x0020;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "V";
-}
-
-impl runtime::Whole for Trip2DcBusVoltage {}
-
-impl runtime::Readable for Trip2DcBusVoltage {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for Trip2DcBusVoltage {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl Trip2DcBusVoltage {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 33;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 400_033;
-}
-
-/// Trip 2 run time.
-///
-/// `d082` at holding 0021h (33), `u32`, raw `0..4294967295`, read only.
-///
-/// Errata: `trip_record_holes`, `trip_record_no_ranges`.
-#[doc(alias = "d082")]
-#[derive(Clone, Copy, Debug)]
-pub struct Trip2RunTime;
-
-impl runtime::Point for Trip2RunTime {
-    type Raw = u32;
-    type Value = u32;
-    const NAME: &'static str = "trip_2_run_time";
-    const CODE: Option<&'static str> = Some("d082");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x0021;
-    const ADDRESSES: &'static [u16] = &[0x0021, 0x0022];
-    const WORDS: u16 = 2;
-    const UNIT: &'static str = "h";
-}
-
-impl runtime::Whole for Trip2RunTime {}
-
-impl runtime::Readable for Trip2RunTime {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u32, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for Trip2RunTime {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u32, (): ()) -> Self::Output<Self::Count> {
-        i64::from(raw)
-    }
-}
-
-impl Trip2RunTime {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 34;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 400_034;
-}
-
-/// Trip 2 power on time.
-///
-/// `d082` at holding 0023h (35), `u32`, raw `0..4294967295`, read only.
-///
-/// Errata: `trip_record_holes`, `trip_record_no_ranges`.
-#[doc(alias = "d082")]
-#[derive(Clone, Copy, Debug)]
-pub struct Trip2PowerOnTime;
-
-impl runtime::Point for Trip2PowerOnTime {
-    type Raw = u32;
-    type Value = u32;
-    const NAME: &'static str = "trip_2_power_on_time";
-    const CODE: Option<&'static str> = Some("d082");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x0023;
-    const ADDRESSES: &'static [u16] = &[0x0023, 0x0024];
-    const WORDS: u16 = 2;
-    const UNIT: &'static str = "h";
-}
-
-impl runtime::Whole for Trip2PowerOnTime {}
-
-impl runtime::Readable for Trip2PowerOnTime {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u32, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for Trip2PowerOnTime {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u32, (): ()) -> Self::Output<Self::Count> {
-        i64::from(raw)
-    }
-}
-
-impl Trip2PowerOnTime {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 36;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 400_036;
-}
-
-/// Trip 3 error.
-///
-/// `d083` at holding 0025h (37), `u16`, raw `0..65535`, read only.
-///
-/// Errata: `d081_titles`, `trip_code_no_fault`, `trip_record_holes`, `trip_record_no_ranges`.
-#[doc(alias = "d083")]
-#[derive(Clone, Copy, Debug)]
-pub struct Trip3Error;
-
-impl runtime::Point for Trip3Error {
-    type Raw = u16;
-    type Value = enums::TripCode;
-    const NAME: &'static str = "trip_3_error";
-    const CODE: Option<&'static str> = Some("d083");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x0025;
-}
-
-impl runtime::Whole for Trip3Error {}
-
-impl runtime::Readable for Trip3Error {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::TripCode::from(raw)
-    }
-}
-
-impl runtime::CountReadable for Trip3Error {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl Trip3Error {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 38;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 400_038;
-}
-
-/// Trip 3 output frequency.
-///
-/// `d083` at holding 0027h (39), `u16`, raw `0..65535`, steps of `0.1 Hz`, read only.
-///
-/// Errata: `trip_record_holes`, `trip_record_no_ranges`.
-#[doc(alias = "d083")]
-#[derive(Clone, Copy, Debug)]
-pub struct Trip3OutputFrequency;
-
-impl runtime::Point for Trip3OutputFrequency {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "trip_3_output_frequency";
-    const CODE: Option<&'static str> = Some("d083");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x0027;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "Hz";
-}
-
-impl runtime::Whole for Trip3OutputFrequency {}
-
-impl runtime::Readable for Trip3OutputFrequency {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for Trip3OutputFrequency {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl Trip3OutputFrequency {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 40;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 400_040;
-}
-
-/// Trip 3 motor current.
-///
-/// `d083` at holding 0029h (41), `u16`, raw `0..65535`, steps of `0.1 %`, read only.
-///
-/// Errata: `trip_record_holes`, `trip_record_no_ranges`.
-#[doc(alias = "d083")]
-#[derive(Clone, Copy, Debug)]
-pub struct Trip3MotorCurrent;
-
-impl runtime::Point for Trip3MotorCurrent {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "trip_3_motor_current";
-    const CODE: Option<&'static str> = Some("d083");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x0029;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "%";
-}
-
-impl runtime::Whole for Trip3MotorCurrent {}
-
-impl runtime::Readable for Trip3MotorCurrent {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for Trip3MotorCurrent {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl Trip3MotorCurrent {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 42;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 400_042;
-}
-
-/// Trip 3 dc bus voltage.
-///
-/// `d083` at holding 002Ah (42), `u16`, raw `0..65535`, steps of `0.1 V`, read only.
-///
-/// Errata: `trip_record_holes`, `trip_record_no_ranges`.
-#[doc(alias = "d083")]
-#[derive(Clone, Copy, Debug)]
-pub struct Trip3DcBusVoltage;
-
-impl runtime::Point for Trip3DcBusVoltage {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "trip_3_dc_bus_voltage";
-    const CODE: Option<&'static str> = Some("d083");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x002A;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "V";
-}
-
-impl runtime::Whole for Trip3DcBusVoltage {}
-
-impl runtime::Readable for Trip3DcBusVoltage {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for Trip3DcBusVoltage {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl Trip3DcBusVoltage {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 43;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 400_043;
-}
-
-/// Trip 3 run time.
-///
-/// `d083` at holding 002Bh (43), `u32`, raw `0..4294967295`, read only.
-///
-/// Errata: `trip_record_holes`, `trip_record_no_ranges`.
-#[doc(alias = "d083")]
-#[derive(Clone, Copy, Debug)]
-pub struct Trip3RunTime;
-
-impl runtime::Point for Trip3RunTime {
-    type Raw = u32;
-    type Value = u32;
-    const NAME: &'static str = "trip_3_run_time";
-    const CODE: Option<&'static str> = Some("d083");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x002B;
-    const ADDRESSES: &'static [u16] = &[0x002B, 0x002C];
-    const WORDS: u16 = 2;
-    const UNIT: &'static str = "h";
-}
-
-impl runtime::Whole for Trip3RunTime {}
-
-impl runtime::Readable for Trip3RunTime {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u32, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for Trip3RunTime {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u32, (): ()) -> Self::Output<Self::Count> {
-        i64::from(raw)
-    }
-}
-
-impl Trip3RunTime {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 44;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 400_044;
-}
-
-/// Trip 3 power on time.
-///
-/// `d083` at holding 002Dh (45), `u32`, raw `0..4294967295`, read only.
-///
-/// Errata: `trip_record_holes`, `trip_record_no_ranges`.
-#[doc(alias = "d083")]
-#[derive(Clone, Copy, Debug)]
-pub struct Trip3PowerOnTime;
-
-impl runtime::Point for Trip3PowerOnTime {
-    type Raw = u32;
-    type Value = u32;
-    const NAME: &'static str = "trip_3_power_on_time";
-    const CODE: Option<&'static str> = Some("d083");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x002D;
-    const ADDRESSES: &'static [u16] = &[0x002D, 0x002E];
-    const WORDS: u16 = 2;
-    const UNIT: &'static str = "h";
-}
-
-impl runtime::Whole for Trip3PowerOnTime {}
-
-impl runtime::Readable for Trip3PowerOnTime {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u32, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for Trip3PowerOnTime {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u32, (): ()) -> Self::Output<Self::Count> {
-        i64::from(raw)
-    }
-}
-
-impl Trip3PowerOnTime {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 46;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 400_046;
-}
-
-/// Acceleration time.
-///
-/// `F002` at holding 1013h (4115), `u32`, raw `1..300000`, steps of `0.01 s, from 100 s on 0.1 s`, read and write.
-///
-/// Errata: `f002_steps`, `f002_start_value`.
-#[doc(alias = "F002")]
-#[derive(Clone, Copy, Debug)]
-pub struct AccelerationTime;
-
-impl runtime::Point for AccelerationTime {
-    type Raw = u32;
-    type Value = f64;
-    const NAME: &'static str = "acceleration_time";
-    const CODE: Option<&'static str> = Some("F002");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1013;
-    const ADDRESSES: &'static [u16] = &[0x1013, 0x1014];
-    const WORDS: u16 = 2;
-    const DECIMALS: u32 = 2;
-    const UNIT: &'static str = "s";
-    const RAW_MIN: u32 = 1;
-    const RAW_MAX: u32 = 300_000;
-}
-
-impl runtime::Whole for AccelerationTime {}
-
-impl runtime::Readable for AccelerationTime {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u32, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 100.0
-    }
-}
-
-impl runtime::CountReadable for AccelerationTime {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u32, (): ()) -> Self::Output<Self::Count> {
-        i64::from(raw)
-    }
-}
-
-impl runtime::Writable for AccelerationTime {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u32, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=300_000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for AccelerationTime {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u32, runtime::Error> {
-        let scaled = value * 100.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for AccelerationTime {
-    type Count = i64;
-
-    #[inline]
-    fn encode_count_with(count: i64, (): ()) -> Result<u32, runtime::Error> {
-        let count = arithmetic::within(count, 1, 300_000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl AccelerationTime {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4116;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_116;
-}
-
-/// Acceleration time set 2.
-///
-/// `F202` at holding 1500h (5376), `u32`, raw `1..300000`, steps of `0.01 s, from 100 s on 0.1 s`, read and write.
-///
-/// Errata: `f002_steps`.
-#[doc(alias = "F202")]
-#[derive(Clone, Copy, Debug)]
-pub struct AccelerationTimeSet2;
-
-impl runtime::Point for AccelerationTimeSet2 {
-    type Raw = u32;
-    type Value = f64;
-    const NAME: &'static str = "acceleration_time_set_2";
-    const CODE: Option<&'static str> = Some("F202");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1500;
-    const ADDRESSES: &'static [u16] = &[0x1500, 0x1501];
-    const WORDS: u16 = 2;
-    const DECIMALS: u32 = 2;
-    const UNIT: &'static str = "s";
-    const RAW_MIN: u32 = 1;
-    const RAW_MAX: u32 = 300_000;
-}
-
-impl runtime::Whole for AccelerationTimeSet2 {}
-
-impl runtime::Readable for AccelerationTimeSet2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u32, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 100.0
-    }
-}
-
-impl runtime::CountReadable for AccelerationTimeSet2 {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u32, (): ()) -> Self::Output<Self::Count> {
-        i64::from(raw)
-    }
-}
-
-impl runtime::Writable for AccelerationTimeSet2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u32, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=300_000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for AccelerationTimeSet2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u32, runtime::Error> {
-        let scaled = value * 100.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for AccelerationTimeSet2 {
-    type Count = i64;
-
-    #[inline]
-    fn encode_count_with(count: i64, (): ()) -> Result<u32, runtime::Error> {
-        let count = arithmetic::within(count, 1, 300_000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl AccelerationTimeSet2 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 5377;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 405_377;
-}
-
-/// Deceleration time.
-///
-/// `F003` at holding 1015h (4117), `u32`, raw `1..300000`, steps of `0.01 s, from 100 s on 0.1 s`, read and write.
-///
-/// Errata: `f002_steps`.
-#[doc(alias = "F003")]
-#[derive(Clone, Copy, Debug)]
-pub struct DecelerationTime;
-
-impl runtime::Point for DecelerationTime {
-    type Raw = u32;
-    type Value = f64;
-    const NAME: &'static str = "deceleration_time";
-    const CODE: Option<&'static str> = Some("F003");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1015;
-    const ADDRESSES: &'static [u16] = &[0x1015, 0x1016];
-    const WORDS: u16 = 2;
-    const DECIMALS: u32 = 2;
-    const UNIT: &'static str = "s";
-    const RAW_MIN: u32 = 1;
-    const RAW_MAX: u32 = 300_000;
-}
-
-impl runtime::Whole for DecelerationTime {}
-
-impl runtime::Readable for DecelerationTime {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u32, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 100.0
-    }
-}
-
-impl runtime::CountReadable for DecelerationTime {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u32, (): ()) -> Self::Output<Self::Count> {
-        i64::from(raw)
-    }
-}
-
-impl runtime::Writable for DecelerationTime {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u32, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=300_000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for DecelerationTime {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u32, runtime::Error> {
-        let scaled = value * 100.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for DecelerationTime {
-    type Count = i64;
-
-    #[inline]
-    fn encode_count_with(count: i64, (): ()) -> Result<u32, runtime::Error> {
-        let count = arithmetic::within(count, 1, 300_000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl DecelerationTime {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4118;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_118;
-}
-
-/// Deceleration time set 2.
-///
-/// `F203` at holding 1502h (5378), `u32`, raw `1..300000`, steps of `0.01 s, from 100 s on 0.1 s`, read and write.
-///
-/// Errata: `f002_steps`.
-#[doc(alias = "F203")]
-#[derive(Clone, Copy, Debug)]
-pub struct DecelerationTimeSet2;
-
-impl runtime::Point for DecelerationTimeSet2 {
-    type Raw = u32;
-    type Value = f64;
-    const NAME: &'static str = "deceleration_time_set_2";
-    const CODE: Option<&'static str> = Some("F203");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1502;
-    const ADDRESSES: &'static [u16] = &[0x1502, 0x1503];
-    const WORDS: u16 = 2;
-    const DECIMALS: u32 = 2;
-    const UNIT: &'static str = "s";
-    const RAW_MIN: u32 = 1;
-    const RAW_MAX: u32 = 300_000;
-}
-
-impl runtime::Whole for DecelerationTimeSet2 {}
-
-impl runtime::Readable for DecelerationTimeSet2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u32, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 100.0
-    }
-}
-
-impl runtime::CountReadable for DecelerationTimeSet2 {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u32, (): ()) -> Self::Output<Self::Count> {
-        i64::from(raw)
-    }
-}
-
-impl runtime::Writable for DecelerationTimeSet2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u32, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=300_000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for DecelerationTimeSet2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u32, runtime::Error> {
-        let scaled = value * 100.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for DecelerationTimeSet2 {
-    type Count = i64;
-
-    #[inline]
-    fn encode_count_with(count: i64, (): ()) -> Result<u32, runtime::Error> {
-        let count = arithmetic::within(count, 1, 300_000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl DecelerationTimeSet2 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 5379;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 405_379;
-}
-
-/// Motor direction.
-///
-/// `F004` at holding 1017h (4119), `u16`, raw `0, 1`, read and write.
-///
-/// Errata: `rotation_words`, `f004_wire_decimal`.
-#[doc(alias = "F004")]
-#[derive(Clone, Copy, Debug)]
-pub struct MotorDirection;
-
-impl runtime::Point for MotorDirection {
-    type Raw = u16;
-    type Value = enums::MotorDirection;
-    const NAME: &'static str = "motor_direction";
-    const CODE: Option<&'static str> = Some("F004");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1017;
-    const RAW_MAX: u16 = 1;
-}
-
-impl runtime::Whole for MotorDirection {}
-
-impl runtime::Readable for MotorDirection {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::MotorDirection::from(raw)
-    }
-}
-
-impl runtime::CountReadable for MotorDirection {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for MotorDirection {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for MotorDirection {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for MotorDirection {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl MotorDirection {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4120;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_120;
-}
-
-/// Frequency source.
-///
-/// `A001` at holding 1018h (4120), `u16`, raw `0..3, 10`, read and write.
-///
-/// Errata: `a001_code_10_label`.
-#[doc(alias = "A001")]
-#[derive(Clone, Copy, Debug)]
-pub struct FrequencySource;
-
-impl runtime::Point for FrequencySource {
-    type Raw = u16;
-    type Value = enums::FrequencySource;
-    const NAME: &'static str = "frequency_source";
-    const CODE: Option<&'static str> = Some("A001");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1018;
-    const RAW_MAX: u16 = 10;
-}
-
-impl runtime::Whole for FrequencySource {}
-
-impl runtime::Readable for FrequencySource {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::FrequencySource::from(raw)
-    }
-}
-
-impl runtime::CountReadable for FrequencySource {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for FrequencySource {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=3 | 10);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for FrequencySource {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for FrequencySource {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl FrequencySource {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4121;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_121;
-}
-
-/// Frequency source set 2.
-///
-/// `A201` at holding 1509h (5385), `u16`, raw `0..3, 10`, read and write.
-///
-/// Errata: `a001_code_10_label`.
-#[doc(alias = "A201")]
-#[derive(Clone, Copy, Debug)]
-pub struct FrequencySourceSet2;
-
-impl runtime::Point for FrequencySourceSet2 {
-    type Raw = u16;
-    type Value = enums::FrequencySource;
-    const NAME: &'static str = "frequency_source_set_2";
-    const CODE: Option<&'static str> = Some("A201");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1509;
-    const RAW_MAX: u16 = 10;
-}
-
-impl runtime::Whole for FrequencySourceSet2 {}
-
-impl runtime::Readable for FrequencySourceSet2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::FrequencySource::from(raw)
-    }
-}
-
-impl runtime::CountReadable for FrequencySourceSet2 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for FrequencySourceSet2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=3 | 10);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for FrequencySourceSet2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for FrequencySourceSet2 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl FrequencySourceSet2 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 5386;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 405_386;
-}
-
-/// Run source.
-///
-/// `A002` at holding 1019h (4121), `u16`, raw `1..3`, read and write.
-///
-/// Errata: `a002_wire_decimal`.
-#[doc(alias = "A002")]
-#[derive(Clone, Copy, Debug)]
-pub struct RunSource;
-
-impl runtime::Point for RunSource {
-    type Raw = u16;
-    type Value = enums::RunSource;
-    const NAME: &'static str = "run_source";
-    const CODE: Option<&'static str> = Some("A002");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1019;
-    const RAW_MIN: u16 = 1;
-    const RAW_MAX: u16 = 3;
-}
-
-impl runtime::Whole for RunSource {}
-
-impl runtime::Readable for RunSource {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::RunSource::from(raw)
-    }
-}
-
-impl runtime::CountReadable for RunSource {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for RunSource {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=3);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for RunSource {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for RunSource {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl RunSource {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4122;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_122;
-}
-
-/// Run source set 2.
-///
-/// `A202` at holding 150Ah (5386), `u16`, raw `1..3`, read and write.
-#[doc(alias = "A202")]
-#[derive(Clone, Copy, Debug)]
-pub struct RunSourceSet2;
-
-impl runtime::Point for RunSourceSet2 {
-    type Raw = u16;
-    type Value = enums::RunSource;
-    const NAME: &'static str = "run_source_set_2";
-    const CODE: Option<&'static str> = Some("A202");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x150A;
-    const RAW_MIN: u16 = 1;
-    const RAW_MAX: u16 = 3;
-}
-
-impl runtime::Whole for RunSourceSet2 {}
-
-impl runtime::Readable for RunSourceSet2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::RunSource::from(raw)
-    }
-}
-
-impl runtime::CountReadable for RunSourceSet2 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for RunSourceSet2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=3);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for RunSourceSet2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for RunSourceSet2 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl RunSourceSet2 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 5387;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 405_387;
-}
-
-/// Motor rated frequency.
-///
-/// `A003` at holding 101Ah (4122), `u16`, raw `30..min(400, maximum_frequency.raw)`, read and write.
-#[doc(alias = "A003")]
-#[derive(Clone, Copy, Debug)]
-pub struct MotorRatedFrequency;
-
-impl runtime::Point for MotorRatedFrequency {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "motor_rated_frequency";
-    const CODE: Option<&'static str> = Some("A003");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x101A;
-    const UNIT: &'static str = "Hz";
-    const RAW_MIN: u16 = 30;
-    const RAW_MAX: u16 = 400;
-}
-
-impl runtime::Whole for MotorRatedFrequency {}
-
-impl runtime::Readable for MotorRatedFrequency {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for MotorRatedFrequency {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for MotorRatedFrequency {
-    type With = with::MotorRatedFrequency;
-
-    #[inline]
-    fn check_with(raw: u16, with: Self::With) -> Result<(), runtime::Error> {
-        let rule = runtime::Rule::new(1, 1);
-        let factor = with.maximum_frequency;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.limited_by(factor)?;
-        let high_1 = rule.limit()?.min(400);
-        let number = runtime::Raw::to_i64(raw);
-        let holds = (30..=high_1).contains(&number);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for MotorRatedFrequency {
-    #[inline]
-    fn encode_with(value: Self::Value, with: Self::With) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, with)
-    }
-}
-
-impl runtime::CountWritable for MotorRatedFrequency {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, with: Self::With) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, with)
-    }
-}
-
-impl MotorRatedFrequency {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4123;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_123;
-}
-
-/// Motor rated frequency set 2.
-///
-/// `A203` at holding 150Bh (5387), `u16`, raw `30..min(400, maximum_frequency_set_2.raw)`, read and write.
-///
-/// Errata: `set_2_limits`.
-#[doc(alias = "A203")]
-#[derive(Clone, Copy, Debug)]
-pub struct MotorRatedFrequencySet2;
-
-impl runtime::Point for MotorRatedFrequencySet2 {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "motor_rated_frequency_set_2";
-    const CODE: Option<&'static str> = Some("A203");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x150B;
-    const UNIT: &'static str = "Hz";
-    const RAW_MIN: u16 = 30;
-    const RAW_MAX: u16 = 400;
-}
-
-impl runtime::Whole for MotorRatedFrequencySet2 {}
-
-impl runtime::Readable for MotorRatedFrequencySet2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for MotorRatedFrequencySet2 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for MotorRatedFrequencySet2 {
-    type With = with::MotorRatedFrequencySet2;
-
-    #[inline]
-    fn check_with(raw: u16, with: Self::With) -> Result<(), runtime::Error> {
-        let rule = runtime::Rule::new(1, 1);
-        let factor = with.maximum_frequency_set_2;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.limited_by(factor)?;
-        let high_1 = rule.limit()?.min(400);
-        let number = runtime::Raw::to_i64(raw);
-        let holds = (30..=high_1).contains(&number);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for MotorRatedFrequencySet2 {
-    #[inline]
-    fn encode_with(value: Self::Value, with: Self::With) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, with)
-    }
-}
-
-impl runtime::CountWritable for MotorRatedFrequencySet2 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, with: Self::With) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, with)
-    }
-}
-
-impl MotorRatedFrequencySet2 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 5388;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 405_388;
-}
-
-/// Maximum frequency.
-///
-/// `A004` at holding 101Bh (4123), `u16`, raw `max(30, motor_rated_frequency.raw)..400`, read and write.
-///
-/// Errata: `a004_range`.
-#[doc(alias = "A004")]
-#[derive(Clone, Copy, Debug)]
-pub struct MaximumFrequency;
-
-impl runtime::Point for MaximumFrequency {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "maximum_frequency";
-    const CODE: Option<&'static str> = Some("A004");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x101B;
-    const UNIT: &'static str = "Hz";
-    const RAW_MIN: u16 = 30;
-    const RAW_MAX: u16 = 400;
-}
-
-impl runtime::Whole for MaximumFrequency {}
-
-impl runtime::Readable for MaximumFrequency {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for MaximumFrequency {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for MaximumFrequency {
-    type With = with::MaximumFrequency;
-
-    #[inline]
-    fn check_with(raw: u16, with: Self::With) -> Result<(), runtime::Error> {
-        let rule = runtime::Rule::new(1, 1);
-        let factor = with.motor_rated_frequency;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.limited_by(factor)?;
-        let low_1 = rule.limit()?.max(30);
-        let number = runtime::Raw::to_i64(raw);
-        let holds = (low_1..=400).contains(&number);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for MaximumFrequency {
-    #[inline]
-    fn encode_with(value: Self::Value, with: Self::With) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, with)
-    }
-}
-
-impl runtime::CountWritable for MaximumFrequency {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, with: Self::With) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, with)
-    }
-}
-
-impl MaximumFrequency {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4124;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_124;
-}
-
-/// Maximum frequency set 2.
-///
-/// `A204` at holding 150Ch (5388), `u16`, raw `max(30, motor_rated_frequency_set_2.raw)..400`, read and write.
-///
-/// Errata: `a204_range`, `set_2_limits`.
-#[doc(alias = "A204")]
-#[derive(Clone, Copy, Debug)]
-pub struct MaximumFrequencySet2;
-
-impl runtime::Point for MaximumFrequencySet2 {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "maximum_frequency_set_2";
-    const CODE: Option<&'static str> = Some("A204");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x150C;
-    const UNIT: &'static str = "Hz";
-    const RAW_MIN: u16 = 30;
-    const RAW_MAX: u16 = 400;
-}
-
-impl runtime::Whole for MaximumFrequencySet2 {}
-
-impl runtime::Readable for MaximumFrequencySet2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for MaximumFrequencySet2 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for MaximumFrequencySet2 {
-    type With = with::MaximumFrequencySet2;
-
-    #[inline]
-    fn check_with(raw: u16, with: Self::With) -> Result<(), runtime::Error> {
-        let rule = runtime::Rule::new(1, 1);
-        let factor = with.motor_rated_frequency_set_2;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.limited_by(factor)?;
-        let low_1 = rule.limit()?.max(30);
-        let number = runtime::Raw::to_i64(raw);
-        let holds = (low_1..=400).contains(&number);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for MaximumFrequencySet2 {
-    #[inline]
-    fn encode_with(value: Self::Value, with: Self::With) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, with)
-    }
-}
-
-impl runtime::CountWritable for MaximumFrequencySet2 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, with: Self::With) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, with)
-    }
-}
-
-impl MaximumFrequencySet2 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 5389;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 405_389;
-}
-
-/// At terminal selection.
-///
-/// `A005` at holding 101Ch (4124), `u16`, raw `0..3`, read and write.
-#[doc(alias = "A005")]
-#[derive(Clone, Copy, Debug)]
-pub struct AtTerminalSelection;
-
-impl runtime::Point for AtTerminalSelection {
-    type Raw = u16;
-    type Value = enums::AtTerminalSelection;
-    const NAME: &'static str = "at_terminal_selection";
-    const CODE: Option<&'static str> = Some("A005");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x101C;
-    const RAW_MAX: u16 = 3;
-}
-
-impl runtime::Whole for AtTerminalSelection {}
-
-impl runtime::Readable for AtTerminalSelection {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::AtTerminalSelection::from(raw)
-    }
-}
-
-impl runtime::CountReadable for AtTerminalSelection {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for AtTerminalSelection {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=3);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for AtTerminalSelection {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for AtTerminalSelection {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl AtTerminalSelection {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4125;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_125;
-}
-
-/// Input o minimum frequency.
-///
-/// `A011` at holding 101Fh (4127), `u16`, raw `0..4000`, steps of `0.1 Hz`, read and write.
-#[doc(alias = "A011")]
-#[derive(Clone, Copy, Debug)]
-pub struct InputOMinimumFrequency;
-
-impl runtime::Point for InputOMinimumFrequency {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "input_o_minimum_frequency";
-    const CODE: Option<&'static str> = Some("A011");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x101F;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "Hz";
-    const RAW_MAX: u16 = 4000;
-}
-
-impl runtime::Whole for InputOMinimumFrequency {}
-
-impl runtime::Readable for InputOMinimumFrequency {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for InputOMinimumFrequency {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for InputOMinimumFrequency {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=4000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for InputOMinimumFrequency {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for InputOMinimumFrequency {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 4000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl InputOMinimumFrequency {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4128;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_128;
-}
-
-/// Input o maximum frequency.
-///
-/// `A012` at holding 1021h (4129), `u16`, raw `0..4000`, steps of `0.1 Hz`, read and write.
-#[doc(alias = "A012")]
-#[derive(Clone, Copy, Debug)]
-pub struct InputOMaximumFrequency;
-
-impl runtime::Point for InputOMaximumFrequency {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "input_o_maximum_frequency";
-    const CODE: Option<&'static str> = Some("A012");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1021;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "Hz";
-    const RAW_MAX: u16 = 4000;
-}
-
-impl runtime::Whole for InputOMaximumFrequency {}
-
-impl runtime::Readable for InputOMaximumFrequency {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for InputOMaximumFrequency {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for InputOMaximumFrequency {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=4000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for InputOMaximumFrequency {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for InputOMaximumFrequency {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 4000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl InputOMaximumFrequency {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4130;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_130;
-}
-
-/// Input o minimum setpoint.
-///
-/// `A013` at holding 1022h (4130), `u16`, raw `0..100`, read and write.
-#[doc(alias = "A013")]
-#[derive(Clone, Copy, Debug)]
-pub struct InputOMinimumSetpoint;
-
-impl runtime::Point for InputOMinimumSetpoint {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "input_o_minimum_setpoint";
-    const CODE: Option<&'static str> = Some("A013");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1022;
-    const UNIT: &'static str = "%";
-    const RAW_MAX: u16 = 100;
-}
-
-impl runtime::Whole for InputOMinimumSetpoint {}
-
-impl runtime::Readable for InputOMinimumSetpoint {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for InputOMinimumSetpoint {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for InputOMinimumSetpoint {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=100);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for InputOMinimumSetpoint {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for InputOMinimumSetpoint {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl InputOMinimumSetpoint {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4131;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_131;
-}
-
-/// Input o maximum setpoint.
-///
-/// `A014` at holding 1023h (4131), `u16`, raw `0..100`, read and write.
-#[doc(alias = "A014")]
-#[derive(Clone, Copy, Debug)]
-pub struct InputOMaximumSetpoint;
-
-impl runtime::Point for InputOMaximumSetpoint {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "input_o_maximum_setpoint";
-    const CODE: Option<&'static str> = Some("A014");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1023;
-    const UNIT: &'static str = "%";
-    const RAW_MAX: u16 = 100;
-}
-
-impl runtime::Whole for InputOMaximumSetpoint {}
-
-impl runtime::Readable for InputOMaximumSetpoint {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for InputOMaximumSetpoint {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for InputOMaximumSetpoint {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=100);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for InputOMaximumSetpoint {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for InputOMaximumSetpoint {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl InputOMaximumSetpoint {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4132;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_132;
-}
-
-/// Input o start condition.
-///
-/// `A015` at holding 1024h (4132), `u16`, raw `0, 1`, read and write.
-#[doc(alias = "A015")]
-#[derive(Clone, Copy, Debug)]
-pub struct InputOStartCondition;
-
-impl runtime::Point for InputOStartCondition {
-    type Raw = u16;
-    type Value = enums::InputOStartCondition;
-    const NAME: &'static str = "input_o_start_condition";
-    const CODE: Option<&'static str> = Some("A015");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1024;
-    const RAW_MAX: u16 = 1;
-}
-
-impl runtime::Whole for InputOStartCondition {}
-
-impl runtime::Readable for InputOStartCondition {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::InputOStartCondition::from(raw)
-    }
-}
-
-impl runtime::CountReadable for InputOStartCondition {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for InputOStartCondition {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for InputOStartCondition {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for InputOStartCondition {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl InputOStartCondition {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4133;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_133;
-}
-
-/// Analog input filter.
-///
-/// `A016` at holding 1025h (4133), `u16`, raw `1..17`, read and write.
-///
-/// Errata: `a016_unit`.
-#[doc(alias = "A016")]
-#[derive(Clone, Copy, Debug)]
-pub struct AnalogInputFilter;
-
-impl runtime::Point for AnalogInputFilter {
-    type Raw = u16;
-    type Value = enums::AnalogInputFilter;
-    const NAME: &'static str = "analog_input_filter";
-    const CODE: Option<&'static str> = Some("A016");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1025;
-    const RAW_MIN: u16 = 1;
-    const RAW_MAX: u16 = 17;
-}
-
-impl runtime::Whole for AnalogInputFilter {}
-
-impl runtime::Readable for AnalogInputFilter {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::AnalogInputFilter::from(raw)
-    }
-}
-
-impl runtime::CountReadable for AnalogInputFilter {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for AnalogInputFilter {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=17);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for AnalogInputFilter {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for AnalogInputFilter {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl AnalogInputFilter {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4134;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_134;
-}
-
-/// Base frequency.
-///
-/// `A020` at holding 1028h (4136), `u16`, raw `0..4000`, steps of `0.1 Hz`, read and write.
-///
-/// Errata: `a020_start_value`, `a020_title_in_example`.
-#[doc(alias = "A020")]
-#[derive(Clone, Copy, Debug)]
-pub struct BaseFrequency;
-
-impl runtime::Point for BaseFrequency {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "base_frequency";
-    const CODE: Option<&'static str> = Some("A020");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1028;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "Hz";
-    const RAW_MAX: u16 = 4000;
-}
-
-impl runtime::Whole for BaseFrequency {}
-
-impl runtime::Readable for BaseFrequency {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for BaseFrequency {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for BaseFrequency {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=4000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for BaseFrequency {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for BaseFrequency {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 4000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl BaseFrequency {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4137;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_137;
-}
-
-/// Base frequency set 2.
-///
-/// `A220` at holding 150Eh (5390), `u16`, raw `0..4000`, steps of `0.1 Hz`, read and write.
-#[doc(alias = "A220")]
-#[derive(Clone, Copy, Debug)]
-pub struct BaseFrequencySet2;
-
-impl runtime::Point for BaseFrequencySet2 {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "base_frequency_set_2";
-    const CODE: Option<&'static str> = Some("A220");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x150E;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "Hz";
-    const RAW_MAX: u16 = 4000;
-}
-
-impl runtime::Whole for BaseFrequencySet2 {}
-
-impl runtime::Readable for BaseFrequencySet2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for BaseFrequencySet2 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for BaseFrequencySet2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=4000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for BaseFrequencySet2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for BaseFrequencySet2 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 4000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl BaseFrequencySet2 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 5391;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 405_391;
-}
-
-/// Fixed frequency 1.
-///
-/// `A021` at holding 102Ah (4138), `u16`, raw `0..4000`, steps of `0.1 Hz`, read and write.
-///
-/// Errata: `a021_title`.
-#[doc(alias = "A021")]
-#[derive(Clone, Copy, Debug)]
-pub struct FixedFrequency1;
-
-impl runtime::Point for FixedFrequency1 {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "fixed_frequency_1";
-    const CODE: Option<&'static str> = Some("A021");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x102A;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "Hz";
-    const RAW_MAX: u16 = 4000;
-}
-
-impl runtime::Whole for FixedFrequency1 {}
-
-impl runtime::Readable for FixedFrequency1 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for FixedFrequency1 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for FixedFrequency1 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=4000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for FixedFrequency1 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for FixedFrequency1 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 4000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl FixedFrequency1 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4139;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_139;
-}
-
-/// Fixed frequency 2.
-///
-/// `A022` at holding 102Ch (4140), `u16`, raw `0..4000`, steps of `0.1 Hz`, read and write.
-#[doc(alias = "A022")]
-#[derive(Clone, Copy, Debug)]
-pub struct FixedFrequency2;
-
-impl runtime::Point for FixedFrequency2 {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "fixed_frequency_2";
-    const CODE: Option<&'static str> = Some("A022");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x102C;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "Hz";
-    const RAW_MAX: u16 = 4000;
-}
-
-impl runtime::Whole for FixedFrequency2 {}
-
-impl runtime::Readable for FixedFrequency2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for FixedFrequency2 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for FixedFrequency2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=4000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for FixedFrequency2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for FixedFrequency2 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 4000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl FixedFrequency2 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4141;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_141;
-}
-
-/// Fixed frequency 3.
-///
-/// `A023` at holding 102Eh (4142), `u16`, raw `0..4000`, steps of `0.1 Hz`, read and write.
-#[doc(alias = "A023")]
-#[derive(Clone, Copy, Debug)]
-pub struct FixedFrequency3;
-
-impl runtime::Point for FixedFrequency3 {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "fixed_frequency_3";
-    const CODE: Option<&'static str> = Some("A023");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x102E;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "Hz";
-    const RAW_MAX: u16 = 4000;
-}
-
-impl runtime::Whole for FixedFrequency3 {}
-
-impl runtime::Readable for FixedFrequency3 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for FixedFrequency3 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for FixedFrequency3 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=4000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for FixedFrequency3 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for FixedFrequency3 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 4000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl FixedFrequency3 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4143;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_143;
-}
-
-/// Fixed frequency 4.
-///
-/// `A024` at holding 1030h (4144), `u16`, raw `0..4000`, steps of `0.1 Hz`, read and write.
-#[doc(alias = "A024")]
-#[derive(Clone, Copy, Debug)]
-pub struct FixedFrequency4;
-
-impl runtime::Point for FixedFrequency4 {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "fixed_frequency_4";
-    const CODE: Option<&'static str> = Some("A024");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1030;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "Hz";
-    const RAW_MAX: u16 = 4000;
-}
-
-impl runtime::Whole for FixedFrequency4 {}
-
-impl runtime::Readable for FixedFrequency4 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for FixedFrequency4 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for FixedFrequency4 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=4000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for FixedFrequency4 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for FixedFrequency4 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 4000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl FixedFrequency4 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4145;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_145;
-}
-
-/// Fixed frequency 5.
-///
-/// `A025` at holding 1032h (4146), `u16`, raw `0..4000`, steps of `0.1 Hz`, read and write.
-///
-/// Errata: `a025_terminals`.
-#[doc(alias = "A025")]
-#[derive(Clone, Copy, Debug)]
-pub struct FixedFrequency5;
-
-impl runtime::Point for FixedFrequency5 {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "fixed_frequency_5";
-    const CODE: Option<&'static str> = Some("A025");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1032;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "Hz";
-    const RAW_MAX: u16 = 4000;
-}
-
-impl runtime::Whole for FixedFrequency5 {}
-
-impl runtime::Readable for FixedFrequency5 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for FixedFrequency5 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for FixedFrequency5 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=4000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for FixedFrequency5 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for FixedFrequency5 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 4000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl FixedFrequency5 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4147;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_147;
-}
-
-/// Fixed frequency 6.
-///
-/// `A026` at holding 1034h (4148), `u16`, raw `0..4000`, steps of `0.1 Hz`, read and write.
-#[doc(alias = "A026")]
-#[derive(Clone, Copy, Debug)]
-pub struct FixedFrequency6;
-
-impl runtime::Point for FixedFrequency6 {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "fixed_frequency_6";
-    const CODE: Option<&'static str> = Some("A026");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1034;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "Hz";
-    const RAW_MAX: u16 = 4000;
-}
-
-impl runtime::Whole for FixedFrequency6 {}
-
-impl runtime::Readable for FixedFrequency6 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for FixedFrequency6 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for FixedFrequency6 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=4000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for FixedFrequency6 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for FixedFrequency6 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 4000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl FixedFrequency6 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4149;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_149;
-}
-
-/// Fixed frequency 7.
-///
-/// `A027` at holding 1036h (4150), `u16`, raw `0..4000`, steps of `0.1 Hz`, read and write.
-#[doc(alias = "A027")]
-#[derive(Clone, Copy, Debug)]
-pub struct FixedFrequency7;
-
-impl runtime::Point for FixedFrequency7 {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "fixed_frequency_7";
-    const CODE: Option<&'static str> = Some("A027");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1036;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "Hz";
-    const RAW_MAX: u16 = 4000;
-}
-
-impl runtime::Whole for FixedFrequency7 {}
-
-impl runtime::Readable for FixedFrequency7 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for FixedFrequency7 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for FixedFrequency7 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=4000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for FixedFrequency7 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for FixedFrequency7 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 4000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl FixedFrequency7 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4151;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_151;
-}
-
-/// Fixed frequency 8.
-///
-/// `A028` at holding 1038h (4152), `u16`, raw `0..4000`, steps of `0.1 Hz`, read and write.
-#[doc(alias = "A028")]
-#[derive(Clone, Copy, Debug)]
-pub struct FixedFrequency8;
-
-impl runtime::Point for FixedFrequency8 {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "fixed_frequency_8";
-    const CODE: Option<&'static str> = Some("A028");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1038;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "Hz";
-    const RAW_MAX: u16 = 4000;
-}
-
-impl runtime::Whole for FixedFrequency8 {}
-
-impl runtime::Readable for FixedFrequency8 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for FixedFrequency8 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for FixedFrequency8 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=4000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for FixedFrequency8 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for FixedFrequency8 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 4000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl FixedFrequency8 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4153;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_153;
-}
-
-/// Fixed frequency 9.
-///
-/// `A029` at holding 103Ah (4154), `u16`, raw `0..4000`, steps of `0.1 Hz`, read and write.
-#[doc(alias = "A029")]
-#[derive(Clone, Copy, Debug)]
-pub struct FixedFrequency9;
-
-impl runtime::Point for FixedFrequency9 {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "fixed_frequency_9";
-    const CODE: Option<&'static str> = Some("A029");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x103A;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "Hz";
-    const RAW_MAX: u16 = 4000;
-}
-
-impl runtime::Whole for FixedFrequency9 {}
-
-impl runtime::Readable for FixedFrequency9 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for FixedFrequency9 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for FixedFrequency9 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=4000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for FixedFrequency9 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for FixedFrequency9 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 4000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl FixedFrequency9 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4155;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_155;
-}
-
-/// Fixed frequency 10.
-///
-/// `A030` at holding 103Ch (4156), `u16`, raw `0..4000`, steps of `0.1 Hz`, read and write.
-#[doc(alias = "A030")]
-#[derive(Clone, Copy, Debug)]
-pub struct FixedFrequency10;
-
-impl runtime::Point for FixedFrequency10 {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "fixed_frequency_10";
-    const CODE: Option<&'static str> = Some("A030");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x103C;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "Hz";
-    const RAW_MAX: u16 = 4000;
-}
-
-impl runtime::Whole for FixedFrequency10 {}
-
-impl runtime::Readable for FixedFrequency10 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for FixedFrequency10 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for FixedFrequency10 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=4000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for FixedFrequency10 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for FixedFrequency10 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 4000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl FixedFrequency10 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4157;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_157;
-}
-
-/// Fixed frequency 11.
-///
-/// `A031` at holding 103Eh (4158), `u16`, raw `0..4000`, steps of `0.1 Hz`, read and write.
-///
-/// Errata: `a031_terminals`, `a031_hex_broken`.
-#[doc(alias = "A031")]
-#[derive(Clone, Copy, Debug)]
-pub struct FixedFrequency11;
-
-impl runtime::Point for FixedFrequency11 {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "fixed_frequency_11";
-    const CODE: Option<&'static str> = Some("A031");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x103E;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "Hz";
-    const RAW_MAX: u16 = 4000;
-}
-
-impl runtime::Whole for FixedFrequency11 {}
-
-impl runtime::Readable for FixedFrequency11 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for FixedFrequency11 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for FixedFrequency11 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=4000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for FixedFrequency11 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for FixedFrequency11 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 4000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl FixedFrequency11 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4159;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_159;
-}
-
-/// Fixed frequency 12.
-///
-/// `A032` at holding 1040h (4160), `u16`, raw `0..4000`, steps of `0.1 Hz`, read and write.
-#[doc(alias = "A032")]
-#[derive(Clone, Copy, Debug)]
-pub struct FixedFrequency12;
-
-impl runtime::Point for FixedFrequency12 {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "fixed_frequency_12";
-    const CODE: Option<&'static str> = Some("A032");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1040;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "Hz";
-    const RAW_MAX: u16 = 4000;
-}
-
-impl runtime::Whole for FixedFrequency12 {}
-
-impl runtime::Readable for FixedFrequency12 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for FixedFrequency12 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for FixedFrequency12 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=4000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for FixedFrequency12 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for FixedFrequency12 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 4000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl FixedFrequency12 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4161;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_161;
-}
-
-/// Fixed frequency 13.
-///
-/// `A033` at holding 1042h (4162), `u16`, raw `0..4000`, steps of `0.1 Hz`, read and write.
-#[doc(alias = "A033")]
-#[derive(Clone, Copy, Debug)]
-pub struct FixedFrequency13;
-
-impl runtime::Point for FixedFrequency13 {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "fixed_frequency_13";
-    const CODE: Option<&'static str> = Some("A033");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1042;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "Hz";
-    const RAW_MAX: u16 = 4000;
-}
-
-impl runtime::Whole for FixedFrequency13 {}
-
-impl runtime::Readable for FixedFrequency13 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for FixedFrequency13 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for FixedFrequency13 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=4000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for FixedFrequency13 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for FixedFrequency13 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 4000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl FixedFrequency13 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4163;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_163;
-}
-
-/// Fixed frequency 14.
-///
-/// `A034` at holding 1044h (4164), `u16`, raw `0..4000`, steps of `0.1 Hz`, read and write.
-#[doc(alias = "A034")]
-#[derive(Clone, Copy, Debug)]
-pub struct FixedFrequency14;
-
-impl runtime::Point for FixedFrequency14 {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "fixed_frequency_14";
-    const CODE: Option<&'static str> = Some("A034");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1044;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "Hz";
-    const RAW_MAX: u16 = 4000;
-}
-
-impl runtime::Whole for FixedFrequency14 {}
-
-impl runtime::Readable for FixedFrequency14 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for FixedFrequency14 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for FixedFrequency14 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=4000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for FixedFrequency14 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for FixedFrequency14 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 4000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl FixedFrequency14 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4165;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_165;
-}
-
-/// Fixed frequency 15.
-///
-/// `A035` at holding 1046h (4166), `u16`, raw `0..4000`, steps of `0.1 Hz`, read and write.
-#[doc(alias = "A035")]
-#[derive(Clone, Copy, Debug)]
-pub struct FixedFrequency15;
-
-impl runtime::Point for FixedFrequency15 {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "fixed_frequency_15";
-    const CODE: Option<&'static str> = Some("A035");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1046;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "Hz";
-    const RAW_MAX: u16 = 4000;
-}
-
-impl runtime::Whole for FixedFrequency15 {}
-
-impl runtime::Readable for FixedFrequency15 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for FixedFrequency15 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for FixedFrequency15 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=4000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for FixedFrequency15 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for FixedFrequency15 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 4000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl FixedFrequency15 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4167;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_167;
-}
-
-/// Jog frequency.
-///
-/// `A038` at holding 1047h (4167), `u16`, raw `0..999`, steps of `0.01 Hz`, read and write.
-#[doc(alias = "A038")]
-#[derive(Clone, Copy, Debug)]
-pub struct JogFrequency;
-
-impl runtime::Point for JogFrequency {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "jog_frequency";
-    const CODE: Option<&'static str> = Some("A038");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1047;
-    const DECIMALS: u32 = 2;
-    const UNIT: &'static str = "Hz";
-    const RAW_MAX: u16 = 999;
-}
-
-impl runtime::Whole for JogFrequency {}
-
-impl runtime::Readable for JogFrequency {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 100.0
-    }
-}
-
-impl runtime::CountReadable for JogFrequency {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for JogFrequency {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=999);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for JogFrequency {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 100.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for JogFrequency {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 999)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl JogFrequency {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4168;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_168;
-}
-
-/// Jog stop mode.
-///
-/// `A039` at holding 1048h (4168), `u16`, raw `0..2`, read and write.
-#[doc(alias = "A039")]
-#[derive(Clone, Copy, Debug)]
-pub struct JogStopMode;
-
-impl runtime::Point for JogStopMode {
-    type Raw = u16;
-    type Value = enums::JogStopMode;
-    const NAME: &'static str = "jog_stop_mode";
-    const CODE: Option<&'static str> = Some("A039");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1048;
-    const RAW_MAX: u16 = 2;
-}
-
-impl runtime::Whole for JogStopMode {}
-
-impl runtime::Readable for JogStopMode {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::JogStopMode::from(raw)
-    }
-}
-
-impl runtime::CountReadable for JogStopMode {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for JogStopMode {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=2);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for JogStopMode {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for JogStopMode {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl JogStopMode {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4169;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_169;
-}
-
-/// Boost mode.
-///
-/// `A041` at holding 1049h (4169), `u16`, raw `0, 1`, read and write.
-#[doc(alias = "A041")]
-#[derive(Clone, Copy, Debug)]
-pub struct BoostMode;
-
-impl runtime::Point for BoostMode {
-    type Raw = u16;
-    type Value = enums::BoostMode;
-    const NAME: &'static str = "boost_mode";
-    const CODE: Option<&'static str> = Some("A041");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1049;
-    const RAW_MAX: u16 = 1;
-}
-
-impl runtime::Whole for BoostMode {}
-
-impl runtime::Readable for BoostMode {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::BoostMode::from(raw)
-    }
-}
-
-impl runtime::CountReadable for BoostMode {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for BoostMode {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for BoostMode {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for BoostMode {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl BoostMode {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4170;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_170;
-}
-
-/// Boost mode set 2.
-///
-/// `A241` at holding 150Fh (5391), `u16`, raw `0, 1`, read and write.
-///
-/// Errata: `a241_hex_mark`.
-#[doc(alias = "A241")]
-#[derive(Clone, Copy, Debug)]
-pub struct BoostModeSet2;
-
-impl runtime::Point for BoostModeSet2 {
-    type Raw = u16;
-    type Value = enums::BoostMode;
-    const NAME: &'static str = "boost_mode_set_2";
-    const CODE: Option<&'static str> = Some("A241");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x150F;
-    const RAW_MAX: u16 = 1;
-}
-
-impl runtime::Whole for BoostModeSet2 {}
-
-impl runtime::Readable for BoostModeSet2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::BoostMode::from(raw)
-    }
-}
-
-impl runtime::CountReadable for BoostModeSet2 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for BoostModeSet2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for BoostModeSet2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for BoostModeSet2 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl BoostModeSet2 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 5392;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 405_392;
-}
-
-/// Manual boost.
-///
-/// `A042` at holding 104Ah (4170), `u16`, raw `0..200`, steps of `0.1 %`, read and write.
-#[doc(alias = "A042")]
-#[derive(Clone, Copy, Debug)]
-pub struct ManualBoost;
-
-impl runtime::Point for ManualBoost {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "manual_boost";
-    const CODE: Option<&'static str> = Some("A042");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x104A;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "%";
-    const RAW_MAX: u16 = 200;
-}
-
-impl runtime::Whole for ManualBoost {}
-
-impl runtime::Readable for ManualBoost {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for ManualBoost {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for ManualBoost {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=200);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for ManualBoost {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for ManualBoost {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 200)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl ManualBoost {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4171;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_171;
-}
-
-/// Manual boost set 2.
-///
-/// `A242` at holding 1510h (5392), `u16`, raw `0..200`, steps of `0.1 %`, read and write.
-#[doc(alias = "A242")]
-#[derive(Clone, Copy, Debug)]
-pub struct ManualBoostSet2;
-
-impl runtime::Point for ManualBoostSet2 {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "manual_boost_set_2";
-    const CODE: Option<&'static str> = Some("A242");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1510;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "%";
-    const RAW_MAX: u16 = 200;
-}
-
-impl runtime::Whole for ManualBoostSet2 {}
-
-impl runtime::Readable for ManualBoostSet2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for ManualBoostSet2 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for ManualBoostSet2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=200);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for ManualBoostSet2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for ManualBoostSet2 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 200)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl ManualBoostSet2 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 5393;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 405_393;
-}
-
-/// Manual boost frequency.
-///
-/// `A043` at holding 104Bh (4171), `u16`, raw `0..500`, steps of `0.1 %`, read and write.
-#[doc(alias = "A043")]
-#[derive(Clone, Copy, Debug)]
-pub struct ManualBoostFrequency;
-
-impl runtime::Point for ManualBoostFrequency {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "manual_boost_frequency";
-    const CODE: Option<&'static str> = Some("A043");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x104B;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "%";
-    const RAW_MAX: u16 = 500;
-}
-
-impl runtime::Whole for ManualBoostFrequency {}
-
-impl runtime::Readable for ManualBoostFrequency {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for ManualBoostFrequency {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for ManualBoostFrequency {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=500);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for ManualBoostFrequency {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for ManualBoostFrequency {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 500)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl ManualBoostFrequency {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4172;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_172;
-}
-
-/// Manual boost frequency set 2.
-///
-/// `A243` at holding 1511h (5393), `u16`, raw `0..500`, steps of `0.1 %`, read and write.
-#[doc(alias = "A243")]
-#[derive(Clone, Copy, Debug)]
-pub struct ManualBoostFrequencySet2;
-
-impl runtime::Point for ManualBoostFrequencySet2 {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "manual_boost_frequency_set_2";
-    const CODE: Option<&'static str> = Some("A243");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1511;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "%";
-    const RAW_MAX: u16 = 500;
-}
-
-impl runtime::Whole for ManualBoostFrequencySet2 {}
-
-impl runtime::Readable for ManualBoostFrequencySet2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for ManualBoostFrequencySet2 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for ManualBoostFrequencySet2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=500);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for ManualBoostFrequencySet2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for ManualBoostFrequencySet2 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 500)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl ManualBoostFrequencySet2 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 5394;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 405_394;
-}
-
-/// Vf characteristic.
-///
-/// `A044` at holding 104Ch (4172), `u16`, raw `0, 1`, read and write.
-#[doc(alias = "A044")]
-#[derive(Clone, Copy, Debug)]
-pub struct VfCharacteristic;
-
-impl runtime::Point for VfCharacteristic {
-    type Raw = u16;
-    type Value = enums::VfCharacteristic;
-    const NAME: &'static str = "vf_characteristic";
-    const CODE: Option<&'static str> = Some("A044");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x104C;
-    const RAW_MAX: u16 = 1;
-}
-
-impl runtime::Whole for VfCharacteristic {}
-
-impl runtime::Readable for VfCharacteristic {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::VfCharacteristic::from(raw)
-    }
-}
-
-impl runtime::CountReadable for VfCharacteristic {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for VfCharacteristic {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for VfCharacteristic {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for VfCharacteristic {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl VfCharacteristic {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4173;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_173;
-}
-
-/// Vf characteristic set 2.
-///
-/// `A244` at holding 1512h (5394), `u16`, raw `0, 1`, read and write.
-#[doc(alias = "A244")]
-#[derive(Clone, Copy, Debug)]
-pub struct VfCharacteristicSet2;
-
-impl runtime::Point for VfCharacteristicSet2 {
-    type Raw = u16;
-    type Value = enums::VfCharacteristic;
-    const NAME: &'static str = "vf_characteristic_set_2";
-    const CODE: Option<&'static str> = Some("A244");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1512;
-    const RAW_MAX: u16 = 1;
-}
-
-impl runtime::Whole for VfCharacteristicSet2 {}
-
-impl runtime::Readable for VfCharacteristicSet2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::VfCharacteristic::from(raw)
-    }
-}
-
-impl runtime::CountReadable for VfCharacteristicSet2 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for VfCharacteristicSet2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for VfCharacteristicSet2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for VfCharacteristicSet2 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl VfCharacteristicSet2 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 5395;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 405_395;
-}
-
-/// Output voltage setting.
-///
-/// `A045` at holding 104Dh (4173), `u16`, raw `20..100`, read and write.
-#[doc(alias = "A045")]
-#[derive(Clone, Copy, Debug)]
-pub struct OutputVoltageSetting;
-
-impl runtime::Point for OutputVoltageSetting {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "output_voltage_setting";
-    const CODE: Option<&'static str> = Some("A045");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x104D;
-    const UNIT: &'static str = "%";
-    const RAW_MIN: u16 = 20;
-    const RAW_MAX: u16 = 100;
-}
-
-impl runtime::Whole for OutputVoltageSetting {}
-
-impl runtime::Readable for OutputVoltageSetting {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for OutputVoltageSetting {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for OutputVoltageSetting {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 20..=100);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for OutputVoltageSetting {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for OutputVoltageSetting {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl OutputVoltageSetting {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4174;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_174;
-}
-
-/// Output voltage setting set 2.
-///
-/// `A245` at holding 1513h (5395), `u16`, raw `20..100`, read and write.
-#[doc(alias = "A245")]
-#[derive(Clone, Copy, Debug)]
-pub struct OutputVoltageSettingSet2;
-
-impl runtime::Point for OutputVoltageSettingSet2 {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "output_voltage_setting_set_2";
-    const CODE: Option<&'static str> = Some("A245");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1513;
-    const UNIT: &'static str = "%";
-    const RAW_MIN: u16 = 20;
-    const RAW_MAX: u16 = 100;
-}
-
-impl runtime::Whole for OutputVoltageSettingSet2 {}
-
-impl runtime::Readable for OutputVoltageSettingSet2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for OutputVoltageSettingSet2 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for OutputVoltageSettingSet2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 20..=100);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for OutputVoltageSettingSet2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for OutputVoltageSettingSet2 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl OutputVoltageSettingSet2 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 5396;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 405_396;
-}
-
-/// Dc brake enable.
-///
-/// `A051` at holding 1050h (4176), `u16`, raw `0, 1`, read and write.
-#[doc(alias = "A051")]
-#[derive(Clone, Copy, Debug)]
-pub struct DcBrakeEnable;
-
-impl runtime::Point for DcBrakeEnable {
-    type Raw = u16;
-    type Value = enums::InactiveActive;
-    const NAME: &'static str = "dc_brake_enable";
-    const CODE: Option<&'static str> = Some("A051");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1050;
-    const RAW_MAX: u16 = 1;
-}
-
-impl runtime::Whole for DcBrakeEnable {}
-
-impl runtime::Readable for DcBrakeEnable {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::InactiveActive::from(raw)
-    }
-}
-
-impl runtime::CountReadable for DcBrakeEnable {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for DcBrakeEnable {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for DcBrakeEnable {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for DcBrakeEnable {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl DcBrakeEnable {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4177;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_177;
-}
-
-/// Dc brake frequency.
-///
-/// `A052` at holding 1051h (4177), `u16`, raw `max(5, start_frequency.raw)..600`, steps of `0.1 Hz`, read and write.
-///
-/// Errata: `limit_factor_ten`.
-#[doc(alias = "A052")]
-#[derive(Clone, Copy, Debug)]
-pub struct DcBrakeFrequency;
-
-impl runtime::Point for DcBrakeFrequency {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "dc_brake_frequency";
-    const CODE: Option<&'static str> = Some("A052");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1051;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "Hz";
-    const RAW_MIN: u16 = 5;
-    const RAW_MAX: u16 = 600;
-}
-
-impl runtime::Whole for DcBrakeFrequency {}
-
-impl runtime::Readable for DcBrakeFrequency {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for DcBrakeFrequency {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for DcBrakeFrequency {
-    type With = with::DcBrakeFrequency;
-
-    #[inline]
-    fn check_with(raw: u16, with: Self::With) -> Result<(), runtime::Error> {
-        let rule = runtime::Rule::new(1, 1);
-        let factor = with.start_frequency;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.limited_by(factor)?;
-        let low_1 = rule.limit()?.max(5);
-        let number = runtime::Raw::to_i64(raw);
-        let holds = (low_1..=600).contains(&number);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for DcBrakeFrequency {
-    #[inline]
-    fn encode_with(value: Self::Value, with: Self::With) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, with)
-    }
-}
-
-impl runtime::CountWritable for DcBrakeFrequency {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, with: Self::With) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 5, 600)?;
-        let raw = count;
-        arithmetic::store::<Self>(raw, with)
-    }
-}
-
-impl DcBrakeFrequency {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4178;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_178;
-}
-
-/// Dc brake delay.
-///
-/// `A053` at holding 1052h (4178), `u16`, raw `0..50`, steps of `0.1 s`, read and write.
-///
-/// Errata: `a053_resolution`.
-#[doc(alias = "A053")]
-#[derive(Clone, Copy, Debug)]
-pub struct DcBrakeDelay;
-
-impl runtime::Point for DcBrakeDelay {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "dc_brake_delay";
-    const CODE: Option<&'static str> = Some("A053");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1052;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "s";
-    const RAW_MAX: u16 = 50;
-}
-
-impl runtime::Whole for DcBrakeDelay {}
-
-impl runtime::Readable for DcBrakeDelay {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for DcBrakeDelay {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for DcBrakeDelay {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=50);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for DcBrakeDelay {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for DcBrakeDelay {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 50)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl DcBrakeDelay {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4179;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_179;
-}
-
-/// Dc brake torque.
-///
-/// `A054` at holding 1053h (4179), `u16`, raw `0..100`, read and write.
-#[doc(alias = "A054")]
-#[derive(Clone, Copy, Debug)]
-pub struct DcBrakeTorque;
-
-impl runtime::Point for DcBrakeTorque {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "dc_brake_torque";
-    const CODE: Option<&'static str> = Some("A054");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1053;
-    const UNIT: &'static str = "%";
-    const RAW_MAX: u16 = 100;
-}
-
-impl runtime::Whole for DcBrakeTorque {}
-
-impl runtime::Readable for DcBrakeTorque {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for DcBrakeTorque {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for DcBrakeTorque {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=100);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for DcBrakeTorque {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for DcBrakeTorque {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl DcBrakeTorque {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4180;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_180;
-}
-
-/// Dc brake time.
-///
-/// `A055` at holding 1054h (4180), `u16`, raw `0..600`, steps of `0.1 s`, read and write.
-#[doc(alias = "A055")]
-#[derive(Clone, Copy, Debug)]
-pub struct DcBrakeTime;
-
-impl runtime::Point for DcBrakeTime {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "dc_brake_time";
-    const CODE: Option<&'static str> = Some("A055");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1054;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "s";
-    const RAW_MAX: u16 = 600;
-}
-
-impl runtime::Whole for DcBrakeTime {}
-
-impl runtime::Readable for DcBrakeTime {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for DcBrakeTime {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for DcBrakeTime {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=600);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for DcBrakeTime {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for DcBrakeTime {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 600)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl DcBrakeTime {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4181;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_181;
-}
-
-/// Dc brake trigger.
-///
-/// `A056` at holding 1055h (4181), `u16`, raw `0, 1`, read and write.
-#[doc(alias = "A056")]
-#[derive(Clone, Copy, Debug)]
-pub struct DcBrakeTrigger;
-
-impl runtime::Point for DcBrakeTrigger {
-    type Raw = u16;
-    type Value = enums::DcBrakeTrigger;
-    const NAME: &'static str = "dc_brake_trigger";
-    const CODE: Option<&'static str> = Some("A056");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1055;
-    const RAW_MAX: u16 = 1;
-}
-
-impl runtime::Whole for DcBrakeTrigger {}
-
-impl runtime::Readable for DcBrakeTrigger {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::DcBrakeTrigger::from(raw)
-    }
-}
-
-impl runtime::CountReadable for DcBrakeTrigger {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for DcBrakeTrigger {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for DcBrakeTrigger {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for DcBrakeTrigger {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl DcBrakeTrigger {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4182;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_182;
-}
-
-/// Upper frequency limit.
-///
-/// `A061` at holding 1059h (4185), `u16`, raw `lower_frequency_limit.raw..min(4000, maximum_frequency.raw x 10); while lower_frequency_limit.raw is 0: from 0`, steps of `0.1 Hz`, read and write.
-///
-/// Special code: `0` `inactive` (may be written).
-///
-/// Errata: `limit_factor_ten`, `a061_above_one`.
-#[doc(alias = "A061")]
-#[derive(Clone, Copy, Debug)]
-pub struct UpperFrequencyLimit;
-
-impl runtime::Point for UpperFrequencyLimit {
-    type Raw = u16;
-    type Value = runtime::Reading<f64, u16>;
-    const NAME: &'static str = "upper_frequency_limit";
-    const CODE: Option<&'static str> = Some("A061");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1059;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "Hz";
-    const RAW_MAX: u16 = 4000;
-}
-
-impl runtime::Whole for UpperFrequencyLimit {}
-
-impl runtime::Coded for UpperFrequencyLimit {
-    const CODES: &'static [runtime::Code<u16>] = &[runtime::Code::one(Self::INACTIVE)];
-}
-
-impl runtime::Readable for UpperFrequencyLimit {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        if let Some(special) = <Self as runtime::Coded>::special(raw) {
-            return runtime::Reading::Special(special);
-        }
-        let value = f64::from(raw) / 10.0;
-        runtime::Reading::Value(value)
-    }
-}
-
-impl runtime::CountReadable for UpperFrequencyLimit {
-    type Count = runtime::Reading<i32, u16>;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        if let Some(special) = <Self as runtime::Coded>::special(raw) {
-            return runtime::Reading::Special(special);
-        }
-        let count = i32::from(raw);
-        runtime::Reading::Value(count)
-    }
-}
-
-impl runtime::Writable for UpperFrequencyLimit {
-    type With = with::UpperFrequencyLimit;
-
-    #[inline]
-    fn check_with(raw: u16, with: Self::With) -> Result<(), runtime::Error> {
-        if let Some(special) = <Self as runtime::Coded>::special(raw) {
-            return special.checked();
-        }
-        let held = with.lower_frequency_limit;
-        let held = runtime::Raw::to_i64(held);
-        let skipped = matches!(held, 0);
-        let low_1 = if skipped {
-            0
-        } else {
-            let rule = runtime::Rule::new(1, 1);
-            let factor = with.lower_frequency_limit;
-            let factor = runtime::Raw::to_i64(factor);
-            let rule = rule.limited_by(factor)?;
-            rule.limit()?.max(0)
-        };
-        let rule = runtime::Rule::new(10, 1);
-        let factor = with.maximum_frequency;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.limited_by(factor)?;
-        let high_1 = rule.limit()?.min(4000);
-        let number = runtime::Raw::to_i64(raw);
-        let holds = (low_1..=high_1).contains(&number);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for UpperFrequencyLimit {
-    #[inline]
-    fn encode_with(value: Self::Value, with: Self::With) -> Result<u16, runtime::Error> {
-        let value = match value {
-            runtime::Reading::Value(value) => value,
-            runtime::Reading::Special(special) => return runtime::written::<Self>(special),
-        };
-        let scaled = value * 10.0;
-        let raw = arithmetic::nearest::<Self>(scaled, with)?;
-        runtime::quantity::<Self>(raw)
-    }
-}
-
-impl runtime::CountWritable for UpperFrequencyLimit {
-    type Count = runtime::Reading<i32, u16>;
-
-    #[inline]
-    fn encode_count_with(count: Self::Count, with: Self::With) -> Result<u16, runtime::Error> {
-        let count = match count {
-            runtime::Reading::Value(count) => count,
-            runtime::Reading::Special(special) => return runtime::written::<Self>(special),
-        };
-        let count = arithmetic::within(count, 0, 4000)?;
-        let raw = count;
-        let raw = arithmetic::store::<Self>(raw, with)?;
-        runtime::quantity::<Self>(raw)
-    }
-}
-
-impl UpperFrequencyLimit {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4186;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_186;
-    /// Inactive.
-    pub const INACTIVE: runtime::Special<u16> = runtime::Special::writable("inactive", 0);
-}
-
-/// Upper frequency limit set 2.
-///
-/// `A261` at holding 1516h (5398), `u16`, raw `lower_frequency_limit_set_2.raw..min(4000, maximum_frequency_set_2.raw x 10); while lower_frequency_limit_set_2.raw is 0: from 0`, steps of `0.1 Hz`, read and write.
-///
-/// Special code: `0` `inactive` (may be written).
-///
-/// Errata: `set_2_limits`, `limit_factor_ten`, `a061_above_one`.
-#[doc(alias = "A261")]
-#[derive(Clone, Copy, Debug)]
-pub struct UpperFrequencyLimitSet2;
-
-impl runtime::Point for UpperFrequencyLimitSet2 {
-    type Raw = u16;
-    type Value = runtime::Reading<f64, u16>;
-    const NAME: &'static str = "upper_frequency_limit_set_2";
-    const CODE: Option<&'static str> = Some("A261");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1516;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "Hz";
-    const RAW_MAX: u16 = 4000;
-}
-
-impl runtime::Whole for UpperFrequencyLimitSet2 {}
-
-impl runtime::Coded for UpperFrequencyLimitSet2 {
-    const CODES: &'static [runtime::Code<u16>] = &[runtime::Code::one(Self::INACTIVE)];
-}
-
-impl runtime::Readable for UpperFrequencyLimitSet2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        if let Some(special) = <Self as runtime::Coded>::special(raw) {
-            return runtime::Reading::Special(special);
-        }
-        let value = f64::from(raw) / 10.0;
-        runtime::Reading::Value(value)
-    }
-}
-
-impl runtime::CountReadable for UpperFrequencyLimitSet2 {
-    type Count = runtime::Reading<i32, u16>;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        if let Some(special) = <Self as runtime::Coded>::special(raw) {
-            return runtime::Reading::Special(special);
-        }
-        let count = i32::from(raw);
-        runtime::Reading::Value(count)
-    }
-}
-
-impl runtime::Writable for UpperFrequencyLimitSet2 {
-    type With = with::UpperFrequencyLimitSet2;
-
-    #[inline]
-    fn check_with(raw: u16, with: Self::With) -> Result<(), runtime::Error> {
-        if let Some(special) = <Self as runtime::Coded>::special(raw) {
-            return special.checked();
-        }
-        let held = with.lower_frequency_limit_set_2;
-        let held = runtime::Raw::to_i64(held);
-        let skipped = matches!(held, 0);
-        let low_1 = if skipped {
-            0
-        } else {
-            let rule = runtime::Rule::new(1, 1);
-            let factor = with.lower_frequency_limit_set_2;
-            let factor = runtime::Raw::to_i64(factor);
-            let rule = rule.limited_by(factor)?;
-            rule.limit()?.max(0)
-        };
-        let rule = runtime::Rule::new(10, 1);
-        let factor = with.maximum_frequency_set_2;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.limited_by(factor)?;
-        let high_1 = rule.limit()?.min(4000);
-        let number = runtime::Raw::to_i64(raw);
-        let holds = (low_1..=high_1).contains(&number);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for UpperFrequencyLimitSet2 {
-    #[inline]
-    fn encode_with(value: Self::Value, with: Self::With) -> Result<u16, runtime::Error> {
-        let value = match value {
-            runtime::Reading::Value(value) => value,
-            runtime::Reading::Special(special) => return runtime::written::<Self>(special),
-        };
-        let scaled = value * 10.0;
-        let raw = arithmetic::nearest::<Self>(scaled, with)?;
-        runtime::quantity::<Self>(raw)
-    }
-}
-
-impl runtime::CountWritable for UpperFrequencyLimitSet2 {
-    type Count = runtime::Reading<i32, u16>;
-
-    #[inline]
-    fn encode_count_with(count: Self::Count, with: Self::With) -> Result<u16, runtime::Error> {
-        let count = match count {
-            runtime::Reading::Value(count) => count,
-            runtime::Reading::Special(special) => return runtime::written::<Self>(special),
-        };
-        let count = arithmetic::within(count, 0, 4000)?;
-        let raw = count;
-        let raw = arithmetic::store::<Self>(raw, with)?;
-        runtime::quantity::<Self>(raw)
-    }
-}
-
-impl UpperFrequencyLimitSet2 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 5399;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 405_399;
-    /// Inactive.
-    pub const INACTIVE: runtime::Special<u16> = runtime::Special::writable("inactive", 0);
-}
-
-/// Lower frequency limit.
-///
-/// `A062` at holding 105Ah (4186), `u16`, raw `max(5, start_frequency.raw)..min(4000, upper_frequency_limit.raw); while upper_frequency_limit.raw is 0: to 4000`, steps of `0.1 Hz`, read and write.
-///
-/// Special code: `0` `inactive` (may be written).
-///
-/// Errata: `limit_factor_ten`, `a061_above_one`, `a062_limit_when_a061_inactive`.
-#[doc(alias = "A062")]
-#[derive(Clone, Copy, Debug)]
-pub struct LowerFrequencyLimit;
-
-impl runtime::Point for LowerFrequencyLimit {
-    type Raw = u16;
-    type Value = runtime::Reading<f64, u16>;
-    const NAME: &'static str = "lower_frequency_limit";
-    const CODE: Option<&'static str> = Some("A062");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x105A;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "Hz";
-    const RAW_MIN: u16 = 5;
-    const RAW_MAX: u16 = 4000;
-}
-
-impl runtime::Whole for LowerFrequencyLimit {}
-
-impl runtime::Coded for LowerFrequencyLimit {
-    const CODES: &'static [runtime::Code<u16>] = &[runtime::Code::one(Self::INACTIVE)];
-}
-
-impl runtime::Readable for LowerFrequencyLimit {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        if let Some(special) = <Self as runtime::Coded>::special(raw) {
-            return runtime::Reading::Special(special);
-        }
-        let value = f64::from(raw) / 10.0;
-        runtime::Reading::Value(value)
-    }
-}
-
-impl runtime::CountReadable for LowerFrequencyLimit {
-    type Count = runtime::Reading<i32, u16>;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        if let Some(special) = <Self as runtime::Coded>::special(raw) {
-            return runtime::Reading::Special(special);
-        }
-        let count = i32::from(raw);
-        runtime::Reading::Value(count)
-    }
-}
-
-impl runtime::Writable for LowerFrequencyLimit {
-    type With = with::LowerFrequencyLimit;
-
-    #[inline]
-    fn check_with(raw: u16, with: Self::With) -> Result<(), runtime::Error> {
-        if let Some(special) = <Self as runtime::Coded>::special(raw) {
-            return special.checked();
-        }
-        let rule = runtime::Rule::new(1, 1);
-        let factor = with.start_frequency;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.limited_by(factor)?;
-        let low_1 = rule.limit()?.max(5);
-        let held = with.upper_frequency_limit;
-        let held = runtime::Raw::to_i64(held);
-        let skipped = matches!(held, 0);
-        let high_1 = if skipped {
-            4000
-        } else {
-            let rule = runtime::Rule::new(1, 1);
-            let factor = with.upper_frequency_limit;
-            let factor = runtime::Raw::to_i64(factor);
-            let rule = rule.limited_by(factor)?;
-            rule.limit()?.min(4000)
-        };
-        let number = runtime::Raw::to_i64(raw);
-        let holds = (low_1..=high_1).contains(&number);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for LowerFrequencyLimit {
-    #[inline]
-    fn encode_with(value: Self::Value, with: Self::With) -> Result<u16, runtime::Error> {
-        let value = match value {
-            runtime::Reading::Value(value) => value,
-            runtime::Reading::Special(special) => return runtime::written::<Self>(special),
-        };
-        let scaled = value * 10.0;
-        let raw = arithmetic::nearest::<Self>(scaled, with)?;
-        runtime::quantity::<Self>(raw)
-    }
-}
-
-impl runtime::CountWritable for LowerFrequencyLimit {
-    type Count = runtime::Reading<i32, u16>;
-
-    #[inline]
-    fn encode_count_with(count: Self::Count, with: Self::With) -> Result<u16, runtime::Error> {
-        let count = match count {
-            runtime::Reading::Value(count) => count,
-            runtime::Reading::Special(special) => return runtime::written::<Self>(special),
-        };
-        let count = arithmetic::within(count, 0, 4000)?;
-        let raw = count;
-        let raw = arithmetic::store::<Self>(raw, with)?;
-        runtime::quantity::<Self>(raw)
-    }
-}
-
-impl LowerFrequencyLimit {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4187;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_187;
-    /// Inactive.
-    pub const INACTIVE: runtime::Special<u16> = runtime::Special::writable("inactive", 0);
-}
-
-/// Lower frequency limit set 2.
-///
-/// `A262` at holding 1517h (5399), `u16`, raw `max(5, start_frequency.raw)..min(4000, upper_frequency_limit_set_2.raw); while upper_frequency_limit_set_2.raw is 0: to 4000`, steps of `0.1 Hz`, read and write.
-///
-/// Special code: `0` `inactive` (may be written).
-///
-/// Errata: `set_2_limits`, `limit_factor_ten`, `a061_above_one`, `a062_limit_when_a061_inactive`.
-#[doc(alias = "A262")]
-#[derive(Clone, Copy, Debug)]
-pub struct LowerFrequencyLimitSet2;
-
-impl runtime::Point for LowerFrequencyLimitSet2 {
-    type Raw = u16;
-    type Value = runtime::Reading<f64, u16>;
-    const NAME: &'static str = "lower_frequency_limit_set_2";
-    const CODE: Option<&'static str> = Some("A262");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1517;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "Hz";
-    const RAW_MIN: u16 = 5;
-    const RAW_MAX: u16 = 4000;
-}
-
-impl runtime::Whole for LowerFrequencyLimitSet2 {}
-
-impl runtime::Coded for LowerFrequencyLimitSet2 {
-    const CODES: &'static [runtime::Code<u16>] = &[runtime::Code::one(Self::INACTIVE)];
-}
-
-impl runtime::Readable for LowerFrequencyLimitSet2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        if let Some(special) = <Self as runtime::Coded>::special(raw) {
-            return runtime::Reading::Special(special);
-        }
-        let value = f64::from(raw) / 10.0;
-        runtime::Reading::Value(value)
-    }
-}
-
-impl runtime::CountReadable for LowerFrequencyLimitSet2 {
-    type Count = runtime::Reading<i32, u16>;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        if let Some(special) = <Self as runtime::Coded>::special(raw) {
-            return runtime::Reading::Special(special);
-        }
-        let count = i32::from(raw);
-        runtime::Reading::Value(count)
-    }
-}
-
-impl runtime::Writable for LowerFrequencyLimitSet2 {
-    type With = with::LowerFrequencyLimitSet2;
-
-    #[inline]
-    fn check_with(raw: u16, with: Self::With) -> Result<(), runtime::Error> {
-        if let Some(special) = <Self as runtime::Coded>::special(raw) {
-            return special.checked();
-        }
-        let rule = runtime::Rule::new(1, 1);
-        let factor = with.start_frequency;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.limited_by(factor)?;
-        let low_1 = rule.limit()?.max(5);
-        let held = with.upper_frequency_limit_set_2;
-        let held = runtime::Raw::to_i64(held);
-        let skipped = matches!(held, 0);
-        let high_1 = if skipped {
-            4000
-        } else {
-            let rule = runtime::Rule::new(1, 1);
-            let factor = with.upper_frequency_limit_set_2;
-            let factor = runtime::Raw::to_i64(factor);
-            let rule = rule.limited_by(factor)?;
-            rule.limit()?.min(4000)
-        };
-        let number = runtime::Raw::to_i64(raw);
-        let holds = (low_1..=high_1).contains(&number);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for LowerFrequencyLimitSet2 {
-    #[inline]
-    fn encode_with(value: Self::Value, with: Self::With) -> Result<u16, runtime::Error> {
-        let value = match value {
-            runtime::Reading::Value(value) => value,
-            runtime::Reading::Special(special) => return runtime::written::<Self>(special),
-        };
-        let scaled = value * 10.0;
-        let raw = arithmetic::nearest::<Self>(scaled, with)?;
-        runtime::quantity::<Self>(raw)
-    }
-}
-
-impl runtime::CountWritable for LowerFrequencyLimitSet2 {
-    type Count = runtime::Reading<i32, u16>;
-
-    #[inline]
-    fn encode_count_with(count: Self::Count, with: Self::With) -> Result<u16, runtime::Error> {
-        let count = match count {
-            runtime::Reading::Value(count) => count,
-            runtime::Reading::Special(special) => return runtime::written::<Self>(special),
-        };
-        let count = arithmetic::within(count, 0, 4000)?;
-        let raw = count;
-        let raw = arithmetic::store::<Self>(raw, with)?;
-        runtime::quantity::<Self>(raw)
-    }
-}
-
-impl LowerFrequencyLimitSet2 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 5400;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 405_400;
-    /// Inactive.
-    pub const INACTIVE: runtime::Special<u16> = runtime::Special::writable("inactive", 0);
-}
-
-/// Jump frequency 1.
-///
-/// `A063` at holding 105Ch (4188), `u16`, raw `0..4000`, steps of `0.1 Hz`, read and write.
-#[doc(alias = "A063")]
-#[derive(Clone, Copy, Debug)]
-pub struct JumpFrequency1;
-
-impl runtime::Point for JumpFrequency1 {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "jump_frequency_1";
-    const CODE: Option<&'static str> = Some("A063");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x105C;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "Hz";
-    const RAW_MAX: u16 = 4000;
-}
-
-impl runtime::Whole for JumpFrequency1 {}
-
-impl runtime::Readable for JumpFrequency1 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for JumpFrequency1 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for JumpFrequency1 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=4000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for JumpFrequency1 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for JumpFrequency1 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 4000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl JumpFrequency1 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4189;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_189;
-}
-
-/// Jump frequency 1 width.
-///
-/// `A064` at holding 105Dh (4189), `u16`, raw `0..100`, steps of `0.1 Hz`, read and write.
-#[doc(alias = "A064")]
-#[derive(Clone, Copy, Debug)]
-pub struct JumpFrequency1Width;
-
-impl runtime::Point for JumpFrequency1Width {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "jump_frequency_1_width";
-    const CODE: Option<&'static str> = Some("A064");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x105D;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "Hz";
-    const RAW_MAX: u16 = 100;
-}
-
-impl runtime::Whole for JumpFrequency1Width {}
-
-impl runtime::Readable for JumpFrequency1Width {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for JumpFrequency1Width {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for JumpFrequency1Width {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=100);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for JumpFrequency1Width {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for JumpFrequency1Width {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 100)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl JumpFrequency1Width {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4190;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_190;
-}
-
-/// Jump frequency 2.
-///
-/// `A065` at holding 105Fh (4191), `u16`, raw `0..4000`, steps of `0.1 Hz`, read and write.
-#[doc(alias = "A065")]
-#[derive(Clone, Copy, Debug)]
-pub struct JumpFrequency2;
-
-impl runtime::Point for JumpFrequency2 {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "jump_frequency_2";
-    const CODE: Option<&'static str> = Some("A065");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x105F;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "Hz";
-    const RAW_MAX: u16 = 4000;
-}
-
-impl runtime::Whole for JumpFrequency2 {}
-
-impl runtime::Readable for JumpFrequency2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for JumpFrequency2 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for JumpFrequency2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=4000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for JumpFrequency2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for JumpFrequency2 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 4000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl JumpFrequency2 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4192;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_192;
-}
-
-/// Jump frequency 2 width.
-///
-/// `A066` at holding 1060h (4192), `u16`, raw `0..100`, steps of `0.1 Hz`, read and write.
-#[doc(alias = "A066")]
-#[derive(Clone, Copy, Debug)]
-pub struct JumpFrequency2Width;
-
-impl runtime::Point for JumpFrequency2Width {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "jump_frequency_2_width";
-    const CODE: Option<&'static str> = Some("A066");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1060;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "Hz";
-    const RAW_MAX: u16 = 100;
-}
-
-impl runtime::Whole for JumpFrequency2Width {}
-
-impl runtime::Readable for JumpFrequency2Width {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for JumpFrequency2Width {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for JumpFrequency2Width {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=100);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for JumpFrequency2Width {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for JumpFrequency2Width {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 100)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl JumpFrequency2Width {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4193;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_193;
-}
-
-/// Jump frequency 3.
-///
-/// `A067` at holding 1062h (4194), `u16`, raw `0..4000`, steps of `0.1 Hz`, read and write.
-#[doc(alias = "A067")]
-#[derive(Clone, Copy, Debug)]
-pub struct JumpFrequency3;
-
-impl runtime::Point for JumpFrequency3 {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "jump_frequency_3";
-    const CODE: Option<&'static str> = Some("A067");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1062;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "Hz";
-    const RAW_MAX: u16 = 4000;
-}
-
-impl runtime::Whole for JumpFrequency3 {}
-
-impl runtime::Readable for JumpFrequency3 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for JumpFrequency3 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for JumpFrequency3 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=4000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for JumpFrequency3 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for JumpFrequency3 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 4000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl JumpFrequency3 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4195;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_195;
-}
-
-/// Jump frequency 3 width.
-///
-/// `A068` at holding 1063h (4195), `u16`, raw `0..100`, steps of `0.1 Hz`, read and write.
-#[doc(alias = "A068")]
-#[derive(Clone, Copy, Debug)]
-pub struct JumpFrequency3Width;
-
-impl runtime::Point for JumpFrequency3Width {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "jump_frequency_3_width";
-    const CODE: Option<&'static str> = Some("A068");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1063;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "Hz";
-    const RAW_MAX: u16 = 100;
-}
-
-impl runtime::Whole for JumpFrequency3Width {}
-
-impl runtime::Readable for JumpFrequency3Width {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for JumpFrequency3Width {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for JumpFrequency3Width {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=100);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for JumpFrequency3Width {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for JumpFrequency3Width {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 100)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl JumpFrequency3Width {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4196;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_196;
-}
-
-/// Pid enable.
-///
-/// `A071` at holding 1067h (4199), `u16`, raw `0, 1`, read and write.
-#[doc(alias = "A071")]
-#[derive(Clone, Copy, Debug)]
-pub struct PidEnable;
-
-impl runtime::Point for PidEnable {
-    type Raw = u16;
-    type Value = enums::InactiveActive;
-    const NAME: &'static str = "pid_enable";
-    const CODE: Option<&'static str> = Some("A071");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1067;
-    const RAW_MAX: u16 = 1;
-}
-
-impl runtime::Whole for PidEnable {}
-
-impl runtime::Readable for PidEnable {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::InactiveActive::from(raw)
-    }
-}
-
-impl runtime::CountReadable for PidEnable {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for PidEnable {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for PidEnable {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for PidEnable {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl PidEnable {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4200;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_200;
-}
-
-/// Pid proportional gain.
-///
-/// `A072` at holding 1068h (4200), `u16`, raw `2..50`, steps of `0.1`, read and write.
-#[doc(alias = "A072")]
-#[derive(Clone, Copy, Debug)]
-pub struct PidProportionalGain;
-
-impl runtime::Point for PidProportionalGain {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "pid_proportional_gain";
-    const CODE: Option<&'static str> = Some("A072");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1068;
-    const DECIMALS: u32 = 1;
-    const RAW_MIN: u16 = 2;
-    const RAW_MAX: u16 = 50;
-}
-
-impl runtime::Whole for PidProportionalGain {}
-
-impl runtime::Readable for PidProportionalGain {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for PidProportionalGain {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for PidProportionalGain {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 2..=50);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for PidProportionalGain {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for PidProportionalGain {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 2, 50)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl PidProportionalGain {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4201;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_201;
-}
-
-/// Pid integral time.
-///
-/// `A073` at holding 1069h (4201), `u16`, raw `0..1500`, steps of `0.1 s`, read and write.
-#[doc(alias = "A073")]
-#[derive(Clone, Copy, Debug)]
-pub struct PidIntegralTime;
-
-impl runtime::Point for PidIntegralTime {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "pid_integral_time";
-    const CODE: Option<&'static str> = Some("A073");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1069;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "s";
-    const RAW_MAX: u16 = 1500;
-}
-
-impl runtime::Whole for PidIntegralTime {}
-
-impl runtime::Readable for PidIntegralTime {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for PidIntegralTime {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for PidIntegralTime {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1500);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for PidIntegralTime {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for PidIntegralTime {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 1500)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl PidIntegralTime {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4202;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_202;
-}
-
-/// Pid derivative time.
-///
-/// `A074` at holding 106Ah (4202), `u16`, raw `0..1000`, steps of `0.1 s`, read and write.
-#[doc(alias = "A074")]
-#[derive(Clone, Copy, Debug)]
-pub struct PidDerivativeTime;
-
-impl runtime::Point for PidDerivativeTime {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "pid_derivative_time";
-    const CODE: Option<&'static str> = Some("A074");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x106A;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "s";
-    const RAW_MAX: u16 = 1000;
-}
-
-impl runtime::Whole for PidDerivativeTime {}
-
-impl runtime::Readable for PidDerivativeTime {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for PidDerivativeTime {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for PidDerivativeTime {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for PidDerivativeTime {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for PidDerivativeTime {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 1000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl PidDerivativeTime {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4203;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_203;
-}
-
-/// Pid display factor.
-///
-/// `A075` at holding 106Bh (4203), `u16`, raw `1..9999`, steps of `0.01`, read and write.
-#[doc(alias = "A075")]
-#[derive(Clone, Copy, Debug)]
-pub struct PidDisplayFactor;
-
-impl runtime::Point for PidDisplayFactor {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "pid_display_factor";
-    const CODE: Option<&'static str> = Some("A075");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x106B;
-    const DECIMALS: u32 = 2;
-    const RAW_MIN: u16 = 1;
-    const RAW_MAX: u16 = 9999;
-}
-
-impl runtime::Whole for PidDisplayFactor {}
-
-impl runtime::Readable for PidDisplayFactor {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 100.0
-    }
-}
-
-impl runtime::CountReadable for PidDisplayFactor {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for PidDisplayFactor {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=9999);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for PidDisplayFactor {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 100.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for PidDisplayFactor {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 1, 9999)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl PidDisplayFactor {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4204;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_204;
-}
-
-/// Pid process value source.
-///
-/// `A076` at holding 106Ch (4204), `u16`, raw `0..3, 10`, read and write.
-///
-/// Errata: `a076_range`, `a076_code_10_label`.
-#[doc(alias = "A076")]
-#[derive(Clone, Copy, Debug)]
-pub struct PidProcessValueSource;
-
-impl runtime::Point for PidProcessValueSource {
-    type Raw = u16;
-    type Value = enums::PidProcessValueSource;
-    const NAME: &'static str = "pid_process_value_source";
-    const CODE: Option<&'static str> = Some("A076");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x106C;
-    const RAW_MAX: u16 = 10;
-}
-
-impl runtime::Whole for PidProcessValueSource {}
-
-impl runtime::Readable for PidProcessValueSource {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::PidProcessValueSource::from(raw)
-    }
-}
-
-impl runtime::CountReadable for PidProcessValueSource {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for PidProcessValueSource {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=3 | 10);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for PidProcessValueSource {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for PidProcessValueSource {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl PidProcessValueSource {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4205;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_205;
-}
-
-/// Pid inversion.
-///
-/// `A077` at holding 106Dh (4205), `u16`, raw `0, 1`, read and write.
-#[doc(alias = "A077")]
-#[derive(Clone, Copy, Debug)]
-pub struct PidInversion;
-
-impl runtime::Point for PidInversion {
-    type Raw = u16;
-    type Value = enums::PidInversion;
-    const NAME: &'static str = "pid_inversion";
-    const CODE: Option<&'static str> = Some("A077");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x106D;
-    const RAW_MAX: u16 = 1;
-}
-
-impl runtime::Whole for PidInversion {}
-
-impl runtime::Readable for PidInversion {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::PidInversion::from(raw)
-    }
-}
-
-impl runtime::CountReadable for PidInversion {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for PidInversion {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for PidInversion {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for PidInversion {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl PidInversion {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4206;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_206;
-}
-
-/// Pid output limit.
-///
-/// `A078` at holding 106Eh (4206), `u16`, raw `0..1000`, steps of `0.1 %`, read and write.
-#[doc(alias = "A078")]
-#[derive(Clone, Copy, Debug)]
-pub struct PidOutputLimit;
-
-impl runtime::Point for PidOutputLimit {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "pid_output_limit";
-    const CODE: Option<&'static str> = Some("A078");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x106E;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "%";
-    const RAW_MAX: u16 = 1000;
-}
-
-impl runtime::Whole for PidOutputLimit {}
-
-impl runtime::Readable for PidOutputLimit {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for PidOutputLimit {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for PidOutputLimit {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for PidOutputLimit {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for PidOutputLimit {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 1000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl PidOutputLimit {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4207;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_207;
-}
-
-/// Avr mode.
-///
-/// `A081` at holding 106Fh (4207), `u16`, raw `0..2`, read and write.
-#[doc(alias = "A081")]
-#[derive(Clone, Copy, Debug)]
-pub struct AvrMode;
-
-impl runtime::Point for AvrMode {
-    type Raw = u16;
-    type Value = enums::AvrMode;
-    const NAME: &'static str = "avr_mode";
-    const CODE: Option<&'static str> = Some("A081");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x106F;
-    const RAW_MAX: u16 = 2;
-}
-
-impl runtime::Whole for AvrMode {}
-
-impl runtime::Readable for AvrMode {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::AvrMode::from(raw)
-    }
-}
-
-impl runtime::CountReadable for AvrMode {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for AvrMode {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=2);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for AvrMode {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for AvrMode {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl AvrMode {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4208;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_208;
-}
-
-/// Motor voltage.
-///
-/// `A082` at holding 1070h (4208), `u16`, raw `0..5`, read and write.
-///
-/// Errata: `a082_codes`, `a082_range_200v`.
-#[doc(alias = "A082")]
-#[derive(Clone, Copy, Debug)]
-pub struct MotorVoltage;
-
-impl runtime::Point for MotorVoltage {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "motor_voltage";
-    const CODE: Option<&'static str> = Some("A082");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1070;
-    const RAW_MAX: u16 = 5;
-}
-
-impl runtime::Whole for MotorVoltage {}
-
-impl runtime::Readable for MotorVoltage {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for MotorVoltage {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for MotorVoltage {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=5);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for MotorVoltage {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for MotorVoltage {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl MotorVoltage {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4209;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_209;
-}
-
-/// Acceleration time 2.
-///
-/// `A092` at holding 1073h (4211), `u32`, raw `1..300000`, steps of `0.01 s, from 100 s on 0.1 s`, read and write.
-///
-/// Errata: `a092_resolution`, `a092_steps`.
-#[doc(alias = "A092")]
-#[derive(Clone, Copy, Debug)]
-pub struct AccelerationTime2;
-
-impl runtime::Point for AccelerationTime2 {
-    type Raw = u32;
-    type Value = f64;
-    const NAME: &'static str = "acceleration_time_2";
-    const CODE: Option<&'static str> = Some("A092");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1073;
-    const ADDRESSES: &'static [u16] = &[0x1073, 0x1074];
-    const WORDS: u16 = 2;
-    const DECIMALS: u32 = 2;
-    const UNIT: &'static str = "s";
-    const RAW_MIN: u32 = 1;
-    const RAW_MAX: u32 = 300_000;
-}
-
-impl runtime::Whole for AccelerationTime2 {}
-
-impl runtime::Readable for AccelerationTime2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u32, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 100.0
-    }
-}
-
-impl runtime::CountReadable for AccelerationTime2 {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u32, (): ()) -> Self::Output<Self::Count> {
-        i64::from(raw)
-    }
-}
-
-impl runtime::Writable for AccelerationTime2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u32, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=300_000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for AccelerationTime2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u32, runtime::Error> {
-        let scaled = value * 100.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for AccelerationTime2 {
-    type Count = i64;
-
-    #[inline]
-    fn encode_count_with(count: i64, (): ()) -> Result<u32, runtime::Error> {
-        let count = arithmetic::within(count, 1, 300_000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl AccelerationTime2 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4212;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_212;
-}
-
-/// Deceleration time 2.
-///
-/// `A093` at holding 1075h (4213), `u32`, raw `1..300000`, steps of `0.01 s, from 100 s on 0.1 s`, read and write.
-///
-/// Errata: `a093_resolution`, `a092_steps`.
-#[doc(alias = "A093")]
-#[derive(Clone, Copy, Debug)]
-pub struct DecelerationTime2;
-
-impl runtime::Point for DecelerationTime2 {
-    type Raw = u32;
-    type Value = f64;
-    const NAME: &'static str = "deceleration_time_2";
-    const CODE: Option<&'static str> = Some("A093");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1075;
-    const ADDRESSES: &'static [u16] = &[0x1075, 0x1076];
-    const WORDS: u16 = 2;
-    const DECIMALS: u32 = 2;
-    const UNIT: &'static str = "s";
-    const RAW_MIN: u32 = 1;
-    const RAW_MAX: u32 = 300_000;
-}
-
-impl runtime::Whole for DecelerationTime2 {}
-
-impl runtime::Readable for DecelerationTime2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u32, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 100.0
-    }
-}
-
-impl runtime::CountReadable for DecelerationTime2 {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u32, (): ()) -> Self::Output<Self::Count> {
-        i64::from(raw)
-    }
-}
-
-impl runtime::Writable for DecelerationTime2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u32, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=300_000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for DecelerationTime2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u32, runtime::Error> {
-        let scaled = value * 100.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for DecelerationTime2 {
-    type Count = i64;
-
-    #[inline]
-    fn encode_count_with(count: i64, (): ()) -> Result<u32, runtime::Error> {
-        let count = arithmetic::within(count, 1, 300_000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl DecelerationTime2 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4214;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_214;
-}
-
-/// Deceleration time 2 set 2.
-///
-/// `A293` at holding 1519h (5401), `u32`, raw `1..300000`, steps of `0.01 s, from 100 s on 0.1 s`, read and write.
-///
-/// Errata: `a293_resolution`, `a092_steps`.
-#[doc(alias = "A293")]
-#[derive(Clone, Copy, Debug)]
-pub struct DecelerationTime2Set2;
-
-impl runtime::Point for DecelerationTime2Set2 {
-    type Raw = u32;
-    type Value = f64;
-    const NAME: &'static str = "deceleration_time_2_set_2";
-    const CODE: Option<&'static str> = Some("A293");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1519;
-    const ADDRESSES: &'static [u16] = &[0x1519, 0x151A];
-    const WORDS: u16 = 2;
-    const DECIMALS: u32 = 2;
-    const UNIT: &'static str = "s";
-    const RAW_MIN: u32 = 1;
-    const RAW_MAX: u32 = 300_000;
-}
-
-impl runtime::Whole for DecelerationTime2Set2 {}
-
-impl runtime::Readable for DecelerationTime2Set2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u32, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 100.0
-    }
-}
-
-impl runtime::CountReadable for DecelerationTime2Set2 {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u32, (): ()) -> Self::Output<Self::Count> {
-        i64::from(raw)
-    }
-}
-
-impl runtime::Writable for DecelerationTime2Set2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u32, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=300_000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for DecelerationTime2Set2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u32, runtime::Error> {
-        let scaled = value * 100.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for DecelerationTime2Set2 {
-    type Count = i64;
-
-    #[inline]
-    fn encode_count_with(count: i64, (): ()) -> Result<u32, runtime::Error> {
-        let count = arithmetic::within(count, 1, 300_000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl DecelerationTime2Set2 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 5402;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 405_402;
-}
-
-/// Ramp 2 selection.
-///
-/// `A094` at holding 1077h (4215), `u16`, raw `0, 1`, read and write.
-///
-/// Errata: `a094_reference`.
-#[doc(alias = "A094")]
-#[derive(Clone, Copy, Debug)]
-pub struct Ramp2Selection;
-
-impl runtime::Point for Ramp2Selection {
-    type Raw = u16;
-    type Value = enums::Ramp2Selection;
-    const NAME: &'static str = "ramp_2_selection";
-    const CODE: Option<&'static str> = Some("A094");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1077;
-    const RAW_MAX: u16 = 1;
-}
-
-impl runtime::Whole for Ramp2Selection {}
-
-impl runtime::Readable for Ramp2Selection {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::Ramp2Selection::from(raw)
-    }
-}
-
-impl runtime::CountReadable for Ramp2Selection {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for Ramp2Selection {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for Ramp2Selection {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for Ramp2Selection {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl Ramp2Selection {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4216;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_216;
-}
-
-/// Ramp 2 selection set 2.
-///
-/// `A294` at holding 151Bh (5403), `u16`, raw `0, 1`, read and write.
-///
-/// Errata: `a094_reference`.
-#[doc(alias = "A294")]
-#[derive(Clone, Copy, Debug)]
-pub struct Ramp2SelectionSet2;
-
-impl runtime::Point for Ramp2SelectionSet2 {
-    type Raw = u16;
-    type Value = enums::Ramp2Selection;
-    const NAME: &'static str = "ramp_2_selection_set_2";
-    const CODE: Option<&'static str> = Some("A294");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x151B;
-    const RAW_MAX: u16 = 1;
-}
-
-impl runtime::Whole for Ramp2SelectionSet2 {}
-
-impl runtime::Readable for Ramp2SelectionSet2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::Ramp2Selection::from(raw)
-    }
-}
-
-impl runtime::CountReadable for Ramp2SelectionSet2 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for Ramp2SelectionSet2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for Ramp2SelectionSet2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for Ramp2SelectionSet2 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl Ramp2SelectionSet2 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 5404;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 405_404;
-}
-
-/// Acceleration change frequency.
-///
-/// `A095` at holding 1079h (4217), `u16`, raw `0..4000`, steps of `0.1 Hz`, read and write.
-#[doc(alias = "A095")]
-#[derive(Clone, Copy, Debug)]
-pub struct AccelerationChangeFrequency;
-
-impl runtime::Point for AccelerationChangeFrequency {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "acceleration_change_frequency";
-    const CODE: Option<&'static str> = Some("A095");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1079;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "Hz";
-    const RAW_MAX: u16 = 4000;
-}
-
-impl runtime::Whole for AccelerationChangeFrequency {}
-
-impl runtime::Readable for AccelerationChangeFrequency {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for AccelerationChangeFrequency {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for AccelerationChangeFrequency {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=4000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for AccelerationChangeFrequency {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for AccelerationChangeFrequency {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 4000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl AccelerationChangeFrequency {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4218;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_218;
-}
-
-/// Acceleration change frequency set 2.
-///
-/// `A295` at holding 151Dh (5405), `u16`, raw `0..4000`, steps of `0.1 Hz`, read and write.
-#[doc(alias = "A295")]
-#[derive(Clone, Copy, Debug)]
-pub struct AccelerationChangeFrequencySet2;
-
-impl runtime::Point for AccelerationChangeFrequencySet2 {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "acceleration_change_frequency_set_2";
-    const CODE: Option<&'static str> = Some("A295");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x151D;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "Hz";
-    const RAW_MAX: u16 = 4000;
-}
-
-impl runtime::Whole for AccelerationChangeFrequencySet2 {}
-
-impl runtime::Readable for AccelerationChangeFrequencySet2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for AccelerationChangeFrequencySet2 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for AccelerationChangeFrequencySet2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=4000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for AccelerationChangeFrequencySet2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for AccelerationChangeFrequencySet2 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 4000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl AccelerationChangeFrequencySet2 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 5406;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 405_406;
-}
-
-/// Deceleration change frequency.
-///
-/// `A096` at holding 107Bh (4219), `u16`, raw `0..4000`, steps of `0.1 Hz`, read and write.
-#[doc(alias = "A096")]
-#[derive(Clone, Copy, Debug)]
-pub struct DecelerationChangeFrequency;
-
-impl runtime::Point for DecelerationChangeFrequency {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "deceleration_change_frequency";
-    const CODE: Option<&'static str> = Some("A096");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x107B;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "Hz";
-    const RAW_MAX: u16 = 4000;
-}
-
-impl runtime::Whole for DecelerationChangeFrequency {}
-
-impl runtime::Readable for DecelerationChangeFrequency {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for DecelerationChangeFrequency {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for DecelerationChangeFrequency {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=4000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for DecelerationChangeFrequency {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for DecelerationChangeFrequency {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 4000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl DecelerationChangeFrequency {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4220;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_220;
-}
-
-/// Deceleration change frequency set 2.
-///
-/// `A296` at holding 151Fh (5407), `u16`, raw `0..4000`, steps of `0.1 Hz`, read and write.
-#[doc(alias = "A296")]
-#[derive(Clone, Copy, Debug)]
-pub struct DecelerationChangeFrequencySet2;
-
-impl runtime::Point for DecelerationChangeFrequencySet2 {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "deceleration_change_frequency_set_2";
-    const CODE: Option<&'static str> = Some("A296");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x151F;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "Hz";
-    const RAW_MAX: u16 = 4000;
-}
-
-impl runtime::Whole for DecelerationChangeFrequencySet2 {}
-
-impl runtime::Readable for DecelerationChangeFrequencySet2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for DecelerationChangeFrequencySet2 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for DecelerationChangeFrequencySet2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=4000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for DecelerationChangeFrequencySet2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for DecelerationChangeFrequencySet2 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 4000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl DecelerationChangeFrequencySet2 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 5408;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 405_408;
-}
-
-/// Acceleration curve.
-///
-/// `A097` at holding 107Ch (4220), `u16`, raw `0, 1`, read and write.
-#[doc(alias = "A097")]
-#[derive(Clone, Copy, Debug)]
-pub struct AccelerationCurve;
-
-impl runtime::Point for AccelerationCurve {
-    type Raw = u16;
-    type Value = enums::RampCurve;
-    const NAME: &'static str = "acceleration_curve";
-    const CODE: Option<&'static str> = Some("A097");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x107C;
-    const RAW_MAX: u16 = 1;
-}
-
-impl runtime::Whole for AccelerationCurve {}
-
-impl runtime::Readable for AccelerationCurve {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::RampCurve::from(raw)
-    }
-}
-
-impl runtime::CountReadable for AccelerationCurve {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for AccelerationCurve {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for AccelerationCurve {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for AccelerationCurve {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl AccelerationCurve {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4221;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_221;
-}
-
-/// Deceleration curve.
-///
-/// `A098` at holding 107Dh (4221), `u16`, raw `0, 1`, read and write.
-#[doc(alias = "A098")]
-#[derive(Clone, Copy, Debug)]
-pub struct DecelerationCurve;
-
-impl runtime::Point for DecelerationCurve {
-    type Raw = u16;
-    type Value = enums::RampCurve;
-    const NAME: &'static str = "deceleration_curve";
-    const CODE: Option<&'static str> = Some("A098");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x107D;
-    const RAW_MAX: u16 = 1;
-}
-
-impl runtime::Whole for DecelerationCurve {}
-
-impl runtime::Readable for DecelerationCurve {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::RampCurve::from(raw)
-    }
-}
-
-impl runtime::CountReadable for DecelerationCurve {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for DecelerationCurve {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for DecelerationCurve {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for DecelerationCurve {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl DecelerationCurve {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4222;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_222;
-}
-
-/// Input oi minimum frequency.
-///
-/// `A101` at holding 107Fh (4223), `u16`, raw `0..4000`, steps of `0.1 Hz`, read and write.
-///
-/// Errata: `a101_below_above`.
-#[doc(alias = "A101")]
-#[derive(Clone, Copy, Debug)]
-pub struct InputOiMinimumFrequency;
-
-impl runtime::Point for InputOiMinimumFrequency {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "input_oi_minimum_frequency";
-    const CODE: Option<&'static str> = Some("A101");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x107F;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "Hz";
-    const RAW_MAX: u16 = 4000;
-}
-
-impl runtime::Whole for InputOiMinimumFrequency {}
-
-impl runtime::Readable for InputOiMinimumFrequency {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for InputOiMinimumFrequency {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for InputOiMinimumFrequency {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=4000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for InputOiMinimumFrequency {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for InputOiMinimumFrequency {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 4000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl InputOiMinimumFrequency {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4224;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_224;
-}
-
-/// Input oi maximum frequency.
-///
-/// `A102` at holding 1081h (4225), `u16`, raw `0..4000`, steps of `0.1 Hz`, read and write.
-#[doc(alias = "A102")]
-#[derive(Clone, Copy, Debug)]
-pub struct InputOiMaximumFrequency;
-
-impl runtime::Point for InputOiMaximumFrequency {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "input_oi_maximum_frequency";
-    const CODE: Option<&'static str> = Some("A102");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1081;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "Hz";
-    const RAW_MAX: u16 = 4000;
-}
-
-impl runtime::Whole for InputOiMaximumFrequency {}
-
-impl runtime::Readable for InputOiMaximumFrequency {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for InputOiMaximumFrequency {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for InputOiMaximumFrequency {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=4000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for InputOiMaximumFrequency {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for InputOiMaximumFrequency {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 4000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl InputOiMaximumFrequency {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4226;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_226;
-}
-
-/// Input oi minimum setpoint.
-///
-/// `A103` at holding 1082h (4226), `u16`, raw `0..100`, read and write.
-///
-/// Errata: `a103_minimum`.
-#[doc(alias = "A103")]
-#[derive(Clone, Copy, Debug)]
-pub struct InputOiMinimumSetpoint;
-
-impl runtime::Point for InputOiMinimumSetpoint {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "input_oi_minimum_setpoint";
-    const CODE: Option<&'static str> = Some("A103");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1082;
-    const UNIT: &'static str = "%";
-    const RAW_MAX: u16 = 100;
-}
-
-impl runtime::Whole for InputOiMinimumSetpoint {}
-
-impl runtime::Readable for InputOiMinimumSetpoint {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for InputOiMinimumSetpoint {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for InputOiMinimumSetpoint {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=100);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for InputOiMinimumSetpoint {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for InputOiMinimumSetpoint {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl InputOiMinimumSetpoint {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4227;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_227;
-}
-
-/// Input oi maximum setpoint.
-///
-/// `A104` at holding 1083h (4227), `u16`, raw `0..100`, read and write.
-#[doc(alias = "A104")]
-#[derive(Clone, Copy, Debug)]
-pub struct InputOiMaximumSetpoint;
-
-impl runtime::Point for InputOiMaximumSetpoint {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "input_oi_maximum_setpoint";
-    const CODE: Option<&'static str> = Some("A104");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1083;
-    const UNIT: &'static str = "%";
-    const RAW_MAX: u16 = 100;
-}
-
-impl runtime::Whole for InputOiMaximumSetpoint {}
-
-impl runtime::Readable for InputOiMaximumSetpoint {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for InputOiMaximumSetpoint {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for InputOiMaximumSetpoint {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=100);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for InputOiMaximumSetpoint {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for InputOiMaximumSetpoint {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl InputOiMaximumSetpoint {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4228;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_228;
-}
-
-/// Input oi start condition.
-///
-/// `A105` at holding 1084h (4228), `u16`, raw `0, 1`, read and write.
-#[doc(alias = "A105")]
-#[derive(Clone, Copy, Debug)]
-pub struct InputOiStartCondition;
-
-impl runtime::Point for InputOiStartCondition {
-    type Raw = u16;
-    type Value = enums::InputOiStartCondition;
-    const NAME: &'static str = "input_oi_start_condition";
-    const CODE: Option<&'static str> = Some("A105");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1084;
-    const RAW_MAX: u16 = 1;
-}
-
-impl runtime::Whole for InputOiStartCondition {}
-
-impl runtime::Readable for InputOiStartCondition {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::InputOiStartCondition::from(raw)
-    }
-}
-
-impl runtime::CountReadable for InputOiStartCondition {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for InputOiStartCondition {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for InputOiStartCondition {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for InputOiStartCondition {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl InputOiStartCondition {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4229;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_229;
-}
-
-/// Calculation input a.
-///
-/// `A141` at holding 108Dh (4237), `u16`, raw `0..4`, read and write.
-///
-/// Errata: `a141_network_variable`.
-#[doc(alias = "A141")]
-#[derive(Clone, Copy, Debug)]
-pub struct CalculationInputA;
-
-impl runtime::Point for CalculationInputA {
-    type Raw = u16;
-    type Value = enums::CalculationInput;
-    const NAME: &'static str = "calculation_input_a";
-    const CODE: Option<&'static str> = Some("A141");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x108D;
-    const RAW_MAX: u16 = 4;
-}
-
-impl runtime::Whole for CalculationInputA {}
-
-impl runtime::Readable for CalculationInputA {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::CalculationInput::from(raw)
-    }
-}
-
-impl runtime::CountReadable for CalculationInputA {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for CalculationInputA {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=4);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for CalculationInputA {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for CalculationInputA {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl CalculationInputA {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4238;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_238;
-}
-
-/// Calculation input b.
-///
-/// `A142` at holding 108Eh (4238), `u16`, raw `0..4`, read and write.
-///
-/// Errata: `a141_network_variable`.
-#[doc(alias = "A142")]
-#[derive(Clone, Copy, Debug)]
-pub struct CalculationInputB;
-
-impl runtime::Point for CalculationInputB {
-    type Raw = u16;
-    type Value = enums::CalculationInput;
-    const NAME: &'static str = "calculation_input_b";
-    const CODE: Option<&'static str> = Some("A142");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x108E;
-    const RAW_MAX: u16 = 4;
-}
-
-impl runtime::Whole for CalculationInputB {}
-
-impl runtime::Readable for CalculationInputB {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::CalculationInput::from(raw)
-    }
-}
-
-impl runtime::CountReadable for CalculationInputB {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for CalculationInputB {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=4);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for CalculationInputB {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for CalculationInputB {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl CalculationInputB {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4239;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_239;
-}
-
-/// Calculation operator.
-///
-/// `A143` at holding 108Fh (4239), `u16`, raw `0..2`, read and write.
-///
-/// Errata: `a143_wire_hex`.
-#[doc(alias = "A143")]
-#[derive(Clone, Copy, Debug)]
-pub struct CalculationOperator;
-
-impl runtime::Point for CalculationOperator {
-    type Raw = u16;
-    type Value = enums::CalculationOperator;
-    const NAME: &'static str = "calculation_operator";
-    const CODE: Option<&'static str> = Some("A143");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x108F;
-    const RAW_MAX: u16 = 2;
-}
-
-impl runtime::Whole for CalculationOperator {}
-
-impl runtime::Readable for CalculationOperator {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::CalculationOperator::from(raw)
-    }
-}
-
-impl runtime::CountReadable for CalculationOperator {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for CalculationOperator {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=2);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for CalculationOperator {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for CalculationOperator {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl CalculationOperator {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4240;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_240;
-}
-
-/// Frequency offset.
-///
-/// `A145` at holding 1090h (4240), `u16`, raw `0..4000`, steps of `0.1 Hz`, read and write.
-#[doc(alias = "A145")]
-#[derive(Clone, Copy, Debug)]
-pub struct FrequencyOffset;
-
-impl runtime::Point for FrequencyOffset {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "frequency_offset";
-    const CODE: Option<&'static str> = Some("A145");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1090;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "Hz";
-    const RAW_MAX: u16 = 4000;
-}
-
-impl runtime::Whole for FrequencyOffset {}
-
-impl runtime::Readable for FrequencyOffset {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for FrequencyOffset {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for FrequencyOffset {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=4000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for FrequencyOffset {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for FrequencyOffset {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 4000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl FrequencyOffset {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4241;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_241;
-}
-
-/// Frequency offset sign.
-///
-/// `A146` at holding 1092h (4242), `u16`, raw `0, 1`, read and write.
-#[doc(alias = "A146")]
-#[derive(Clone, Copy, Debug)]
-pub struct FrequencyOffsetSign;
-
-impl runtime::Point for FrequencyOffsetSign {
-    type Raw = u16;
-    type Value = enums::FrequencyOffsetSign;
-    const NAME: &'static str = "frequency_offset_sign";
-    const CODE: Option<&'static str> = Some("A146");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1092;
-    const RAW_MAX: u16 = 1;
-}
-
-impl runtime::Whole for FrequencyOffsetSign {}
-
-impl runtime::Readable for FrequencyOffsetSign {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::FrequencyOffsetSign::from(raw)
-    }
-}
-
-impl runtime::CountReadable for FrequencyOffsetSign {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for FrequencyOffsetSign {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for FrequencyOffsetSign {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for FrequencyOffsetSign {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl FrequencyOffsetSign {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4243;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_243;
-}
-
-/// Potentiometer minimum frequency.
-///
-/// `A151` at holding 1094h (4244), `u16`, raw `0..4000`, steps of `0.1 Hz`, read and write.
-///
-/// Errata: `a101_below_above`.
-#[doc(alias = "A151")]
-#[derive(Clone, Copy, Debug)]
-pub struct PotentiometerMinimumFrequency;
-
-impl runtime::Point for PotentiometerMinimumFrequency {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "potentiometer_minimum_frequency";
-    const CODE: Option<&'static str> = Some("A151");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1094;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "Hz";
-    const RAW_MAX: u16 = 4000;
-}
-
-impl runtime::Whole for PotentiometerMinimumFrequency {}
-
-impl runtime::Readable for PotentiometerMinimumFrequency {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for PotentiometerMinimumFrequency {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for PotentiometerMinimumFrequency {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=4000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for PotentiometerMinimumFrequency {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for PotentiometerMinimumFrequency {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 4000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl PotentiometerMinimumFrequency {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4245;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_245;
-}
-
-/// Potentiometer maximum frequency.
-///
-/// `A152` at holding 1096h (4246), `u16`, raw `0..4000`, steps of `0.1 Hz`, read and write.
-#[doc(alias = "A152")]
-#[derive(Clone, Copy, Debug)]
-pub struct PotentiometerMaximumFrequency;
-
-impl runtime::Point for PotentiometerMaximumFrequency {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "potentiometer_maximum_frequency";
-    const CODE: Option<&'static str> = Some("A152");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1096;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "Hz";
-    const RAW_MAX: u16 = 4000;
-}
-
-impl runtime::Whole for PotentiometerMaximumFrequency {}
-
-impl runtime::Readable for PotentiometerMaximumFrequency {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for PotentiometerMaximumFrequency {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for PotentiometerMaximumFrequency {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=4000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for PotentiometerMaximumFrequency {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for PotentiometerMaximumFrequency {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 4000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl PotentiometerMaximumFrequency {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4247;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_247;
-}
-
-/// Potentiometer minimum setpoint.
-///
-/// `A153` at holding 1097h (4247), `u16`, raw `0..100`, read and write.
-///
-/// Errata: `a103_minimum`.
-#[doc(alias = "A153")]
-#[derive(Clone, Copy, Debug)]
-pub struct PotentiometerMinimumSetpoint;
-
-impl runtime::Point for PotentiometerMinimumSetpoint {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "potentiometer_minimum_setpoint";
-    const CODE: Option<&'static str> = Some("A153");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1097;
-    const UNIT: &'static str = "%";
-    const RAW_MAX: u16 = 100;
-}
-
-impl runtime::Whole for PotentiometerMinimumSetpoint {}
-
-impl runtime::Readable for PotentiometerMinimumSetpoint {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for PotentiometerMinimumSetpoint {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for PotentiometerMinimumSetpoint {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=100);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for PotentiometerMinimumSetpoint {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for PotentiometerMinimumSetpoint {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl PotentiometerMinimumSetpoint {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4248;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_248;
-}
-
-/// Potentiometer maximum setpoint.
-///
-/// `A154` at holding 1098h (4248), `u16`, raw `0..100`, read and write.
-#[doc(alias = "A154")]
-#[derive(Clone, Copy, Debug)]
-pub struct PotentiometerMaximumSetpoint;
-
-impl runtime::Point for PotentiometerMaximumSetpoint {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "potentiometer_maximum_setpoint";
-    const CODE: Option<&'static str> = Some("A154");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1098;
-    const UNIT: &'static str = "%";
-    const RAW_MAX: u16 = 100;
-}
-
-impl runtime::Whole for PotentiometerMaximumSetpoint {}
-
-impl runtime::Readable for PotentiometerMaximumSetpoint {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for PotentiometerMaximumSetpoint {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for PotentiometerMaximumSetpoint {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=100);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for PotentiometerMaximumSetpoint {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for PotentiometerMaximumSetpoint {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl PotentiometerMaximumSetpoint {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4249;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_249;
-}
-
-/// Potentiometer start condition.
-///
-/// `A155` at holding 1099h (4249), `u16`, raw `0, 1`, read and write.
-///
-/// Errata: `a155_reference`.
-#[doc(alias = "A155")]
-#[derive(Clone, Copy, Debug)]
-pub struct PotentiometerStartCondition;
-
-impl runtime::Point for PotentiometerStartCondition {
-    type Raw = u16;
-    type Value = enums::PotentiometerStartCondition;
-    const NAME: &'static str = "potentiometer_start_condition";
-    const CODE: Option<&'static str> = Some("A155");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1099;
-    const RAW_MAX: u16 = 1;
-}
-
-impl runtime::Whole for PotentiometerStartCondition {}
-
-impl runtime::Readable for PotentiometerStartCondition {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::PotentiometerStartCondition::from(raw)
-    }
-}
-
-impl runtime::CountReadable for PotentiometerStartCondition {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for PotentiometerStartCondition {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for PotentiometerStartCondition {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for PotentiometerStartCondition {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl PotentiometerStartCondition {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4250;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_250;
-}
-
-/// Restart mode.
-///
-/// `b001` at holding 10A4h (4260), `u16`, raw `0..3`, read and write.
-#[doc(alias = "b001")]
-#[derive(Clone, Copy, Debug)]
-pub struct RestartMode;
-
-impl runtime::Point for RestartMode {
-    type Raw = u16;
-    type Value = enums::RestartMode;
-    const NAME: &'static str = "restart_mode";
-    const CODE: Option<&'static str> = Some("b001");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x10A4;
-    const RAW_MAX: u16 = 3;
-}
-
-impl runtime::Whole for RestartMode {}
-
-impl runtime::Readable for RestartMode {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::RestartMode::from(raw)
-    }
-}
-
-impl runtime::CountReadable for RestartMode {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for RestartMode {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=3);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for RestartMode {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for RestartMode {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl RestartMode {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4261;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_261;
-}
-
-/// Allowed power failure time.
-///
-/// `b002` at holding 10A5h (4261), `u16`, raw `3..250`, steps of `0.1 s`, read and write.
-#[doc(alias = "b002")]
-#[derive(Clone, Copy, Debug)]
-pub struct AllowedPowerFailureTime;
-
-impl runtime::Point for AllowedPowerFailureTime {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "allowed_power_failure_time";
-    const CODE: Option<&'static str> = Some("b002");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x10A5;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "s";
-    const RAW_MIN: u16 = 3;
-    const RAW_MAX: u16 = 250;
-}
-
-impl runtime::Whole for AllowedPowerFailureTime {}
-
-impl runtime::Readable for AllowedPowerFailureTime {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for AllowedPowerFailureTime {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for AllowedPowerFailureTime {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 3..=250);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for AllowedPowerFailureTime {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for AllowedPowerFailureTime {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 3, 250)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl AllowedPowerFailureTime {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4262;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_262;
-}
-
-/// Restart delay.
-///
-/// `b003` at holding 10A6h (4262), `u16`, raw `3..1000`, steps of `0.1 s`, read and write.
-#[doc(alias = "b003")]
-#[derive(Clone, Copy, Debug)]
-pub struct RestartDelay;
-
-impl runtime::Point for RestartDelay {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "restart_delay";
-    const CODE: Option<&'static str> = Some("b003");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x10A6;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "s";
-    const RAW_MIN: u16 = 3;
-    const RAW_MAX: u16 = 1000;
-}
-
-impl runtime::Whole for RestartDelay {}
-
-impl runtime::Readable for RestartDelay {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for RestartDelay {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for RestartDelay {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 3..=1000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for RestartDelay {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for RestartDelay {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 3, 1000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl RestartDelay {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4263;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_263;
-}
-
-/// Power failure trip at standstill.
-///
-/// `b004` at holding 10A7h (4263), `u16`, raw `0, 1`, read and write.
-#[doc(alias = "b004")]
-#[derive(Clone, Copy, Debug)]
-pub struct PowerFailureTripAtStandstill;
-
-impl runtime::Point for PowerFailureTripAtStandstill {
-    type Raw = u16;
-    type Value = enums::PowerFailureTripAtStandstill;
-    const NAME: &'static str = "power_failure_trip_at_standstill";
-    const CODE: Option<&'static str> = Some("b004");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x10A7;
-    const RAW_MAX: u16 = 1;
-}
-
-impl runtime::Whole for PowerFailureTripAtStandstill {}
-
-impl runtime::Readable for PowerFailureTripAtStandstill {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::PowerFailureTripAtStandstill::from(raw)
-    }
-}
-
-impl runtime::CountReadable for PowerFailureTripAtStandstill {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for PowerFailureTripAtStandstill {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for PowerFailureTripAtStandstill {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for PowerFailureTripAtStandstill {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl PowerFailureTripAtStandstill {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4264;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_264;
-}
-
-/// Power failure restarts.
-///
-/// `b005` at holding 10A8h (4264), `u16`, raw `0, 1`, read and write.
-///
-/// Errata: `b005_title`.
-#[doc(alias = "b005")]
-#[derive(Clone, Copy, Debug)]
-pub struct PowerFailureRestarts;
-
-impl runtime::Point for PowerFailureRestarts {
-    type Raw = u16;
-    type Value = enums::PowerFailureRestarts;
-    const NAME: &'static str = "power_failure_restarts";
-    const CODE: Option<&'static str> = Some("b005");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x10A8;
-    const RAW_MAX: u16 = 1;
-}
-
-impl runtime::Whole for PowerFailureRestarts {}
-
-impl runtime::Readable for PowerFailureRestarts {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::PowerFailureRestarts::from(raw)
-    }
-}
-
-impl runtime::CountReadable for PowerFailureRestarts {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for PowerFailureRestarts {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for PowerFailureRestarts {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for PowerFailureRestarts {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl PowerFailureRestarts {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4265;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_265;
-}
-
-/// Motor protection level.
-///
-/// `b012` at holding 10ACh (4268), `u16`, raw `2000..12000`, steps of `0.01 %`, read and write.
-#[doc(alias = "b012")]
-#[derive(Clone, Copy, Debug)]
-pub struct MotorProtectionLevel;
-
-impl runtime::Point for MotorProtectionLevel {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "motor_protection_level";
-    const CODE: Option<&'static str> = Some("b012");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x10AC;
-    const DECIMALS: u32 = 2;
-    const UNIT: &'static str = "%";
-    const RAW_MIN: u16 = 2000;
-    const RAW_MAX: u16 = 12_000;
-}
-
-impl runtime::Whole for MotorProtectionLevel {}
-
-impl runtime::Readable for MotorProtectionLevel {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 100.0
-    }
-}
-
-impl runtime::CountReadable for MotorProtectionLevel {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for MotorProtectionLevel {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 2000..=12_000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for MotorProtectionLevel {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 100.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for MotorProtectionLevel {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 2000, 12_000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl MotorProtectionLevel {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4269;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_269;
-}
-
-/// Motor protection level set 2.
-///
-/// `b212` at holding 1525h (5413), `u16`, raw `2000..12000`, steps of `0.01 %`, read and write.
-#[doc(alias = "b212")]
-#[derive(Clone, Copy, Debug)]
-pub struct MotorProtectionLevelSet2;
-
-impl runtime::Point for MotorProtectionLevelSet2 {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "motor_protection_level_set_2";
-    const CODE: Option<&'static str> = Some("b212");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1525;
-    const DECIMALS: u32 = 2;
-    const UNIT: &'static str = "%";
-    const RAW_MIN: u16 = 2000;
-    const RAW_MAX: u16 = 12_000;
-}
-
-impl runtime::Whole for MotorProtectionLevelSet2 {}
-
-impl runtime::Readable for MotorProtectionLevelSet2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 100.0
-    }
-}
-
-impl runtime::CountReadable for MotorProtectionLevelSet2 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for MotorProtectionLevelSet2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 2000..=12_000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for MotorProtectionLevelSet2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 100.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for MotorProtectionLevelSet2 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 2000, 12_000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl MotorProtectionLevelSet2 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 5414;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 405_414;
-}
-
-/// Motor protection characteristic.
-///
-/// `b013` at holding 10ADh (4269), `u16`, raw `0..2`, read and write.
-///
-/// Errata: `b013_choices`, `b013_rated_current_note`.
-#[doc(alias = "b013")]
-#[derive(Clone, Copy, Debug)]
-pub struct MotorProtectionCharacteristic;
-
-impl runtime::Point for MotorProtectionCharacteristic {
-    type Raw = u16;
-    type Value = enums::MotorProtectionCharacteristic;
-    const NAME: &'static str = "motor_protection_characteristic";
-    const CODE: Option<&'static str> = Some("b013");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x10AD;
-    const RAW_MAX: u16 = 2;
-}
-
-impl runtime::Whole for MotorProtectionCharacteristic {}
-
-impl runtime::Readable for MotorProtectionCharacteristic {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::MotorProtectionCharacteristic::from(raw)
-    }
-}
-
-impl runtime::CountReadable for MotorProtectionCharacteristic {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for MotorProtectionCharacteristic {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=2);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for MotorProtectionCharacteristic {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for MotorProtectionCharacteristic {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl MotorProtectionCharacteristic {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4270;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_270;
-}
-
-/// Motor protection characteristic set 2.
-///
-/// `b213` at holding 1526h (5414), `u16`, raw `0..2`, read and write.
-///
-/// Errata: `b013_choices`, `b013_rated_current_note`.
-#[doc(alias = "b213")]
-#[derive(Clone, Copy, Debug)]
-pub struct MotorProtectionCharacteristicSet2;
-
-impl runtime::Point for MotorProtectionCharacteristicSet2 {
-    type Raw = u16;
-    type Value = enums::MotorProtectionCharacteristic;
-    const NAME: &'static str = "motor_protection_characteristic_set_2";
-    const CODE: Option<&'static str> = Some("b213");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1526;
-    const RAW_MAX: u16 = 2;
-}
-
-impl runtime::Whole for MotorProtectionCharacteristicSet2 {}
-
-impl runtime::Readable for MotorProtectionCharacteristicSet2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::MotorProtectionCharacteristic::from(raw)
-    }
-}
-
-impl runtime::CountReadable for MotorProtectionCharacteristicSet2 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for MotorProtectionCharacteristicSet2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=2);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for MotorProtectionCharacteristicSet2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for MotorProtectionCharacteristicSet2 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl MotorProtectionCharacteristicSet2 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 5415;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 405_415;
-}
-
-/// Current limit mode.
-///
-/// `b021` at holding 10B4h (4276), `u16`, raw `0..2`, read and write.
-#[doc(alias = "b021")]
-#[derive(Clone, Copy, Debug)]
-pub struct CurrentLimitMode;
-
-impl runtime::Point for CurrentLimitMode {
-    type Raw = u16;
-    type Value = enums::CurrentLimitMode;
-    const NAME: &'static str = "current_limit_mode";
-    const CODE: Option<&'static str> = Some("b021");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x10B4;
-    const RAW_MAX: u16 = 2;
-}
-
-impl runtime::Whole for CurrentLimitMode {}
-
-impl runtime::Readable for CurrentLimitMode {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::CurrentLimitMode::from(raw)
-    }
-}
-
-impl runtime::CountReadable for CurrentLimitMode {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for CurrentLimitMode {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=2);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for CurrentLimitMode {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for CurrentLimitMode {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl CurrentLimitMode {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4277;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_277;
-}
-
-/// Current limit mode set 2.
-///
-/// `b221` at holding 1527h (5415), `u16`, raw `0..2`, read and write.
-#[doc(alias = "b221")]
-#[derive(Clone, Copy, Debug)]
-pub struct CurrentLimitModeSet2;
-
-impl runtime::Point for CurrentLimitModeSet2 {
-    type Raw = u16;
-    type Value = enums::CurrentLimitMode;
-    const NAME: &'static str = "current_limit_mode_set_2";
-    const CODE: Option<&'static str> = Some("b221");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1527;
-    const RAW_MAX: u16 = 2;
-}
-
-impl runtime::Whole for CurrentLimitModeSet2 {}
-
-impl runtime::Readable for CurrentLimitModeSet2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::CurrentLimitMode::from(raw)
-    }
-}
-
-impl runtime::CountReadable for CurrentLimitModeSet2 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for CurrentLimitModeSet2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=2);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for CurrentLimitModeSet2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for CurrentLimitModeSet2 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl CurrentLimitModeSet2 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 5416;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 405_416;
-}
-
-/// Current limit level.
-///
-/// `b022` at holding 10B5h (4277), `u16`, raw `1000..15000`, steps of `0.01 %`, read and write.
-///
-/// Errata: `b022_resolution`.
-#[doc(alias = "b022")]
-#[derive(Clone, Copy, Debug)]
-pub struct CurrentLimitLevel;
-
-impl runtime::Point for CurrentLimitLevel {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "current_limit_level";
-    const CODE: Option<&'static str> = Some("b022");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x10B5;
-    const DECIMALS: u32 = 2;
-    const UNIT: &'static str = "%";
-    const RAW_MIN: u16 = 1000;
-    const RAW_MAX: u16 = 15_000;
-}
-
-impl runtime::Whole for CurrentLimitLevel {}
-
-impl runtime::Readable for CurrentLimitLevel {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 100.0
-    }
-}
-
-impl runtime::CountReadable for CurrentLimitLevel {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for CurrentLimitLevel {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1000..=15_000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for CurrentLimitLevel {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 100.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for CurrentLimitLevel {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 1000, 15_000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl CurrentLimitLevel {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4278;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_278;
-}
-
-/// Current limit level set 2.
-///
-/// `b222` at holding 1528h (5416), `u16`, raw `1000..15000`, steps of `0.01 %`, read and write.
-///
-/// Errata: `b022_resolution`.
-#[doc(alias = "b222")]
-#[derive(Clone, Copy, Debug)]
-pub struct CurrentLimitLevelSet2;
-
-impl runtime::Point for CurrentLimitLevelSet2 {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "current_limit_level_set_2";
-    const CODE: Option<&'static str> = Some("b222");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1528;
-    const DECIMALS: u32 = 2;
-    const UNIT: &'static str = "%";
-    const RAW_MIN: u16 = 1000;
-    const RAW_MAX: u16 = 15_000;
-}
-
-impl runtime::Whole for CurrentLimitLevelSet2 {}
-
-impl runtime::Readable for CurrentLimitLevelSet2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 100.0
-    }
-}
-
-impl runtime::CountReadable for CurrentLimitLevelSet2 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for CurrentLimitLevelSet2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1000..=15_000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for CurrentLimitLevelSet2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 100.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for CurrentLimitLevelSet2 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 1000, 15_000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl CurrentLimitLevelSet2 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 5417;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 405_417;
-}
-
-/// Current limit time.
-///
-/// `b023` at holding 10B6h (4278), `u16`, raw `1..300`, steps of `0.1 s`, read and write.
-///
-/// Errata: `b023_unit`.
-#[doc(alias = "b023")]
-#[derive(Clone, Copy, Debug)]
-pub struct CurrentLimitTime;
-
-impl runtime::Point for CurrentLimitTime {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "current_limit_time";
-    const CODE: Option<&'static str> = Some("b023");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x10B6;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "s";
-    const RAW_MIN: u16 = 1;
-    const RAW_MAX: u16 = 300;
-}
-
-impl runtime::Whole for CurrentLimitTime {}
-
-impl runtime::Readable for CurrentLimitTime {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for CurrentLimitTime {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for CurrentLimitTime {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=300);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for CurrentLimitTime {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for CurrentLimitTime {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 1, 300)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl CurrentLimitTime {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4279;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_279;
-}
-
-/// Current limit time set 2.
-///
-/// `b223` at holding 1529h (5417), `u16`, raw `1..300`, steps of `0.1 s`, read and write.
-///
-/// Errata: `b023_unit`.
-#[doc(alias = "b223")]
-#[derive(Clone, Copy, Debug)]
-pub struct CurrentLimitTimeSet2;
-
-impl runtime::Point for CurrentLimitTimeSet2 {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "current_limit_time_set_2";
-    const CODE: Option<&'static str> = Some("b223");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1529;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "s";
-    const RAW_MIN: u16 = 1;
-    const RAW_MAX: u16 = 300;
-}
-
-impl runtime::Whole for CurrentLimitTimeSet2 {}
-
-impl runtime::Readable for CurrentLimitTimeSet2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for CurrentLimitTimeSet2 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for CurrentLimitTimeSet2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=300);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for CurrentLimitTimeSet2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for CurrentLimitTimeSet2 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 1, 300)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl CurrentLimitTimeSet2 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 5418;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 405_418;
-}
-
-/// Current limit source.
-///
-/// `b028` at holding 10BAh (4282), `u16`, raw `0, 1`, read and write.
-#[doc(alias = "b028")]
-#[derive(Clone, Copy, Debug)]
-pub struct CurrentLimitSource;
-
-impl runtime::Point for CurrentLimitSource {
-    type Raw = u16;
-    type Value = enums::CurrentLimitSource;
-    const NAME: &'static str = "current_limit_source";
-    const CODE: Option<&'static str> = Some("b028");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x10BA;
-    const RAW_MAX: u16 = 1;
-}
-
-impl runtime::Whole for CurrentLimitSource {}
-
-impl runtime::Readable for CurrentLimitSource {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::CurrentLimitSource::from(raw)
-    }
-}
-
-impl runtime::CountReadable for CurrentLimitSource {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for CurrentLimitSource {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for CurrentLimitSource {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for CurrentLimitSource {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl CurrentLimitSource {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4283;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_283;
-}
-
-/// Current limit source set 2.
-///
-/// `b228` at holding 152Ah (5418), `u16`, raw `0, 1`, read and write.
-///
-/// Errata: `b228_hex_mark`.
-#[doc(alias = "b228")]
-#[derive(Clone, Copy, Debug)]
-pub struct CurrentLimitSourceSet2;
-
-impl runtime::Point for CurrentLimitSourceSet2 {
-    type Raw = u16;
-    type Value = enums::CurrentLimitSource;
-    const NAME: &'static str = "current_limit_source_set_2";
-    const CODE: Option<&'static str> = Some("b228");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x152A;
-    const RAW_MAX: u16 = 1;
-}
-
-impl runtime::Whole for CurrentLimitSourceSet2 {}
-
-impl runtime::Readable for CurrentLimitSourceSet2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::CurrentLimitSource::from(raw)
-    }
-}
-
-impl runtime::CountReadable for CurrentLimitSourceSet2 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for CurrentLimitSourceSet2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for CurrentLimitSourceSet2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for CurrentLimitSourceSet2 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl CurrentLimitSourceSet2 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 5419;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 405_419;
-}
-
-/// Parameter lock.
-///
-/// `b031` at holding 10BBh (4283), `u16`, raw `0..3`, read and write.
-#[doc(alias = "b031")]
-#[derive(Clone, Copy, Debug)]
-pub struct ParameterLock;
-
-impl runtime::Point for ParameterLock {
-    type Raw = u16;
-    type Value = enums::ParameterLock;
-    const NAME: &'static str = "parameter_lock";
-    const CODE: Option<&'static str> = Some("b031");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x10BB;
-    const RAW_MAX: u16 = 3;
-}
-
-impl runtime::Whole for ParameterLock {}
-
-impl runtime::Readable for ParameterLock {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::ParameterLock::from(raw)
-    }
-}
-
-impl runtime::CountReadable for ParameterLock {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for ParameterLock {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=3);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for ParameterLock {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for ParameterLock {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl ParameterLock {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4284;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_284;
-}
-
-/// Analog output gain.
-///
-/// `b080` at holding 10CEh (4302), `u16`, raw `0..255`, read and write.
-#[doc(alias = "b080")]
-#[derive(Clone, Copy, Debug)]
-pub struct AnalogOutputGain;
-
-impl runtime::Point for AnalogOutputGain {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "analog_output_gain";
-    const CODE: Option<&'static str> = Some("b080");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x10CE;
-    const RAW_MAX: u16 = 255;
-}
-
-impl runtime::Whole for AnalogOutputGain {}
-
-impl runtime::Readable for AnalogOutputGain {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for AnalogOutputGain {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for AnalogOutputGain {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=255);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for AnalogOutputGain {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for AnalogOutputGain {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl AnalogOutputGain {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4303;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_303;
-}
-
-/// Start frequency.
-///
-/// `b082` at holding 10D0h (4304), `u16`, raw `5..99`, steps of `0.1 Hz`, read and write.
-#[doc(alias = "b082")]
-#[derive(Clone, Copy, Debug)]
-pub struct StartFrequency;
-
-impl runtime::Point for StartFrequency {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "start_frequency";
-    const CODE: Option<&'static str> = Some("b082");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x10D0;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "Hz";
-    const RAW_MIN: u16 = 5;
-    const RAW_MAX: u16 = 99;
-}
-
-impl runtime::Whole for StartFrequency {}
-
-impl runtime::Readable for StartFrequency {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for StartFrequency {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for StartFrequency {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 5..=99);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for StartFrequency {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for StartFrequency {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 5, 99)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl StartFrequency {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4305;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_305;
-}
-
-/// Carrier frequency.
-///
-/// `b083` at holding 10D1h (4305), `u16`, raw `20..140`, steps of `0.1 kHz`, read and write.
-///
-/// Errata: `b083_unit`.
-#[doc(alias = "b083")]
-#[derive(Clone, Copy, Debug)]
-pub struct CarrierFrequency;
-
-impl runtime::Point for CarrierFrequency {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "carrier_frequency";
-    const CODE: Option<&'static str> = Some("b083");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x10D1;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "kHz";
-    const RAW_MIN: u16 = 20;
-    const RAW_MAX: u16 = 140;
-}
-
-impl runtime::Whole for CarrierFrequency {}
-
-impl runtime::Readable for CarrierFrequency {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for CarrierFrequency {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for CarrierFrequency {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 20..=140);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for CarrierFrequency {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for CarrierFrequency {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 20, 140)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl CarrierFrequency {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4306;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_306;
-}
-
-/// Initialization mode.
-///
-/// `b084` at holding 10D2h (4306), `u16`, raw `0..2`, read and write.
-#[doc(alias = "b084")]
-#[derive(Clone, Copy, Debug)]
-pub struct InitializationMode;
-
-impl runtime::Point for InitializationMode {
-    type Raw = u16;
-    type Value = enums::InitializationMode;
-    const NAME: &'static str = "initialization_mode";
-    const CODE: Option<&'static str> = Some("b084");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x10D2;
-    const RAW_MAX: u16 = 2;
-}
-
-impl runtime::Whole for InitializationMode {}
-
-impl runtime::Readable for InitializationMode {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::InitializationMode::from(raw)
-    }
-}
-
-impl runtime::CountReadable for InitializationMode {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for InitializationMode {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=2);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for InitializationMode {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for InitializationMode {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl InitializationMode {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4307;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_307;
-}
-
-/// Frequency display factor.
-///
-/// `b086` at holding 10D4h (4308), `u16`, raw `1..999`, steps of `0.1`, read and write.
-#[doc(alias = "b086")]
-#[derive(Clone, Copy, Debug)]
-pub struct FrequencyDisplayFactor;
-
-impl runtime::Point for FrequencyDisplayFactor {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "frequency_display_factor";
-    const CODE: Option<&'static str> = Some("b086");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x10D4;
-    const DECIMALS: u32 = 1;
-    const RAW_MIN: u16 = 1;
-    const RAW_MAX: u16 = 999;
-}
-
-impl runtime::Whole for FrequencyDisplayFactor {}
-
-impl runtime::Readable for FrequencyDisplayFactor {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for FrequencyDisplayFactor {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for FrequencyDisplayFactor {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=999);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for FrequencyDisplayFactor {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for FrequencyDisplayFactor {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 1, 999)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl FrequencyDisplayFactor {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4309;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_309;
-}
-
-/// Stop key lock.
-///
-/// `b087` at holding 10D5h (4309), `u16`, raw `0, 1`, read and write.
-#[doc(alias = "b087")]
-#[derive(Clone, Copy, Debug)]
-pub struct StopKeyLock;
-
-impl runtime::Point for StopKeyLock {
-    type Raw = u16;
-    type Value = enums::StopKeyLock;
-    const NAME: &'static str = "stop_key_lock";
-    const CODE: Option<&'static str> = Some("b087");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x10D5;
-    const RAW_MAX: u16 = 1;
-}
-
-impl runtime::Whole for StopKeyLock {}
-
-impl runtime::Readable for StopKeyLock {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::StopKeyLock::from(raw)
-    }
-}
-
-impl runtime::CountReadable for StopKeyLock {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for StopKeyLock {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for StopKeyLock {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for StopKeyLock {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl StopKeyLock {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4310;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_310;
-}
-
-/// Coast restart mode.
-///
-/// `b088` at holding 10D6h (4310), `u16`, raw `0, 1`, read and write.
-#[doc(alias = "b088")]
-#[derive(Clone, Copy, Debug)]
-pub struct CoastRestartMode;
-
-impl runtime::Point for CoastRestartMode {
-    type Raw = u16;
-    type Value = enums::CoastRestartMode;
-    const NAME: &'static str = "coast_restart_mode";
-    const CODE: Option<&'static str> = Some("b088");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x10D6;
-    const RAW_MAX: u16 = 1;
-}
-
-impl runtime::Whole for CoastRestartMode {}
-
-impl runtime::Readable for CoastRestartMode {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::CoastRestartMode::from(raw)
-    }
-}
-
-impl runtime::CountReadable for CoastRestartMode {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for CoastRestartMode {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for CoastRestartMode {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for CoastRestartMode {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl CoastRestartMode {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4311;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_311;
-}
-
-/// Network display.
-///
-/// `b089` at holding 10D7h (4311), `u16`, raw `1..7`, read and write.
-#[doc(alias = "b089")]
-#[derive(Clone, Copy, Debug)]
-pub struct NetworkDisplay;
-
-impl runtime::Point for NetworkDisplay {
-    type Raw = u16;
-    type Value = enums::NetworkDisplay;
-    const NAME: &'static str = "network_display";
-    const CODE: Option<&'static str> = Some("b089");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x10D7;
-    const RAW_MIN: u16 = 1;
-    const RAW_MAX: u16 = 7;
-}
-
-impl runtime::Whole for NetworkDisplay {}
-
-impl runtime::Readable for NetworkDisplay {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::NetworkDisplay::from(raw)
-    }
-}
-
-impl runtime::CountReadable for NetworkDisplay {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for NetworkDisplay {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=7);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for NetworkDisplay {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for NetworkDisplay {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl NetworkDisplay {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4312;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_312;
-}
-
-/// Stop mode.
-///
-/// `b091` at holding 10D9h (4313), `u16`, raw `0, 1`, read and write.
-#[doc(alias = "b091")]
-#[derive(Clone, Copy, Debug)]
-pub struct StopMode;
-
-impl runtime::Point for StopMode {
-    type Raw = u16;
-    type Value = enums::StopMode;
-    const NAME: &'static str = "stop_mode";
-    const CODE: Option<&'static str> = Some("b091");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x10D9;
-    const RAW_MAX: u16 = 1;
-}
-
-impl runtime::Whole for StopMode {}
-
-impl runtime::Readable for StopMode {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::StopMode::from(raw)
-    }
-}
-
-impl runtime::CountReadable for StopMode {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for StopMode {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for StopMode {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for StopMode {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl StopMode {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4314;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_314;
-}
-
-/// Overvoltage deceleration enable.
-///
-/// `b130` at holding 10F4h (4340), `u16`, raw `0, 1`, read and write.
-#[doc(alias = "b130")]
-#[derive(Clone, Copy, Debug)]
-pub struct OvervoltageDecelerationEnable;
-
-impl runtime::Point for OvervoltageDecelerationEnable {
-    type Raw = u16;
-    type Value = enums::InactiveActive;
-    const NAME: &'static str = "overvoltage_deceleration_enable";
-    const CODE: Option<&'static str> = Some("b130");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x10F4;
-    const RAW_MAX: u16 = 1;
-}
-
-impl runtime::Whole for OvervoltageDecelerationEnable {}
-
-impl runtime::Readable for OvervoltageDecelerationEnable {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::InactiveActive::from(raw)
-    }
-}
-
-impl runtime::CountReadable for OvervoltageDecelerationEnable {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for OvervoltageDecelerationEnable {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for OvervoltageDecelerationEnable {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for OvervoltageDecelerationEnable {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl OvervoltageDecelerationEnable {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4341;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_341;
-}
-
-/// Overvoltage deceleration level 200v.
-///
-/// `b131` at holding 10F5h (4341), `u16`, raw `330..390`, read and write, for `voltage_class=200V`.
-///
-/// Errata: `b131_classes`, `b131_direction`.
-#[doc(alias = "b131")]
-#[derive(Clone, Copy, Debug)]
-pub struct OvervoltageDecelerationLevel200v;
-
-impl runtime::Point for OvervoltageDecelerationLevel200v {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "overvoltage_deceleration_level_200v";
-    const CODE: Option<&'static str> = Some("b131");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x10F5;
-    const UNIT: &'static str = "V";
-    const RAW_MIN: u16 = 330;
-    const RAW_MAX: u16 = 390;
-}
-
-impl runtime::Whole for OvervoltageDecelerationLevel200v {}
-
-impl runtime::Readable for OvervoltageDecelerationLevel200v {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for OvervoltageDecelerationLevel200v {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for OvervoltageDecelerationLevel200v {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 330..=390);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for OvervoltageDecelerationLevel200v {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for OvervoltageDecelerationLevel200v {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl OvervoltageDecelerationLevel200v {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4342;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_342;
-}
-
-/// Overvoltage deceleration level 400v.
-///
-/// `b131` at holding 10F5h (4341), `u16`, raw `660..780`, read and write, for `voltage_class=400V`.
-///
-/// Errata: `b131_classes`, `b131_direction`.
-#[doc(alias = "b131")]
-#[derive(Clone, Copy, Debug)]
-pub struct OvervoltageDecelerationLevel400v;
-
-impl runtime::Point for OvervoltageDecelerationLevel400v {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "overvoltage_deceleration_level_400v";
-    const CODE: Option<&'static str> = Some("b131");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x10F5;
-    const UNIT: &'static str = "V";
-    const RAW_MIN: u16 = 660;
-    const RAW_MAX: u16 = 780;
-}
-
-impl runtime::Whole for OvervoltageDecelerationLevel400v {}
-
-impl runtime::Readable for OvervoltageDecelerationLevel400v {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for OvervoltageDecelerationLevel400v {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for OvervoltageDecelerationLevel400v {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 660..=780);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for OvervoltageDecelerationLevel400v {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for OvervoltageDecelerationLevel400v {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl OvervoltageDecelerationLevel400v {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4342;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_342;
-}
-
-/// Digital input 1 function.
-///
-/// `C001` at holding 1102h (4354), `u16`, raw `0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53, 255`, read and write.
-///
-/// Errata: `c001_functions`.
-#[doc(alias = "C001")]
-#[derive(Clone, Copy, Debug)]
-pub struct DigitalInput1Function;
-
-impl runtime::Point for DigitalInput1Function {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "digital_input_1_function";
-    const CODE: Option<&'static str> = Some("C001");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1102;
-    const RAW_MAX: u16 = 255;
-}
-
-impl runtime::Whole for DigitalInput1Function {}
-
-impl runtime::Readable for DigitalInput1Function {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for DigitalInput1Function {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for DigitalInput1Function {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=9 | 11..=13 | 15..=16 | 18..=24 | 27..=29 | 31);
-        let holds = holds || matches!(raw, 50..=53 | 255);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for DigitalInput1Function {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for DigitalInput1Function {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl DigitalInput1Function {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4355;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_355;
-}
-
-/// Digital input 1 function set 2.
-///
-/// `C201` at holding 1530h (5424), `u16`, raw `0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53, 255`, read and write.
-///
-/// Errata: `c001_functions`.
-#[doc(alias = "C201")]
-#[derive(Clone, Copy, Debug)]
-pub struct DigitalInput1FunctionSet2;
-
-impl runtime::Point for DigitalInput1FunctionSet2 {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "digital_input_1_function_set_2";
-    const CODE: Option<&'static str> = Some("C201");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1530;
-    const RAW_MAX: u16 = 255;
-}
-
-impl runtime::Whole for DigitalInput1FunctionSet2 {}
-
-impl runtime::Readable for DigitalInput1FunctionSet2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for DigitalInput1FunctionSet2 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for DigitalInput1FunctionSet2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=9 | 11..=13 | 15..=16 | 18..=24 | 27..=29 | 31);
-        let holds = holds || matches!(raw, 50..=53 | 255);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for DigitalInput1FunctionSet2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for DigitalInput1FunctionSet2 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl DigitalInput1FunctionSet2 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 5425;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 405_425;
-}
-
-/// Digital input 2 function.
-///
-/// `C002` at holding 1103h (4355), `u16`, raw `0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53, 255`, read and write.
-///
-/// Errata: `c001_functions`.
-#[doc(alias = "C002")]
-#[derive(Clone, Copy, Debug)]
-pub struct DigitalInput2Function;
-
-impl runtime::Point for DigitalInput2Function {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "digital_input_2_function";
-    const CODE: Option<&'static str> = Some("C002");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1103;
-    const RAW_MAX: u16 = 255;
-}
-
-impl runtime::Whole for DigitalInput2Function {}
-
-impl runtime::Readable for DigitalInput2Function {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for DigitalInput2Function {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for DigitalInput2Function {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=9 | 11..=13 | 15..=16 | 18..=24 | 27..=29 | 31);
-        let holds = holds || matches!(raw, 50..=53 | 255);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for DigitalInput2Function {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for DigitalInput2Function {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl DigitalInput2Function {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4356;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_356;
-}
-
-/// Digital input 2 function set 2.
-///
-/// `C202` at holding 1531h (5425), `u16`, raw `0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53, 255`, read and write.
-///
-/// Errata: `c001_functions`.
-#[doc(alias = "C202")]
-#[derive(Clone, Copy, Debug)]
-pub struct DigitalInput2FunctionSet2;
-
-impl runtime::Point for DigitalInput2FunctionSet2 {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "digital_input_2_function_set_2";
-    const CODE: Option<&'static str> = Some("C202");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1531;
-    const RAW_MAX: u16 = 255;
-}
-
-impl runtime::Whole for DigitalInput2FunctionSet2 {}
-
-impl runtime::Readable for DigitalInput2FunctionSet2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for DigitalInput2FunctionSet2 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for DigitalInput2FunctionSet2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=9 | 11..=13 | 15..=16 | 18..=24 | 27..=29 | 31);
-        let holds = holds || matches!(raw, 50..=53 | 255);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for DigitalInput2FunctionSet2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for DigitalInput2FunctionSet2 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl DigitalInput2FunctionSet2 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 5426;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 405_426;
-}
-
-/// Digital input 3 function.
-///
-/// `C003` at holding 1104h (4356), `u16`, raw `0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53, 255`, read and write.
-///
-/// Errata: `c001_functions`.
-#[doc(alias = "C003")]
-#[derive(Clone, Copy, Debug)]
-pub struct DigitalInput3Function;
-
-impl runtime::Point for DigitalInput3Function {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "digital_input_3_function";
-    const CODE: Option<&'static str> = Some("C003");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1104;
-    const RAW_MAX: u16 = 255;
-}
-
-impl runtime::Whole for DigitalInput3Function {}
-
-impl runtime::Readable for DigitalInput3Function {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for DigitalInput3Function {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for DigitalInput3Function {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=9 | 11..=13 | 15..=16 | 18..=24 | 27..=29 | 31);
-        let holds = holds || matches!(raw, 50..=53 | 255);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for DigitalInput3Function {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for DigitalInput3Function {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl DigitalInput3Function {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4357;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_357;
-}
-
-/// Digital input 3 function set 2.
-///
-/// `C203` at holding 1532h (5426), `u16`, raw `0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53, 255`, read and write.
-///
-/// Errata: `c001_functions`.
-#[doc(alias = "C203")]
-#[derive(Clone, Copy, Debug)]
-pub struct DigitalInput3FunctionSet2;
-
-impl runtime::Point for DigitalInput3FunctionSet2 {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "digital_input_3_function_set_2";
-    const CODE: Option<&'static str> = Some("C203");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1532;
-    const RAW_MAX: u16 = 255;
-}
-
-impl runtime::Whole for DigitalInput3FunctionSet2 {}
-
-impl runtime::Readable for DigitalInput3FunctionSet2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for DigitalInput3FunctionSet2 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for DigitalInput3FunctionSet2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=9 | 11..=13 | 15..=16 | 18..=24 | 27..=29 | 31);
-        let holds = holds || matches!(raw, 50..=53 | 255);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for DigitalInput3FunctionSet2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for DigitalInput3FunctionSet2 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl DigitalInput3FunctionSet2 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 5427;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 405_427;
-}
-
-/// Digital input 4 function.
-///
-/// `C004` at holding 1105h (4357), `u16`, raw `0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53, 255`, read and write.
-///
-/// Errata: `c001_functions`.
-#[doc(alias = "C004")]
-#[derive(Clone, Copy, Debug)]
-pub struct DigitalInput4Function;
-
-impl runtime::Point for DigitalInput4Function {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "digital_input_4_function";
-    const CODE: Option<&'static str> = Some("C004");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1105;
-    const RAW_MAX: u16 = 255;
-}
-
-impl runtime::Whole for DigitalInput4Function {}
-
-impl runtime::Readable for DigitalInput4Function {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for DigitalInput4Function {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for DigitalInput4Function {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=9 | 11..=13 | 15..=16 | 18..=24 | 27..=29 | 31);
-        let holds = holds || matches!(raw, 50..=53 | 255);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for DigitalInput4Function {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for DigitalInput4Function {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl DigitalInput4Function {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4358;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_358;
-}
-
-/// Digital input 4 function set 2.
-///
-/// `C204` at holding 1533h (5427), `u16`, raw `0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53, 255`, read and write.
-///
-/// Errata: `c001_functions`.
-#[doc(alias = "C204")]
-#[derive(Clone, Copy, Debug)]
-pub struct DigitalInput4FunctionSet2;
-
-impl runtime::Point for DigitalInput4FunctionSet2 {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "digital_input_4_function_set_2";
-    const CODE: Option<&'static str> = Some("C204");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1533;
-    const RAW_MAX: u16 = 255;
-}
-
-impl runtime::Whole for DigitalInput4FunctionSet2 {}
-
-impl runtime::Readable for DigitalInput4FunctionSet2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for DigitalInput4FunctionSet2 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for DigitalInput4FunctionSet2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=9 | 11..=13 | 15..=16 | 18..=24 | 27..=29 | 31);
-        let holds = holds || matches!(raw, 50..=53 | 255);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for DigitalInput4FunctionSet2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for DigitalInput4FunctionSet2 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl DigitalInput4FunctionSet2 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 5428;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 405_428;
-}
-
-/// Digital input 5 function.
-///
-/// `C005` at holding 1106h (4358), `u16`, raw `0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53, 255`, read and write.
-///
-/// Errata: `c001_functions`.
-#[doc(alias = "C005")]
-#[derive(Clone, Copy, Debug)]
-pub struct DigitalInput5Function;
-
-impl runtime::Point for DigitalInput5Function {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "digital_input_5_function";
-    const CODE: Option<&'static str> = Some("C005");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1106;
-    const RAW_MAX: u16 = 255;
-}
-
-impl runtime::Whole for DigitalInput5Function {}
-
-impl runtime::Readable for DigitalInput5Function {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for DigitalInput5Function {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for DigitalInput5Function {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=9 | 11..=13 | 15..=16 | 18..=24 | 27..=29 | 31);
-        let holds = holds || matches!(raw, 50..=53 | 255);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for DigitalInput5Function {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for DigitalInput5Function {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl DigitalInput5Function {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4359;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_359;
-}
-
-/// Digital input 5 function set 2.
-///
-/// `C205` at holding 1534h (5428), `u16`, raw `0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53, 255`, read and write.
-///
-/// Errata: `c001_functions`.
-#[doc(alias = "C205")]
-#[derive(Clone, Copy, Debug)]
-pub struct DigitalInput5FunctionSet2;
-
-impl runtime::Point for DigitalInput5FunctionSet2 {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "digital_input_5_function_set_2";
-    const CODE: Option<&'static str> = Some("C205");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1534;
-    const RAW_MAX: u16 = 255;
-}
-
-impl runtime::Whole for DigitalInput5FunctionSet2 {}
-
-impl runtime::Readable for DigitalInput5FunctionSet2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for DigitalInput5FunctionSet2 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for DigitalInput5FunctionSet2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=9 | 11..=13 | 15..=16 | 18..=24 | 27..=29 | 31);
-        let holds = holds || matches!(raw, 50..=53 | 255);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for DigitalInput5FunctionSet2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for DigitalInput5FunctionSet2 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl DigitalInput5FunctionSet2 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 5429;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 405_429;
-}
-
-/// Digital input 1 contact.
-///
-/// `C011` at holding 110Ah (4362), `u16`, raw `0, 1`, read and write.
-#[doc(alias = "C011")]
-#[derive(Clone, Copy, Debug)]
-pub struct DigitalInput1Contact;
-
-impl runtime::Point for DigitalInput1Contact {
-    type Raw = u16;
-    type Value = enums::Contact;
-    const NAME: &'static str = "digital_input_1_contact";
-    const CODE: Option<&'static str> = Some("C011");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x110A;
-    const RAW_MAX: u16 = 1;
-}
-
-impl runtime::Whole for DigitalInput1Contact {}
-
-impl runtime::Readable for DigitalInput1Contact {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::Contact::from(raw)
-    }
-}
-
-impl runtime::CountReadable for DigitalInput1Contact {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for DigitalInput1Contact {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for DigitalInput1Contact {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for DigitalInput1Contact {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl DigitalInput1Contact {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4363;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_363;
-}
-
-/// Digital input 2 contact.
-///
-/// `C012` at holding 110Bh (4363), `u16`, raw `0, 1`, read and write.
-#[doc(alias = "C012")]
-#[derive(Clone, Copy, Debug)]
-pub struct DigitalInput2Contact;
-
-impl runtime::Point for DigitalInput2Contact {
-    type Raw = u16;
-    type Value = enums::Contact;
-    const NAME: &'static str = "digital_input_2_contact";
-    const CODE: Option<&'static str> = Some("C012");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x110B;
-    const RAW_MAX: u16 = 1;
-}
-
-impl runtime::Whole for DigitalInput2Contact {}
-
-impl runtime::Readable for DigitalInput2Contact {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::Contact::from(raw)
-    }
-}
-
-impl runtime::CountReadable for DigitalInput2Contact {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for DigitalInput2Contact {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for DigitalInput2Contact {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for DigitalInput2Contact {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl DigitalInput2Contact {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4364;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_364;
-}
-
-/// Digital input 3 contact.
-///
-/// `C013` at holding 110Ch (4364), `u16`, raw `0, 1`, read and write.
-#[doc(alias = "C013")]
-#[derive(Clone, Copy, Debug)]
-pub struct DigitalInput3Contact;
-
-impl runtime::Point for DigitalInput3Contact {
-    type Raw = u16;
-    type Value = enums::Contact;
-    const NAME: &'static str = "digital_input_3_contact";
-    const CODE: Option<&'static str> = Some("C013");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x110C;
-    const RAW_MAX: u16 = 1;
-}
-
-impl runtime::Whole for DigitalInput3Contact {}
-
-impl runtime::Readable for DigitalInput3Contact {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::Contact::from(raw)
-    }
-}
-
-impl runtime::CountReadable for DigitalInput3Contact {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for DigitalInput3Contact {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for DigitalInput3Contact {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for DigitalInput3Contact {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl DigitalInput3Contact {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4365;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_365;
-}
-
-/// Digital input 4 contact.
-///
-/// `C014` at holding 110Dh (4365), `u16`, raw `0, 1`, read and write.
-#[doc(alias = "C014")]
-#[derive(Clone, Copy, Debug)]
-pub struct DigitalInput4Contact;
-
-impl runtime::Point for DigitalInput4Contact {
-    type Raw = u16;
-    type Value = enums::Contact;
-    const NAME: &'static str = "digital_input_4_contact";
-    const CODE: Option<&'static str> = Some("C014");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x110D;
-    const RAW_MAX: u16 = 1;
-}
-
-impl runtime::Whole for DigitalInput4Contact {}
-
-impl runtime::Readable for DigitalInput4Contact {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::Contact::from(raw)
-    }
-}
-
-impl runtime::CountReadable for DigitalInput4Contact {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for DigitalInput4Contact {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for DigitalInput4Contact {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for DigitalInput4Contact {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl DigitalInput4Contact {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4366;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_366;
-}
-
-/// Digital input 5 contact.
-///
-/// `C015` at holding 110Eh (4366), `u16`, raw `0, 1`, read and write.
-#[doc(alias = "C015")]
-#[derive(Clone, Copy, Debug)]
-pub struct DigitalInput5Contact;
-
-impl runtime::Point for DigitalInput5Contact {
-    type Raw = u16;
-    type Value = enums::Contact;
-    const NAME: &'static str = "digital_input_5_contact";
-    const CODE: Option<&'static str> = Some("C015");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x110E;
-    const RAW_MAX: u16 = 1;
-}
-
-impl runtime::Whole for DigitalInput5Contact {}
-
-impl runtime::Readable for DigitalInput5Contact {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::Contact::from(raw)
-    }
-}
-
-impl runtime::CountReadable for DigitalInput5Contact {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for DigitalInput5Contact {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for DigitalInput5Contact {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for DigitalInput5Contact {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl DigitalInput5Contact {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4367;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_367;
-}
-
-/// Digital output 11 function.
-///
-/// `C021` at holding 1113h (4371), `u16`, raw `0..10`, read and write.
-///
-/// Errata: `c021_functions`.
-#[doc(alias = "C021")]
-#[derive(Clone, Copy, Debug)]
-pub struct DigitalOutput11Function;
-
-impl runtime::Point for DigitalOutput11Function {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "digital_output_11_function";
-    const CODE: Option<&'static str> = Some("C021");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1113;
-    const RAW_MAX: u16 = 10;
-}
-
-impl runtime::Whole for DigitalOutput11Function {}
-
-impl runtime::Readable for DigitalOutput11Function {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for DigitalOutput11Function {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for DigitalOutput11Function {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=10);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for DigitalOutput11Function {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for DigitalOutput11Function {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl DigitalOutput11Function {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4372;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_372;
-}
-
-/// Digital output 12 function.
-///
-/// `C022` at holding 1114h (4372), `u16`, raw `0..10`, read and write.
-///
-/// Errata: `c021_functions`.
-#[doc(alias = "C022")]
-#[derive(Clone, Copy, Debug)]
-pub struct DigitalOutput12Function;
-
-impl runtime::Point for DigitalOutput12Function {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "digital_output_12_function";
-    const CODE: Option<&'static str> = Some("C022");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1114;
-    const RAW_MAX: u16 = 10;
-}
-
-impl runtime::Whole for DigitalOutput12Function {}
-
-impl runtime::Readable for DigitalOutput12Function {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for DigitalOutput12Function {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for DigitalOutput12Function {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=10);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for DigitalOutput12Function {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for DigitalOutput12Function {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl DigitalOutput12Function {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4373;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_373;
-}
-
-/// Relay output function.
-///
-/// `C026` at holding 1118h (4376), `u16`, raw `0..10`, read and write.
-///
-/// Errata: `c021_functions`.
-#[doc(alias = "C026")]
-#[derive(Clone, Copy, Debug)]
-pub struct RelayOutputFunction;
-
-impl runtime::Point for RelayOutputFunction {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "relay_output_function";
-    const CODE: Option<&'static str> = Some("C026");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1118;
-    const RAW_MAX: u16 = 10;
-}
-
-impl runtime::Whole for RelayOutputFunction {}
-
-impl runtime::Readable for RelayOutputFunction {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for RelayOutputFunction {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for RelayOutputFunction {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=10);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for RelayOutputFunction {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for RelayOutputFunction {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl RelayOutputFunction {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4377;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_377;
-}
-
-/// Analog output source.
-///
-/// `C028` at holding 111Ah (4378), `u16`, raw `0, 1`, read and write.
-#[doc(alias = "C028")]
-#[derive(Clone, Copy, Debug)]
-pub struct AnalogOutputSource;
-
-impl runtime::Point for AnalogOutputSource {
-    type Raw = u16;
-    type Value = enums::AnalogOutputSource;
-    const NAME: &'static str = "analog_output_source";
-    const CODE: Option<&'static str> = Some("C028");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x111A;
-    const RAW_MAX: u16 = 1;
-}
-
-impl runtime::Whole for AnalogOutputSource {}
-
-impl runtime::Readable for AnalogOutputSource {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::AnalogOutputSource::from(raw)
-    }
-}
-
-impl runtime::CountReadable for AnalogOutputSource {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for AnalogOutputSource {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for AnalogOutputSource {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for AnalogOutputSource {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl AnalogOutputSource {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4379;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_379;
-}
-
-/// Digital output 11 contact.
-///
-/// `C031` at holding 111Ch (4380), `u16`, raw `0, 1`, read and write.
-#[doc(alias = "C031")]
-#[derive(Clone, Copy, Debug)]
-pub struct DigitalOutput11Contact;
-
-impl runtime::Point for DigitalOutput11Contact {
-    type Raw = u16;
-    type Value = enums::Contact;
-    const NAME: &'static str = "digital_output_11_contact";
-    const CODE: Option<&'static str> = Some("C031");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x111C;
-    const RAW_MAX: u16 = 1;
-}
-
-impl runtime::Whole for DigitalOutput11Contact {}
-
-impl runtime::Readable for DigitalOutput11Contact {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::Contact::from(raw)
-    }
-}
-
-impl runtime::CountReadable for DigitalOutput11Contact {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for DigitalOutput11Contact {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for DigitalOutput11Contact {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for DigitalOutput11Contact {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl DigitalOutput11Contact {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4381;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_381;
-}
-
-/// Digital output 12 contact.
-///
-/// `C032` at holding 111Dh (4381), `u16`, raw `0, 1`, read and write.
-#[doc(alias = "C032")]
-#[derive(Clone, Copy, Debug)]
-pub struct DigitalOutput12Contact;
-
-impl runtime::Point for DigitalOutput12Contact {
-    type Raw = u16;
-    type Value = enums::Contact;
-    const NAME: &'static str = "digital_output_12_contact";
-    const CODE: Option<&'static str> = Some("C032");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x111D;
-    const RAW_MAX: u16 = 1;
-}
-
-impl runtime::Whole for DigitalOutput12Contact {}
-
-impl runtime::Readable for DigitalOutput12Contact {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::Contact::from(raw)
-    }
-}
-
-impl runtime::CountReadable for DigitalOutput12Contact {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for DigitalOutput12Contact {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for DigitalOutput12Contact {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for DigitalOutput12Contact {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl DigitalOutput12Contact {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4382;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_382;
-}
-
-/// Relay output contact.
-///
-/// `C036` at holding 1121h (4385), `u16`, raw `0, 1`, read and write.
-///
-/// Errata: `c036_decimals`.
-#[doc(alias = "C036")]
-#[derive(Clone, Copy, Debug)]
-pub struct RelayOutputContact;
-
-impl runtime::Point for RelayOutputContact {
-    type Raw = u16;
-    type Value = enums::Contact;
-    const NAME: &'static str = "relay_output_contact";
-    const CODE: Option<&'static str> = Some("C036");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1121;
-    const RAW_MAX: u16 = 1;
-}
-
-impl runtime::Whole for RelayOutputContact {}
-
-impl runtime::Readable for RelayOutputContact {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::Contact::from(raw)
-    }
-}
-
-impl runtime::CountReadable for RelayOutputContact {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for RelayOutputContact {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for RelayOutputContact {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for RelayOutputContact {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl RelayOutputContact {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4386;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_386;
-}
-
-/// Overload alarm level.
-///
-/// `C041` at holding 1123h (4387), `u16`, raw `0..20000`, steps of `0.01 %`, read and write.
-#[doc(alias = "C041")]
-#[derive(Clone, Copy, Debug)]
-pub struct OverloadAlarmLevel;
-
-impl runtime::Point for OverloadAlarmLevel {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "overload_alarm_level";
-    const CODE: Option<&'static str> = Some("C041");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1123;
-    const DECIMALS: u32 = 2;
-    const UNIT: &'static str = "%";
-    const RAW_MAX: u16 = 20_000;
-}
-
-impl runtime::Whole for OverloadAlarmLevel {}
-
-impl runtime::Readable for OverloadAlarmLevel {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 100.0
-    }
-}
-
-impl runtime::CountReadable for OverloadAlarmLevel {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for OverloadAlarmLevel {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=20_000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for OverloadAlarmLevel {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 100.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for OverloadAlarmLevel {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 20_000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl OverloadAlarmLevel {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4388;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_388;
-}
-
-/// Overload alarm level set 2.
-///
-/// `C241` at holding 1538h (5432), `u16`, raw `0..20000`, steps of `0.01 %`, read and write.
-///
-/// Errata: `c041_note_second_set`.
-#[doc(alias = "C241")]
-#[derive(Clone, Copy, Debug)]
-pub struct OverloadAlarmLevelSet2;
-
-impl runtime::Point for OverloadAlarmLevelSet2 {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "overload_alarm_level_set_2";
-    const CODE: Option<&'static str> = Some("C241");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1538;
-    const DECIMALS: u32 = 2;
-    const UNIT: &'static str = "%";
-    const RAW_MAX: u16 = 20_000;
-}
-
-impl runtime::Whole for OverloadAlarmLevelSet2 {}
-
-impl runtime::Readable for OverloadAlarmLevelSet2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 100.0
-    }
-}
-
-impl runtime::CountReadable for OverloadAlarmLevelSet2 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for OverloadAlarmLevelSet2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=20_000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for OverloadAlarmLevelSet2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 100.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for OverloadAlarmLevelSet2 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 20_000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl OverloadAlarmLevelSet2 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 5433;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 405_433;
-}
-
-/// Arrival frequency acceleration.
-///
-/// `C042` at holding 1125h (4389), `u16`, raw `0..4000`, steps of `0.1 Hz`, read and write.
-///
-/// Errata: `c042_note_mark`.
-#[doc(alias = "C042")]
-#[derive(Clone, Copy, Debug)]
-pub struct ArrivalFrequencyAcceleration;
-
-impl runtime::Point for ArrivalFrequencyAcceleration {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "arrival_frequency_acceleration";
-    const CODE: Option<&'static str> = Some("C042");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1125;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "Hz";
-    const RAW_MAX: u16 = 4000;
-}
-
-impl runtime::Whole for ArrivalFrequencyAcceleration {}
-
-impl runtime::Readable for ArrivalFrequencyAcceleration {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for ArrivalFrequencyAcceleration {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for ArrivalFrequencyAcceleration {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=4000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for ArrivalFrequencyAcceleration {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for ArrivalFrequencyAcceleration {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 4000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl ArrivalFrequencyAcceleration {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4390;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_390;
-}
-
-/// Arrival frequency deceleration.
-///
-/// `C043` at holding 1127h (4391), `u16`, raw `0..4000`, steps of `0.1 Hz`, read and write.
-#[doc(alias = "C043")]
-#[derive(Clone, Copy, Debug)]
-pub struct ArrivalFrequencyDeceleration;
-
-impl runtime::Point for ArrivalFrequencyDeceleration {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "arrival_frequency_deceleration";
-    const CODE: Option<&'static str> = Some("C043");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1127;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "Hz";
-    const RAW_MAX: u16 = 4000;
-}
-
-impl runtime::Whole for ArrivalFrequencyDeceleration {}
-
-impl runtime::Readable for ArrivalFrequencyDeceleration {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for ArrivalFrequencyDeceleration {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for ArrivalFrequencyDeceleration {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=4000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for ArrivalFrequencyDeceleration {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for ArrivalFrequencyDeceleration {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 4000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl ArrivalFrequencyDeceleration {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4392;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_392;
-}
-
-/// Pid deviation level.
-///
-/// `C044` at holding 1128h (4392), `u16`, raw `0..1000`, steps of `0.1 %`, read and write.
-#[doc(alias = "C044")]
-#[derive(Clone, Copy, Debug)]
-pub struct PidDeviationLevel;
-
-impl runtime::Point for PidDeviationLevel {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "pid_deviation_level";
-    const CODE: Option<&'static str> = Some("C044");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1128;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "%";
-    const RAW_MAX: u16 = 1000;
-}
-
-impl runtime::Whole for PidDeviationLevel {}
-
-impl runtime::Readable for PidDeviationLevel {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for PidDeviationLevel {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for PidDeviationLevel {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for PidDeviationLevel {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for PidDeviationLevel {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 1000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl PidDeviationLevel {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4393;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_393;
-}
-
-/// Pid process value upper limit.
-///
-/// `C052` at holding 112Dh (4397), `u16`, raw `0..1000`, steps of `0.1 %`, read and write.
-#[doc(alias = "C052")]
-#[derive(Clone, Copy, Debug)]
-pub struct PidProcessValueUpperLimit;
-
-impl runtime::Point for PidProcessValueUpperLimit {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "pid_process_value_upper_limit";
-    const CODE: Option<&'static str> = Some("C052");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x112D;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "%";
-    const RAW_MAX: u16 = 1000;
-}
-
-impl runtime::Whole for PidProcessValueUpperLimit {}
-
-impl runtime::Readable for PidProcessValueUpperLimit {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for PidProcessValueUpperLimit {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for PidProcessValueUpperLimit {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for PidProcessValueUpperLimit {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for PidProcessValueUpperLimit {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 1000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl PidProcessValueUpperLimit {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4398;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_398;
-}
-
-/// Pid process value lower limit.
-///
-/// `C053` at holding 112Eh (4398), `u16`, raw `0..1000`, steps of `0.1 %`, read and write.
-#[doc(alias = "C053")]
-#[derive(Clone, Copy, Debug)]
-pub struct PidProcessValueLowerLimit;
-
-impl runtime::Point for PidProcessValueLowerLimit {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "pid_process_value_lower_limit";
-    const CODE: Option<&'static str> = Some("C053");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x112E;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "%";
-    const RAW_MAX: u16 = 1000;
-}
-
-impl runtime::Whole for PidProcessValueLowerLimit {}
-
-impl runtime::Readable for PidProcessValueLowerLimit {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for PidProcessValueLowerLimit {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for PidProcessValueLowerLimit {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for PidProcessValueLowerLimit {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for PidProcessValueLowerLimit {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 1000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl PidProcessValueLowerLimit {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4399;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_399;
-}
-
-/// Input o calibration.
-///
-/// `C081` at holding 1140h (4416), `u16`, raw `0..2000`, steps of `0.1 %`, read and write.
-#[doc(alias = "C081")]
-#[derive(Clone, Copy, Debug)]
-pub struct InputOCalibration;
-
-impl runtime::Point for InputOCalibration {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "input_o_calibration";
-    const CODE: Option<&'static str> = Some("C081");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1140;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "%";
-    const RAW_MAX: u16 = 2000;
-}
-
-impl runtime::Whole for InputOCalibration {}
-
-impl runtime::Readable for InputOCalibration {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for InputOCalibration {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for InputOCalibration {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=2000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for InputOCalibration {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for InputOCalibration {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 2000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl InputOCalibration {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4417;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_417;
-}
-
-/// Input oi calibration.
-///
-/// `C082` at holding 1141h (4417), `u16`, raw `0..2000`, steps of `0.1 %`, read and write.
-#[doc(alias = "C082")]
-#[derive(Clone, Copy, Debug)]
-pub struct InputOiCalibration;
-
-impl runtime::Point for InputOiCalibration {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "input_oi_calibration";
-    const CODE: Option<&'static str> = Some("C082");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1141;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "%";
-    const RAW_MAX: u16 = 2000;
-}
-
-impl runtime::Whole for InputOiCalibration {}
-
-impl runtime::Readable for InputOiCalibration {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for InputOiCalibration {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for InputOiCalibration {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=2000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for InputOiCalibration {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for InputOiCalibration {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 2000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl InputOiCalibration {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4418;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_418;
-}
-
-/// Thermistor input calibration.
-///
-/// `C085` at holding 1143h (4419), `u16`, raw `0..2000`, steps of `0.1 %`, read and write.
-#[doc(alias = "C085")]
-#[derive(Clone, Copy, Debug)]
-pub struct ThermistorInputCalibration;
-
-impl runtime::Point for ThermistorInputCalibration {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "thermistor_input_calibration";
-    const CODE: Option<&'static str> = Some("C085");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1143;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "%";
-    const RAW_MAX: u16 = 2000;
-}
-
-impl runtime::Whole for ThermistorInputCalibration {}
-
-impl runtime::Readable for ThermistorInputCalibration {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for ThermistorInputCalibration {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for ThermistorInputCalibration {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=2000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for ThermistorInputCalibration {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for ThermistorInputCalibration {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 2000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl ThermistorInputCalibration {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4420;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_420;
-}
-
-/// Analog output offset.
-///
-/// `C086` at holding 1144h (4420), `u16`, raw `0..100`, steps of `0.1 V`, read and write.
-#[doc(alias = "C086")]
-#[derive(Clone, Copy, Debug)]
-pub struct AnalogOutputOffset;
-
-impl runtime::Point for AnalogOutputOffset {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "analog_output_offset";
-    const CODE: Option<&'static str> = Some("C086");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1144;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "V";
-    const RAW_MAX: u16 = 100;
-}
-
-impl runtime::Whole for AnalogOutputOffset {}
-
-impl runtime::Readable for AnalogOutputOffset {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for AnalogOutputOffset {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for AnalogOutputOffset {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=100);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for AnalogOutputOffset {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for AnalogOutputOffset {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 100)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl AnalogOutputOffset {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4421;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_421;
-}
-
-/// Motor potentiometer memory.
-///
-/// `C101` at holding 1148h (4424), `u16`, raw `0, 1`, read and write.
-#[doc(alias = "C101")]
-#[derive(Clone, Copy, Debug)]
-pub struct MotorPotentiometerMemory;
-
-impl runtime::Point for MotorPotentiometerMemory {
-    type Raw = u16;
-    type Value = enums::MotorPotentiometerMemory;
-    const NAME: &'static str = "motor_potentiometer_memory";
-    const CODE: Option<&'static str> = Some("C101");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1148;
-    const RAW_MAX: u16 = 1;
-}
-
-impl runtime::Whole for MotorPotentiometerMemory {}
-
-impl runtime::Readable for MotorPotentiometerMemory {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::MotorPotentiometerMemory::from(raw)
-    }
-}
-
-impl runtime::CountReadable for MotorPotentiometerMemory {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for MotorPotentiometerMemory {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for MotorPotentiometerMemory {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for MotorPotentiometerMemory {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl MotorPotentiometerMemory {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4425;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_425;
-}
-
-/// Reset mode.
-///
-/// `C102` at holding 1149h (4425), `u16`, raw `0..2`, read and write.
-#[doc(alias = "C102")]
-#[derive(Clone, Copy, Debug)]
-pub struct ResetMode;
-
-impl runtime::Point for ResetMode {
-    type Raw = u16;
-    type Value = enums::ResetMode;
-    const NAME: &'static str = "reset_mode";
-    const CODE: Option<&'static str> = Some("C102");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1149;
-    const RAW_MAX: u16 = 2;
-}
-
-impl runtime::Whole for ResetMode {}
-
-impl runtime::Readable for ResetMode {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::ResetMode::from(raw)
-    }
-}
-
-impl runtime::CountReadable for ResetMode {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for ResetMode {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=2);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for ResetMode {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for ResetMode {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl ResetMode {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4426;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_426;
-}
-
-/// Logic input a.
-///
-/// `C141` at holding 114Fh (4431), `u16`, raw `0..10`, read and write.
-///
-/// Errata: `c021_functions`.
-#[doc(alias = "C141")]
-#[derive(Clone, Copy, Debug)]
-pub struct LogicInputA;
-
-impl runtime::Point for LogicInputA {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "logic_input_a";
-    const CODE: Option<&'static str> = Some("C141");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x114F;
-    const RAW_MAX: u16 = 10;
-}
-
-impl runtime::Whole for LogicInputA {}
-
-impl runtime::Readable for LogicInputA {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for LogicInputA {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for LogicInputA {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=10);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for LogicInputA {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for LogicInputA {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl LogicInputA {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4432;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_432;
-}
-
-/// Logic input b.
-///
-/// `C142` at holding 1150h (4432), `u16`, raw `0..10`, read and write.
-///
-/// Errata: `c021_functions`.
-#[doc(alias = "C142")]
-#[derive(Clone, Copy, Debug)]
-pub struct LogicInputB;
-
-impl runtime::Point for LogicInputB {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "logic_input_b";
-    const CODE: Option<&'static str> = Some("C142");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1150;
-    const RAW_MAX: u16 = 10;
-}
-
-impl runtime::Whole for LogicInputB {}
-
-impl runtime::Readable for LogicInputB {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for LogicInputB {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for LogicInputB {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=10);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for LogicInputB {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for LogicInputB {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl LogicInputB {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4433;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_433;
-}
-
-/// Logic operator.
-///
-/// `C143` at holding 1151h (4433), `u16`, raw `0..2`, read and write.
-#[doc(alias = "C143")]
-#[derive(Clone, Copy, Debug)]
-pub struct LogicOperator;
-
-impl runtime::Point for LogicOperator {
-    type Raw = u16;
-    type Value = enums::LogicOperator;
-    const NAME: &'static str = "logic_operator";
-    const CODE: Option<&'static str> = Some("C143");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1151;
-    const RAW_MAX: u16 = 2;
-}
-
-impl runtime::Whole for LogicOperator {}
-
-impl runtime::Readable for LogicOperator {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::LogicOperator::from(raw)
-    }
-}
-
-impl runtime::CountReadable for LogicOperator {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for LogicOperator {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=2);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for LogicOperator {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for LogicOperator {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl LogicOperator {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4434;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_434;
-}
-
-/// Digital output 11 on delay.
-///
-/// `C144` at holding 1152h (4434), `u16`, raw `0..1000`, steps of `0.1 s`, read and write.
-#[doc(alias = "C144")]
-#[derive(Clone, Copy, Debug)]
-pub struct DigitalOutput11OnDelay;
-
-impl runtime::Point for DigitalOutput11OnDelay {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "digital_output_11_on_delay";
-    const CODE: Option<&'static str> = Some("C144");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1152;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "s";
-    const RAW_MAX: u16 = 1000;
-}
-
-impl runtime::Whole for DigitalOutput11OnDelay {}
-
-impl runtime::Readable for DigitalOutput11OnDelay {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for DigitalOutput11OnDelay {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for DigitalOutput11OnDelay {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for DigitalOutput11OnDelay {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for DigitalOutput11OnDelay {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 1000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl DigitalOutput11OnDelay {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4435;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_435;
-}
-
-/// Digital output 11 off delay.
-///
-/// `C145` at holding 1153h (4435), `u16`, raw `0..1000`, steps of `0.1 s`, read and write.
-#[doc(alias = "C145")]
-#[derive(Clone, Copy, Debug)]
-pub struct DigitalOutput11OffDelay;
-
-impl runtime::Point for DigitalOutput11OffDelay {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "digital_output_11_off_delay";
-    const CODE: Option<&'static str> = Some("C145");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1153;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "s";
-    const RAW_MAX: u16 = 1000;
-}
-
-impl runtime::Whole for DigitalOutput11OffDelay {}
-
-impl runtime::Readable for DigitalOutput11OffDelay {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for DigitalOutput11OffDelay {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for DigitalOutput11OffDelay {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for DigitalOutput11OffDelay {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for DigitalOutput11OffDelay {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 1000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl DigitalOutput11OffDelay {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4436;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_436;
-}
-
-/// Digital output 12 on delay.
-///
-/// `C146` at holding 1154h (4436), `u16`, raw `0..1000`, steps of `0.1 s`, read and write.
-#[doc(alias = "C146")]
-#[derive(Clone, Copy, Debug)]
-pub struct DigitalOutput12OnDelay;
-
-impl runtime::Point for DigitalOutput12OnDelay {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "digital_output_12_on_delay";
-    const CODE: Option<&'static str> = Some("C146");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1154;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "s";
-    const RAW_MAX: u16 = 1000;
-}
-
-impl runtime::Whole for DigitalOutput12OnDelay {}
-
-impl runtime::Readable for DigitalOutput12OnDelay {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for DigitalOutput12OnDelay {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for DigitalOutput12OnDelay {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for DigitalOutput12OnDelay {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for DigitalOutput12OnDelay {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 1000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl DigitalOutput12OnDelay {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4437;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_437;
-}
-
-/// Digital output 12 off delay.
-///
-/// `C147` at holding 1155h (4437), `u16`, raw `0..1000`, steps of `0.1 s`, read and write.
-#[doc(alias = "C147")]
-#[derive(Clone, Copy, Debug)]
-pub struct DigitalOutput12OffDelay;
-
-impl runtime::Point for DigitalOutput12OffDelay {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "digital_output_12_off_delay";
-    const CODE: Option<&'static str> = Some("C147");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1155;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "s";
-    const RAW_MAX: u16 = 1000;
-}
-
-impl runtime::Whole for DigitalOutput12OffDelay {}
-
-impl runtime::Readable for DigitalOutput12OffDelay {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for DigitalOutput12OffDelay {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for DigitalOutput12OffDelay {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for DigitalOutput12OffDelay {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for DigitalOutput12OffDelay {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 1000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl DigitalOutput12OffDelay {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4438;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_438;
-}
-
-/// Relay output on delay.
-///
-/// `C148` at holding 1156h (4438), `u16`, raw `0..1000`, steps of `0.1 s`, read and write.
-#[doc(alias = "C148")]
-#[derive(Clone, Copy, Debug)]
-pub struct RelayOutputOnDelay;
-
-impl runtime::Point for RelayOutputOnDelay {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "relay_output_on_delay";
-    const CODE: Option<&'static str> = Some("C148");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1156;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "s";
-    const RAW_MAX: u16 = 1000;
-}
-
-impl runtime::Whole for RelayOutputOnDelay {}
-
-impl runtime::Readable for RelayOutputOnDelay {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for RelayOutputOnDelay {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for RelayOutputOnDelay {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for RelayOutputOnDelay {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for RelayOutputOnDelay {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 1000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl RelayOutputOnDelay {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4439;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_439;
-}
-
-/// Relay output off delay.
-///
-/// `C149` at holding 1157h (4439), `u16`, raw `0..1000`, steps of `0.1 s`, read and write.
-#[doc(alias = "C149")]
-#[derive(Clone, Copy, Debug)]
-pub struct RelayOutputOffDelay;
-
-impl runtime::Point for RelayOutputOffDelay {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "relay_output_off_delay";
-    const CODE: Option<&'static str> = Some("C149");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1157;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "s";
-    const RAW_MAX: u16 = 1000;
-}
-
-impl runtime::Whole for RelayOutputOffDelay {}
-
-impl runtime::Readable for RelayOutputOffDelay {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for RelayOutputOffDelay {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for RelayOutputOffDelay {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for RelayOutputOffDelay {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for RelayOutputOffDelay {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 1000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-impl RelayOutputOffDelay {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4440;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_440;
-}
-
-/// Motor power.
-///
-/// `H003` at holding 1164h (4452), `u16`, raw `0..12`, read and write.
-#[doc(alias = "H003")]
-#[derive(Clone, Copy, Debug)]
-pub struct MotorPower;
-
-impl runtime::Point for MotorPower {
-    type Raw = u16;
-    type Value = enums::MotorPower;
-    const NAME: &'static str = "motor_power";
-    const CODE: Option<&'static str> = Some("H003");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1164;
-    const RAW_MAX: u16 = 12;
-}
-
-impl runtime::Whole for MotorPower {}
-
-impl runtime::Readable for MotorPower {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::MotorPower::from(raw)
-    }
-}
-
-impl runtime::CountReadable for MotorPower {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for MotorPower {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=12);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for MotorPower {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for MotorPower {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl MotorPower {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4453;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_453;
-}
-
-/// Motor power set 2.
-///
-/// `H203` at holding 153Fh (5439), `u16`, raw `0..12`, read and write.
-#[doc(alias = "H203")]
-#[derive(Clone, Copy, Debug)]
-pub struct MotorPowerSet2;
-
-impl runtime::Point for MotorPowerSet2 {
-    type Raw = u16;
-    type Value = enums::MotorPower;
-    const NAME: &'static str = "motor_power_set_2";
-    const CODE: Option<&'static str> = Some("H203");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x153F;
-    const RAW_MAX: u16 = 12;
-}
-
-impl runtime::Whole for MotorPowerSet2 {}
-
-impl runtime::Readable for MotorPowerSet2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::MotorPower::from(raw)
-    }
-}
-
-impl runtime::CountReadable for MotorPowerSet2 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for MotorPowerSet2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=12);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for MotorPowerSet2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for MotorPowerSet2 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl MotorPowerSet2 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 5440;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 405_440;
-}
-
-/// Motor poles.
-///
-/// `H004` at holding 1165h (4453), `u16`, raw `2, 4, 6, 8`, read and write.
-///
-/// Errata: `h004_step`.
-#[doc(alias = "H004")]
-#[derive(Clone, Copy, Debug)]
-pub struct MotorPoles;
-
-impl runtime::Point for MotorPoles {
-    type Raw = u16;
-    type Value = enums::MotorPoles;
-    const NAME: &'static str = "motor_poles";
-    const CODE: Option<&'static str> = Some("H004");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1165;
-    const RAW_MIN: u16 = 2;
-    const RAW_MAX: u16 = 8;
-}
-
-impl runtime::Whole for MotorPoles {}
-
-impl runtime::Readable for MotorPoles {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::MotorPoles::from(raw)
-    }
-}
-
-impl runtime::CountReadable for MotorPoles {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for MotorPoles {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 2 | 4 | 6 | 8);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for MotorPoles {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for MotorPoles {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl MotorPoles {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4454;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_454;
-}
-
-/// Motor poles set 2.
-///
-/// `H204` at holding 1540h (5440), `u16`, raw `2, 4, 6, 8`, read and write.
-///
-/// Errata: `h004_step`.
-#[doc(alias = "H204")]
-#[derive(Clone, Copy, Debug)]
-pub struct MotorPolesSet2;
-
-impl runtime::Point for MotorPolesSet2 {
-    type Raw = u16;
-    type Value = enums::MotorPoles;
-    const NAME: &'static str = "motor_poles_set_2";
-    const CODE: Option<&'static str> = Some("H204");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1540;
-    const RAW_MIN: u16 = 2;
-    const RAW_MAX: u16 = 8;
-}
-
-impl runtime::Whole for MotorPolesSet2 {}
-
-impl runtime::Readable for MotorPolesSet2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::MotorPoles::from(raw)
-    }
-}
-
-impl runtime::CountReadable for MotorPolesSet2 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for MotorPolesSet2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 2 | 4 | 6 | 8);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for MotorPolesSet2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for MotorPolesSet2 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl MotorPolesSet2 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 5441;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 405_441;
-}
-
-/// Stabilization constant.
-///
-/// `H006` at holding 1167h (4455), `u16`, raw `0..255`, read and write.
-#[doc(alias = "H006")]
-#[derive(Clone, Copy, Debug)]
-pub struct StabilizationConstant;
-
-impl runtime::Point for StabilizationConstant {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "stabilization_constant";
-    const CODE: Option<&'static str> = Some("H006");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1167;
-    const RAW_MAX: u16 = 255;
-}
-
-impl runtime::Whole for StabilizationConstant {}
-
-impl runtime::Readable for StabilizationConstant {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for StabilizationConstant {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for StabilizationConstant {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=255);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for StabilizationConstant {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for StabilizationConstant {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl StabilizationConstant {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 4456;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 404_456;
-}
-
-/// Stabilization constant set 2.
-///
-/// `H206` at holding 1542h (5442), `u16`, raw `0..255`, read and write.
-#[doc(alias = "H206")]
-#[derive(Clone, Copy, Debug)]
-pub struct StabilizationConstantSet2;
-
-impl runtime::Point for StabilizationConstantSet2 {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "stabilization_constant_set_2";
-    const CODE: Option<&'static str> = Some("H206");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x1542;
-    const RAW_MAX: u16 = 255;
-}
-
-impl runtime::Whole for StabilizationConstantSet2 {}
-
-impl runtime::Readable for StabilizationConstantSet2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for StabilizationConstantSet2 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for StabilizationConstantSet2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=255);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for StabilizationConstantSet2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for StabilizationConstantSet2 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl StabilizationConstantSet2 {
-    /// The number in the numbering modicon.
-    pub const MODICON: u32 = 5443;
-    /// The number in the numbering reference.
-    pub const REFERENCE: u32 = 405_443;
+point! {
+    /// Run command.
+    ///
+    /// At coil 0000h (0), `bit`, raw `0, 1`, read and write.
+    RunCommand: u8 = "run_command";
+    at Coil 0x0000;
+    const MODICON: u32 = 1;
+    raw 0..=1;
+    => value enums::RunCommand as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Direction command.
+    ///
+    /// At coil 0001h (1), `bit`, raw `0, 1`, read and write.
+    DirectionCommand: u8 = "direction_command";
+    at Coil 0x0001;
+    const MODICON: u32 = 2;
+    raw 0..=1;
+    => value enums::DirectionCommand as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// External trip.
+    ///
+    /// At coil 0002h (2), `bit`, raw `0, 1`, read and write.
+    ExternalTrip: u8 = "external_trip";
+    at Coil 0x0002;
+    const MODICON: u32 = 3;
+    raw 0..=1;
+    => value enums::ExternalTrip as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Trip reset.
+    ///
+    /// At coil 0003h (3), `bit`, raw `0, 1`, read and write.
+    TripReset: u8 = "trip_reset";
+    at Coil 0x0003;
+    const MODICON: u32 = 4;
+    raw 0..=1;
+    => value enums::TripReset as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Digital input 1.
+    ///
+    /// At coil 0006h (6), `bit`, raw `0, 1`, read and write.
+    DigitalInput1: u8 = "digital_input_1";
+    at Coil 0x0006;
+    const MODICON: u32 = 7;
+    raw 0..=1;
+    => value enums::OffOn as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Digital input 2.
+    ///
+    /// At coil 0007h (7), `bit`, raw `0, 1`, read and write.
+    DigitalInput2: u8 = "digital_input_2";
+    at Coil 0x0007;
+    const MODICON: u32 = 8;
+    raw 0..=1;
+    => value enums::OffOn as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Digital input 3.
+    ///
+    /// At coil 0008h (8), `bit`, raw `0, 1`, read and write.
+    DigitalInput3: u8 = "digital_input_3";
+    at Coil 0x0008;
+    const MODICON: u32 = 9;
+    raw 0..=1;
+    => value enums::OffOn as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Digital input 4.
+    ///
+    /// At coil 0009h (9), `bit`, raw `0, 1`, read and write.
+    DigitalInput4: u8 = "digital_input_4";
+    at Coil 0x0009;
+    const MODICON: u32 = 10;
+    raw 0..=1;
+    => value enums::OffOn as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Digital input 5.
+    ///
+    /// At coil 000Ah (10), `bit`, raw `0, 1`, read and write.
+    DigitalInput5: u8 = "digital_input_5";
+    at Coil 0x000A;
+    const MODICON: u32 = 11;
+    raw 0..=1;
+    => value enums::OffOn as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Running.
+    ///
+    /// At coil 000Dh (13), `bit`, raw `0, 1`, read only.
+    Running: u8 = "running";
+    at Coil 0x000D;
+    const MODICON: u32 = 14;
+    raw 0..=1;
+    => value enums::Running as named(u8);
+    read { count i32; }
+}
+
+point! {
+    /// Direction status.
+    ///
+    /// At coil 000Eh (14), `bit`, raw `0, 1`, read only.
+    DirectionStatus: u8 = "direction_status";
+    at Coil 0x000E;
+    const MODICON: u32 = 15;
+    raw 0..=1;
+    => value enums::DirectionStatus as named(u8);
+    read { count i32; }
+}
+
+point! {
+    /// Ready.
+    ///
+    /// At coil 000Fh (15), `bit`, raw `0, 1`, read only.
+    Ready: u8 = "ready";
+    at Coil 0x000F;
+    const MODICON: u32 = 16;
+    raw 0..=1;
+    => value enums::Ready as named(u8);
+    read { count i32; }
+}
+
+point! {
+    /// Alarm.
+    ///
+    /// At coil 0013h (19), `bit`, raw `0, 1`, read only.
+    Alarm: u8 = "alarm";
+    at Coil 0x0013;
+    const MODICON: u32 = 20;
+    raw 0..=1;
+    => value enums::Alarm as named(u8);
+    read { count i32; }
+}
+
+point! {
+    /// Pid deviation.
+    ///
+    /// At coil 0014h (20), `bit`, raw `0, 1`, read only.
+    PidDeviation: u8 = "pid_deviation";
+    at Coil 0x0014;
+    const MODICON: u32 = 21;
+    raw 0..=1;
+    => value enums::OffOn as named(u8);
+    read { count i32; }
+}
+
+point! {
+    /// Overload.
+    ///
+    /// At coil 0015h (21), `bit`, raw `0, 1`, read only.
+    Overload: u8 = "overload";
+    at Coil 0x0015;
+    const MODICON: u32 = 22;
+    raw 0..=1;
+    => value enums::OffOn as named(u8);
+    read { count i32; }
+}
+
+point! {
+    /// Frequency arrival in acceleration.
+    ///
+    /// At coil 0016h (22), `bit`, raw `0, 1`, read only.
+    FrequencyArrivalInAcceleration: u8 = "frequency_arrival_in_acceleration";
+    at Coil 0x0016;
+    const MODICON: u32 = 23;
+    raw 0..=1;
+    => value enums::OffOn as named(u8);
+    read { count i32; }
+}
+
+point! {
+    /// Frequency arrival at constant speed.
+    ///
+    /// At coil 0017h (23), `bit`, raw `0, 1`, read only.
+    FrequencyArrivalAtConstantSpeed: u8 = "frequency_arrival_at_constant_speed";
+    at Coil 0x0017;
+    const MODICON: u32 = 24;
+    raw 0..=1;
+    => value enums::OffOn as named(u8);
+    read { count i32; }
+}
+
+point! {
+    /// Run mode.
+    ///
+    /// At coil 0018h (24), `bit`, raw `0, 1`, read only.
+    RunMode: u8 = "run_mode";
+    at Coil 0x0018;
+    const MODICON: u32 = 25;
+    raw 0..=1;
+    => value enums::OffOn as named(u8);
+    read { count i32; }
+}
+
+point! {
+    /// Data write.
+    ///
+    /// At coil 0019h (25), `bit`, raw `0, 1`, read only.
+    DataWrite: u8 = "data_write";
+    at Coil 0x0019;
+    const MODICON: u32 = 26;
+    raw 0..=1;
+    => value enums::DataWrite as named(u8);
+    read { count i32; }
+}
+
+point! {
+    /// Crc error.
+    ///
+    /// At coil 001Ah (26), `bit`, raw `0, 1`, read only.
+    CrcError: u8 = "crc_error";
+    at Coil 0x001A;
+    const MODICON: u32 = 27;
+    raw 0..=1;
+    => value enums::ErrorFlag as named(u8);
+    read { count i32; }
+}
+
+point! {
+    /// Overrun error.
+    ///
+    /// At coil 001Bh (27), `bit`, raw `0, 1`, read only.
+    OverrunError: u8 = "overrun_error";
+    at Coil 0x001B;
+    const MODICON: u32 = 28;
+    raw 0..=1;
+    => value enums::ErrorFlag as named(u8);
+    read { count i32; }
+}
+
+point! {
+    /// Framing error.
+    ///
+    /// At coil 001Ch (28), `bit`, raw `0, 1`, read only.
+    FramingError: u8 = "framing_error";
+    at Coil 0x001C;
+    const MODICON: u32 = 29;
+    raw 0..=1;
+    => value enums::ErrorFlag as named(u8);
+    read { count i32; }
+}
+
+point! {
+    /// Parity error.
+    ///
+    /// At coil 001Dh (29), `bit`, raw `0, 1`, read only.
+    ///
+    /// Erratum: `coil_parity_error_wire_decimal`.
+    ParityError: u8 = "parity_error";
+    at Coil 0x001D;
+    const MODICON: u32 = 30;
+    raw 0..=1;
+    => value enums::ErrorFlag as named(u8);
+    read { count i32; }
+}
+
+point! {
+    /// Checksum error.
+    ///
+    /// At coil 001Eh (30), `bit`, raw `0, 1`, read only.
+    ChecksumError: u8 = "checksum_error";
+    at Coil 0x001E;
+    const MODICON: u32 = 31;
+    raw 0..=1;
+    => value enums::ErrorFlag as named(u8);
+    read { count i32; }
+}
+
+point! {
+    /// Network frequency setpoint.
+    ///
+    /// At holding 0001h (1), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
+    NetworkFrequencySetpoint: u16 = "network_frequency_setpoint";
+    at Holding 0x0001;
+    const MODICON: u32 = 2;
+    const REFERENCE: u32 = 400_002;
+    unit "Hz";
+    decimals 1;
+    raw 0..=4000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Inverter status.
+    ///
+    /// At holding 0002h (2), `u16`, raw `0..9`, read and write.
+    InverterStatus: u16 = "inverter_status";
+    at Holding 0x0002;
+    const MODICON: u32 = 3;
+    const REFERENCE: u32 = 400_003;
+    raw 0..=9;
+    => value enums::InverterStatus as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Network process value.
+    ///
+    /// At holding 0004h (4), `u16`, raw `0..1000`, one count is `0.1 %`, read and write.
+    NetworkProcessValue: u16 = "network_process_value";
+    at Holding 0x0004;
+    const MODICON: u32 = 5;
+    const REFERENCE: u32 = 400_005;
+    unit "%";
+    decimals 1;
+    raw 0..=1000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Output frequency.
+    ///
+    /// `d001` at holding 1001h (4097), `u16`, raw `0..4000`, one count is `0.1 Hz`, read only.
+    #[doc(alias = "d001")]
+    OutputFrequency: u16 = "output_frequency", "d001";
+    at Holding 0x1001;
+    const MODICON: u32 = 4098;
+    const REFERENCE: u32 = 404_098;
+    unit "Hz";
+    decimals 1;
+    raw 0..=4000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+}
+
+point! {
+    /// Motor current.
+    ///
+    /// `d002` at holding 1002h (4098), `u16`, raw `0..2000`, one count is `0.1 %`, read only.
+    #[doc(alias = "d002")]
+    MotorCurrent: u16 = "motor_current", "d002";
+    at Holding 0x1002;
+    const MODICON: u32 = 4099;
+    const REFERENCE: u32 = 404_099;
+    unit "%";
+    decimals 1;
+    raw 0..=2000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+}
+
+point! {
+    /// Rotation direction.
+    ///
+    /// `d003` at holding 1003h (4099), `u16`, raw `0..2`, read only.
+    #[doc(alias = "d003")]
+    RotationDirection: u16 = "rotation_direction", "d003";
+    at Holding 0x1003;
+    const MODICON: u32 = 4100;
+    const REFERENCE: u32 = 404_100;
+    raw 0..=2;
+    => value enums::RotationDirection as named(u16);
+    read { count i32; }
+}
+
+point! {
+    /// Scaled process value.
+    ///
+    /// `d004` at holding 1004h (4100), `u32`, raw `0..999900`, one count is `0.01 %`, read only.
+    ///
+    /// Errata: `d004_range_in_units`, `d004_resolution`.
+    #[doc(alias = "d004")]
+    ScaledProcessValue: u32 = "scaled_process_value", "d004";
+    at Holding 0x1004;
+    addresses [0x1004, 0x1005];
+    words 2;
+    const MODICON: u32 = 4101;
+    const REFERENCE: u32 = 404_101;
+    unit "%";
+    decimals 2;
+    raw 0..=999_900;
+    => value f64 as scaled(100, 1);
+    read { count i64; }
+}
+
+point! {
+    /// Digital inputs.
+    ///
+    /// `d005` at holding 1006h (4102), `u16`, raw `0..31`, read only.
+    ///
+    /// Erratum: `d005_range`.
+    #[doc(alias = "d005")]
+    DigitalInputs: u16 = "digital_inputs", "d005";
+    at Holding 0x1006;
+    const MODICON: u32 = 4103;
+    const REFERENCE: u32 = 404_103;
+    raw 0..=31;
+    => value flags::DigitalInputs as flags();
+    read { count i32; }
+}
+
+point! {
+    /// Digital outputs.
+    ///
+    /// `d006` at holding 1007h (4103), `u16`, raw `0..7`, read only.
+    #[doc(alias = "d006")]
+    DigitalOutputs: u16 = "digital_outputs", "d006";
+    at Holding 0x1007;
+    const MODICON: u32 = 4104;
+    const REFERENCE: u32 = 404_104;
+    raw 0..=7;
+    => value flags::DigitalOutputs as flags();
+    read { count i32; }
+}
+
+point! {
+    /// Output voltage.
+    ///
+    /// `d013` at holding 100Bh (4107), `u16`, raw `0..20000`, one count is `0.01 %`, read only.
+    #[doc(alias = "d013")]
+    OutputVoltage: u16 = "output_voltage", "d013";
+    at Holding 0x100B;
+    const MODICON: u32 = 4108;
+    const REFERENCE: u32 = 404_108;
+    unit "%";
+    decimals 2;
+    raw 0..=20_000;
+    => value f64 as scaled(100, 1);
+    read { count i32; }
+}
+
+point! {
+    /// Run time.
+    ///
+    /// `d016` at holding 100Dh (4109), `u32`, raw `0..999999`, read only.
+    ///
+    /// Erratum: `d016_range_in_units`.
+    #[doc(alias = "d016")]
+    RunTime: u32 = "run_time", "d016";
+    at Holding 0x100D;
+    addresses [0x100D, 0x100E];
+    words 2;
+    const MODICON: u32 = 4110;
+    const REFERENCE: u32 = 404_110;
+    unit "h";
+    raw 0..=999_999;
+    => value u32 as plain();
+    read { count i64; }
+}
+
+point! {
+    /// Power on time.
+    ///
+    /// `d017` at holding 100Fh (4111), `u32`, raw `0..999999`, read only.
+    ///
+    /// Erratum: `d017_range_in_units`.
+    #[doc(alias = "d017")]
+    PowerOnTime: u32 = "power_on_time", "d017";
+    at Holding 0x100F;
+    addresses [0x100F, 0x1010];
+    words 2;
+    const MODICON: u32 = 4112;
+    const REFERENCE: u32 = 404_112;
+    unit "h";
+    raw 0..=999_999;
+    => value u32 as plain();
+    read { count i64; }
+}
+
+point! {
+    /// Trip count.
+    ///
+    /// `d080` at holding 0010h (16), `u16`, raw `0..65535`, read only.
+    #[doc(alias = "d080")]
+    TripCount: u16 = "trip_count", "d080";
+    at Holding 0x0010;
+    const MODICON: u32 = 17;
+    const REFERENCE: u32 = 400_017;
+    => value u16 as plain();
+    read { count i32; }
+}
+
+point! {
+    /// Trip 1 error.
+    ///
+    /// `d081` at holding 0011h (17), `u16`, raw `0..65535`, read only.
+    #[doc(alias = "d081")]
+    Trip1Error: u16 = "trip_1_error", "d081";
+    at Holding 0x0011;
+    const MODICON: u32 = 18;
+    const REFERENCE: u32 = 400_018;
+    => value enums::TripCode as named(u16);
+    read { count i32; }
+}
+
+point! {
+    /// Trip 1 output frequency.
+    ///
+    /// `d081` at holding 0013h (19), `u16`, raw `0..65535`, one count is `0.1 Hz`, read only.
+    #[doc(alias = "d081")]
+    Trip1OutputFrequency: u16 = "trip_1_output_frequency", "d081";
+    at Holding 0x0013;
+    const MODICON: u32 = 20;
+    const REFERENCE: u32 = 400_020;
+    unit "Hz";
+    decimals 1;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+}
+
+point! {
+    /// Trip 1 motor current.
+    ///
+    /// `d081` at holding 0015h (21), `u16`, raw `0..65535`, one count is `0.1 %`, read only.
+    #[doc(alias = "d081")]
+    Trip1MotorCurrent: u16 = "trip_1_motor_current", "d081";
+    at Holding 0x0015;
+    const MODICON: u32 = 22;
+    const REFERENCE: u32 = 400_022;
+    unit "%";
+    decimals 1;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+}
+
+point! {
+    /// Trip 1 dc bus voltage.
+    ///
+    /// `d081` at holding 0016h (22), `u16`, raw `0..65535`, one count is `0.1 V`, read only.
+    #[doc(alias = "d081")]
+    Trip1DcBusVoltage: u16 = "trip_1_dc_bus_voltage", "d081";
+    at Holding 0x0016;
+    const MODICON: u32 = 23;
+    const REFERENCE: u32 = 400_023;
+    unit "V";
+    decimals 1;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+}
+
+point! {
+    /// Trip 1 run time.
+    ///
+    /// `d081` at holding 0017h (23), `u32`, raw `0..4294967295`, read only.
+    #[doc(alias = "d081")]
+    Trip1RunTime: u32 = "trip_1_run_time", "d081";
+    at Holding 0x0017;
+    addresses [0x0017, 0x0018];
+    words 2;
+    const MODICON: u32 = 24;
+    const REFERENCE: u32 = 400_024;
+    unit "h";
+    => value u32 as plain();
+    read { count i64; }
+}
+
+point! {
+    /// Trip 1 power on time.
+    ///
+    /// `d081` at holding 0019h (25), `u32`, raw `0..4294967295`, read only.
+    #[doc(alias = "d081")]
+    Trip1PowerOnTime: u32 = "trip_1_power_on_time", "d081";
+    at Holding 0x0019;
+    addresses [0x0019, 0x001A];
+    words 2;
+    const MODICON: u32 = 26;
+    const REFERENCE: u32 = 400_026;
+    unit "h";
+    => value u32 as plain();
+    read { count i64; }
+}
+
+point! {
+    /// Trip 2 error.
+    ///
+    /// `d082` at holding 001Bh (27), `u16`, raw `0..65535`, read only.
+    #[doc(alias = "d082")]
+    Trip2Error: u16 = "trip_2_error", "d082";
+    at Holding 0x001B;
+    const MODICON: u32 = 28;
+    const REFERENCE: u32 = 400_028;
+    => value enums::TripCode as named(u16);
+    read { count i32; }
+}
+
+point! {
+    /// Trip 2 output frequency.
+    ///
+    /// `d082` at holding 001Dh (29), `u16`, raw `0..65535`, one count is `0.1 Hz`, read only.
+    #[doc(alias = "d082")]
+    Trip2OutputFrequency: u16 = "trip_2_output_frequency", "d082";
+    at Holding 0x001D;
+    const MODICON: u32 = 30;
+    const REFERENCE: u32 = 400_030;
+    unit "Hz";
+    decimals 1;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+}
+
+point! {
+    /// Trip 2 motor current.
+    ///
+    /// `d082` at holding 001Fh (31), `u16`, raw `0..65535`, one count is `0.1 %`, read only.
+    #[doc(alias = "d082")]
+    Trip2MotorCurrent: u16 = "trip_2_motor_current", "d082";
+    at Holding 0x001F;
+    const MODICON: u32 = 32;
+    const REFERENCE: u32 = 400_032;
+    unit "%";
+    decimals 1;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+}
+
+point! {
+    /// Trip 2 dc bus voltage.
+    ///
+    /// `d082` at holding 0020h (32), `u16`, raw `0..65535`, one count is `0.1 V`, read only.
+    #[doc(alias = "d082")]
+    Trip2DcBusVoltage: u16 = "trip_2_dc_bus_voltage", "d082";
+    at Holding 0x0020;
+    const MODICON: u32 = 33;
+    const REFERENCE: u32 = 400_033;
+    unit "V";
+    decimals 1;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+}
+
+point! {
+    /// Trip 2 run time.
+    ///
+    /// `d082` at holding 0021h (33), `u32`, raw `0..4294967295`, read only.
+    #[doc(alias = "d082")]
+    Trip2RunTime: u32 = "trip_2_run_time", "d082";
+    at Holding 0x0021;
+    addresses [0x0021, 0x0022];
+    words 2;
+    const MODICON: u32 = 34;
+    const REFERENCE: u32 = 400_034;
+    unit "h";
+    => value u32 as plain();
+    read { count i64; }
+}
+
+point! {
+    /// Trip 2 power on time.
+    ///
+    /// `d082` at holding 0023h (35), `u32`, raw `0..4294967295`, read only.
+    #[doc(alias = "d082")]
+    Trip2PowerOnTime: u32 = "trip_2_power_on_time", "d082";
+    at Holding 0x0023;
+    addresses [0x0023, 0x0024];
+    words 2;
+    const MODICON: u32 = 36;
+    const REFERENCE: u32 = 400_036;
+    unit "h";
+    => value u32 as plain();
+    read { count i64; }
+}
+
+point! {
+    /// Trip 3 error.
+    ///
+    /// `d083` at holding 0025h (37), `u16`, raw `0..65535`, read only.
+    #[doc(alias = "d083")]
+    Trip3Error: u16 = "trip_3_error", "d083";
+    at Holding 0x0025;
+    const MODICON: u32 = 38;
+    const REFERENCE: u32 = 400_038;
+    => value enums::TripCode as named(u16);
+    read { count i32; }
+}
+
+point! {
+    /// Trip 3 output frequency.
+    ///
+    /// `d083` at holding 0027h (39), `u16`, raw `0..65535`, one count is `0.1 Hz`, read only.
+    #[doc(alias = "d083")]
+    Trip3OutputFrequency: u16 = "trip_3_output_frequency", "d083";
+    at Holding 0x0027;
+    const MODICON: u32 = 40;
+    const REFERENCE: u32 = 400_040;
+    unit "Hz";
+    decimals 1;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+}
+
+point! {
+    /// Trip 3 motor current.
+    ///
+    /// `d083` at holding 0029h (41), `u16`, raw `0..65535`, one count is `0.1 %`, read only.
+    #[doc(alias = "d083")]
+    Trip3MotorCurrent: u16 = "trip_3_motor_current", "d083";
+    at Holding 0x0029;
+    const MODICON: u32 = 42;
+    const REFERENCE: u32 = 400_042;
+    unit "%";
+    decimals 1;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+}
+
+point! {
+    /// Trip 3 dc bus voltage.
+    ///
+    /// `d083` at holding 002Ah (42), `u16`, raw `0..65535`, one count is `0.1 V`, read only.
+    #[doc(alias = "d083")]
+    Trip3DcBusVoltage: u16 = "trip_3_dc_bus_voltage", "d083";
+    at Holding 0x002A;
+    const MODICON: u32 = 43;
+    const REFERENCE: u32 = 400_043;
+    unit "V";
+    decimals 1;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+}
+
+point! {
+    /// Trip 3 run time.
+    ///
+    /// `d083` at holding 002Bh (43), `u32`, raw `0..4294967295`, read only.
+    #[doc(alias = "d083")]
+    Trip3RunTime: u32 = "trip_3_run_time", "d083";
+    at Holding 0x002B;
+    addresses [0x002B, 0x002C];
+    words 2;
+    const MODICON: u32 = 44;
+    const REFERENCE: u32 = 400_044;
+    unit "h";
+    => value u32 as plain();
+    read { count i64; }
+}
+
+point! {
+    /// Trip 3 power on time.
+    ///
+    /// `d083` at holding 002Dh (45), `u32`, raw `0..4294967295`, read only.
+    #[doc(alias = "d083")]
+    Trip3PowerOnTime: u32 = "trip_3_power_on_time", "d083";
+    at Holding 0x002D;
+    addresses [0x002D, 0x002E];
+    words 2;
+    const MODICON: u32 = 46;
+    const REFERENCE: u32 = 400_046;
+    unit "h";
+    => value u32 as plain();
+    read { count i64; }
+}
+
+point! {
+    /// Acceleration time.
+    ///
+    /// `F002` at holding 1013h (4115), `u32`, raw `1..300000`, steps of `0.01 s, from 100 s on 0.1 s`, one
+    /// count is `0.01 s`, read and write.
+    #[doc(alias = "F002")]
+    AccelerationTime: u32 = "acceleration_time", "F002";
+    at Holding 0x1013;
+    addresses [0x1013, 0x1014];
+    words 2;
+    const MODICON: u32 = 4116;
+    const REFERENCE: u32 = 404_116;
+    unit "s";
+    decimals 2;
+    raw 1..=300_000;
+    => value f64 as scaled(100, 1);
+    read { count i64; }
+    write { count i64; }
+}
+
+point! {
+    /// Acceleration time set 2.
+    ///
+    /// `F202` at holding 1500h (5376), `u32`, raw `1..300000`, steps of `0.01 s, from 100 s on 0.1 s`, one
+    /// count is `0.01 s`, read and write.
+    #[doc(alias = "F202")]
+    AccelerationTimeSet2: u32 = "acceleration_time_set_2", "F202";
+    at Holding 0x1500;
+    addresses [0x1500, 0x1501];
+    words 2;
+    const MODICON: u32 = 5377;
+    const REFERENCE: u32 = 405_377;
+    unit "s";
+    decimals 2;
+    raw 1..=300_000;
+    => value f64 as scaled(100, 1);
+    read { count i64; }
+    write { count i64; }
+}
+
+point! {
+    /// Deceleration time.
+    ///
+    /// `F003` at holding 1015h (4117), `u32`, raw `1..300000`, steps of `0.01 s, from 100 s on 0.1 s`, one
+    /// count is `0.01 s`, read and write.
+    #[doc(alias = "F003")]
+    DecelerationTime: u32 = "deceleration_time", "F003";
+    at Holding 0x1015;
+    addresses [0x1015, 0x1016];
+    words 2;
+    const MODICON: u32 = 4118;
+    const REFERENCE: u32 = 404_118;
+    unit "s";
+    decimals 2;
+    raw 1..=300_000;
+    => value f64 as scaled(100, 1);
+    read { count i64; }
+    write { count i64; }
+}
+
+point! {
+    /// Deceleration time set 2.
+    ///
+    /// `F203` at holding 1502h (5378), `u32`, raw `1..300000`, steps of `0.01 s, from 100 s on 0.1 s`, one
+    /// count is `0.01 s`, read and write.
+    #[doc(alias = "F203")]
+    DecelerationTimeSet2: u32 = "deceleration_time_set_2", "F203";
+    at Holding 0x1502;
+    addresses [0x1502, 0x1503];
+    words 2;
+    const MODICON: u32 = 5379;
+    const REFERENCE: u32 = 405_379;
+    unit "s";
+    decimals 2;
+    raw 1..=300_000;
+    => value f64 as scaled(100, 1);
+    read { count i64; }
+    write { count i64; }
+}
+
+point! {
+    /// Motor direction.
+    ///
+    /// `F004` at holding 1017h (4119), `u16`, raw `0, 1`, read and write.
+    ///
+    /// Erratum: `f004_wire_decimal`.
+    #[doc(alias = "F004")]
+    MotorDirection: u16 = "motor_direction", "F004";
+    at Holding 0x1017;
+    const MODICON: u32 = 4120;
+    const REFERENCE: u32 = 404_120;
+    raw 0..=1;
+    => value enums::MotorDirection as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Frequency source.
+    ///
+    /// `A001` at holding 1018h (4120), `u16`, raw `0..3, 10`, read and write.
+    #[doc(alias = "A001")]
+    FrequencySource: u16 = "frequency_source", "A001";
+    at Holding 0x1018;
+    const MODICON: u32 = 4121;
+    const REFERENCE: u32 = 404_121;
+    raw 0..=10;
+    => value enums::FrequencySource as named(u16);
+    read { count i32; }
+    write { count i32; closed true; in [0..=3 | 10]; }
+}
+
+point! {
+    /// Frequency source set 2.
+    ///
+    /// `A201` at holding 1509h (5385), `u16`, raw `0..3, 10`, read and write.
+    #[doc(alias = "A201")]
+    FrequencySourceSet2: u16 = "frequency_source_set_2", "A201";
+    at Holding 0x1509;
+    const MODICON: u32 = 5386;
+    const REFERENCE: u32 = 405_386;
+    raw 0..=10;
+    => value enums::FrequencySource as named(u16);
+    read { count i32; }
+    write { count i32; closed true; in [0..=3 | 10]; }
+}
+
+point! {
+    /// Run source.
+    ///
+    /// `A002` at holding 1019h (4121), `u16`, raw `1..3`, read and write.
+    ///
+    /// Erratum: `a002_wire_decimal`.
+    #[doc(alias = "A002")]
+    RunSource: u16 = "run_source", "A002";
+    at Holding 0x1019;
+    const MODICON: u32 = 4122;
+    const REFERENCE: u32 = 404_122;
+    raw 1..=3;
+    => value enums::RunSource as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Run source set 2.
+    ///
+    /// `A202` at holding 150Ah (5386), `u16`, raw `1..3`, read and write.
+    #[doc(alias = "A202")]
+    RunSourceSet2: u16 = "run_source_set_2", "A202";
+    at Holding 0x150A;
+    const MODICON: u32 = 5387;
+    const REFERENCE: u32 = 405_387;
+    raw 1..=3;
+    => value enums::RunSource as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Motor rated frequency.
+    ///
+    /// `A003` at holding 101Ah (4122), `u16`, raw `30..min(400, maximum_frequency.raw)`, read and write.
+    #[doc(alias = "A003")]
+    MotorRatedFrequency: u16 = "motor_rated_frequency", "A003";
+    at Holding 0x101A;
+    const MODICON: u32 = 4123;
+    const REFERENCE: u32 = 404_123;
+    unit "Hz";
+    raw 30..=400;
+    => value u16 as plain();
+    read { count i32; }
+    write {
+        count i32;
+        with with::MotorRatedFrequency;
+        limits |with| [
+            (30, runtime::Rule::new(1, 1).limited_by(with.maximum_frequency)?.limit()?.min(400)),
+        ];
+    }
+}
+
+point! {
+    /// Motor rated frequency set 2.
+    ///
+    /// `A203` at holding 150Bh (5387), `u16`, raw `30..min(400, maximum_frequency_set_2.raw)`, read and write.
+    #[doc(alias = "A203")]
+    MotorRatedFrequencySet2: u16 = "motor_rated_frequency_set_2", "A203";
+    at Holding 0x150B;
+    const MODICON: u32 = 5388;
+    const REFERENCE: u32 = 405_388;
+    unit "Hz";
+    raw 30..=400;
+    => value u16 as plain();
+    read { count i32; }
+    write {
+        count i32;
+        with with::MotorRatedFrequencySet2;
+        limits |with| [
+            (30, runtime::Rule::new(1, 1).limited_by(with.maximum_frequency_set_2)?.limit()?.min(400)),
+        ];
+    }
+}
+
+point! {
+    /// Maximum frequency.
+    ///
+    /// `A004` at holding 101Bh (4123), `u16`, raw `max(30, motor_rated_frequency.raw)..400`, read and write.
+    ///
+    /// Erratum: `a004_range`.
+    #[doc(alias = "A004")]
+    MaximumFrequency: u16 = "maximum_frequency", "A004";
+    at Holding 0x101B;
+    const MODICON: u32 = 4124;
+    const REFERENCE: u32 = 404_124;
+    unit "Hz";
+    raw 30..=400;
+    => value u16 as plain();
+    read { count i32; }
+    write {
+        count i32;
+        with with::MaximumFrequency;
+        limits |with| [
+            (runtime::Rule::new(1, 1).limited_by(with.motor_rated_frequency)?.limit()?.max(30), 400),
+        ];
+    }
+}
+
+point! {
+    /// Maximum frequency set 2.
+    ///
+    /// `A204` at holding 150Ch (5388), `u16`, raw `max(30, motor_rated_frequency_set_2.raw)..400`, read and
+    /// write.
+    ///
+    /// Erratum: `a204_range`.
+    #[doc(alias = "A204")]
+    MaximumFrequencySet2: u16 = "maximum_frequency_set_2", "A204";
+    at Holding 0x150C;
+    const MODICON: u32 = 5389;
+    const REFERENCE: u32 = 405_389;
+    unit "Hz";
+    raw 30..=400;
+    => value u16 as plain();
+    read { count i32; }
+    write {
+        count i32;
+        with with::MaximumFrequencySet2;
+        limits |with| [
+            (runtime::Rule::new(1, 1).limited_by(with.motor_rated_frequency_set_2)?.limit()?.max(30), 400),
+        ];
+    }
+}
+
+point! {
+    /// At terminal selection.
+    ///
+    /// `A005` at holding 101Ch (4124), `u16`, raw `0..3`, read and write.
+    #[doc(alias = "A005")]
+    AtTerminalSelection: u16 = "at_terminal_selection", "A005";
+    at Holding 0x101C;
+    const MODICON: u32 = 4125;
+    const REFERENCE: u32 = 404_125;
+    raw 0..=3;
+    => value enums::AtTerminalSelection as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Input o minimum frequency.
+    ///
+    /// `A011` at holding 101Fh (4127), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
+    #[doc(alias = "A011")]
+    InputOMinimumFrequency: u16 = "input_o_minimum_frequency", "A011";
+    at Holding 0x101F;
+    const MODICON: u32 = 4128;
+    const REFERENCE: u32 = 404_128;
+    unit "Hz";
+    decimals 1;
+    raw 0..=4000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Input o maximum frequency.
+    ///
+    /// `A012` at holding 1021h (4129), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
+    #[doc(alias = "A012")]
+    InputOMaximumFrequency: u16 = "input_o_maximum_frequency", "A012";
+    at Holding 0x1021;
+    const MODICON: u32 = 4130;
+    const REFERENCE: u32 = 404_130;
+    unit "Hz";
+    decimals 1;
+    raw 0..=4000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Input o minimum setpoint.
+    ///
+    /// `A013` at holding 1022h (4130), `u16`, raw `0..100`, read and write.
+    #[doc(alias = "A013")]
+    InputOMinimumSetpoint: u16 = "input_o_minimum_setpoint", "A013";
+    at Holding 0x1022;
+    const MODICON: u32 = 4131;
+    const REFERENCE: u32 = 404_131;
+    unit "%";
+    raw 0..=100;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Input o maximum setpoint.
+    ///
+    /// `A014` at holding 1023h (4131), `u16`, raw `0..100`, read and write.
+    #[doc(alias = "A014")]
+    InputOMaximumSetpoint: u16 = "input_o_maximum_setpoint", "A014";
+    at Holding 0x1023;
+    const MODICON: u32 = 4132;
+    const REFERENCE: u32 = 404_132;
+    unit "%";
+    raw 0..=100;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Input o start condition.
+    ///
+    /// `A015` at holding 1024h (4132), `u16`, raw `0, 1`, read and write.
+    #[doc(alias = "A015")]
+    InputOStartCondition: u16 = "input_o_start_condition", "A015";
+    at Holding 0x1024;
+    const MODICON: u32 = 4133;
+    const REFERENCE: u32 = 404_133;
+    raw 0..=1;
+    => value enums::InputOStartCondition as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Analog input filter.
+    ///
+    /// `A016` at holding 1025h (4133), `u16`, raw `1..17`, read and write.
+    #[doc(alias = "A016")]
+    AnalogInputFilter: u16 = "analog_input_filter", "A016";
+    at Holding 0x1025;
+    const MODICON: u32 = 4134;
+    const REFERENCE: u32 = 404_134;
+    raw 1..=17;
+    => value enums::AnalogInputFilter as named(u16);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Base frequency.
+    ///
+    /// `A020` at holding 1028h (4136), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
+    #[doc(alias = "A020")]
+    BaseFrequency: u16 = "base_frequency", "A020";
+    at Holding 0x1028;
+    const MODICON: u32 = 4137;
+    const REFERENCE: u32 = 404_137;
+    unit "Hz";
+    decimals 1;
+    raw 0..=4000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Base frequency set 2.
+    ///
+    /// `A220` at holding 150Eh (5390), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
+    #[doc(alias = "A220")]
+    BaseFrequencySet2: u16 = "base_frequency_set_2", "A220";
+    at Holding 0x150E;
+    const MODICON: u32 = 5391;
+    const REFERENCE: u32 = 405_391;
+    unit "Hz";
+    decimals 1;
+    raw 0..=4000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Fixed frequency 1.
+    ///
+    /// `A021` at holding 102Ah (4138), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
+    #[doc(alias = "A021")]
+    FixedFrequency1: u16 = "fixed_frequency_1", "A021";
+    at Holding 0x102A;
+    const MODICON: u32 = 4139;
+    const REFERENCE: u32 = 404_139;
+    unit "Hz";
+    decimals 1;
+    raw 0..=4000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Fixed frequency 2.
+    ///
+    /// `A022` at holding 102Ch (4140), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
+    #[doc(alias = "A022")]
+    FixedFrequency2: u16 = "fixed_frequency_2", "A022";
+    at Holding 0x102C;
+    const MODICON: u32 = 4141;
+    const REFERENCE: u32 = 404_141;
+    unit "Hz";
+    decimals 1;
+    raw 0..=4000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Fixed frequency 3.
+    ///
+    /// `A023` at holding 102Eh (4142), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
+    #[doc(alias = "A023")]
+    FixedFrequency3: u16 = "fixed_frequency_3", "A023";
+    at Holding 0x102E;
+    const MODICON: u32 = 4143;
+    const REFERENCE: u32 = 404_143;
+    unit "Hz";
+    decimals 1;
+    raw 0..=4000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Fixed frequency 4.
+    ///
+    /// `A024` at holding 1030h (4144), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
+    #[doc(alias = "A024")]
+    FixedFrequency4: u16 = "fixed_frequency_4", "A024";
+    at Holding 0x1030;
+    const MODICON: u32 = 4145;
+    const REFERENCE: u32 = 404_145;
+    unit "Hz";
+    decimals 1;
+    raw 0..=4000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Fixed frequency 5.
+    ///
+    /// `A025` at holding 1032h (4146), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
+    #[doc(alias = "A025")]
+    FixedFrequency5: u16 = "fixed_frequency_5", "A025";
+    at Holding 0x1032;
+    const MODICON: u32 = 4147;
+    const REFERENCE: u32 = 404_147;
+    unit "Hz";
+    decimals 1;
+    raw 0..=4000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Fixed frequency 6.
+    ///
+    /// `A026` at holding 1034h (4148), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
+    #[doc(alias = "A026")]
+    FixedFrequency6: u16 = "fixed_frequency_6", "A026";
+    at Holding 0x1034;
+    const MODICON: u32 = 4149;
+    const REFERENCE: u32 = 404_149;
+    unit "Hz";
+    decimals 1;
+    raw 0..=4000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Fixed frequency 7.
+    ///
+    /// `A027` at holding 1036h (4150), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
+    #[doc(alias = "A027")]
+    FixedFrequency7: u16 = "fixed_frequency_7", "A027";
+    at Holding 0x1036;
+    const MODICON: u32 = 4151;
+    const REFERENCE: u32 = 404_151;
+    unit "Hz";
+    decimals 1;
+    raw 0..=4000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Fixed frequency 8.
+    ///
+    /// `A028` at holding 1038h (4152), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
+    #[doc(alias = "A028")]
+    FixedFrequency8: u16 = "fixed_frequency_8", "A028";
+    at Holding 0x1038;
+    const MODICON: u32 = 4153;
+    const REFERENCE: u32 = 404_153;
+    unit "Hz";
+    decimals 1;
+    raw 0..=4000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Fixed frequency 9.
+    ///
+    /// `A029` at holding 103Ah (4154), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
+    #[doc(alias = "A029")]
+    FixedFrequency9: u16 = "fixed_frequency_9", "A029";
+    at Holding 0x103A;
+    const MODICON: u32 = 4155;
+    const REFERENCE: u32 = 404_155;
+    unit "Hz";
+    decimals 1;
+    raw 0..=4000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Fixed frequency 10.
+    ///
+    /// `A030` at holding 103Ch (4156), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
+    #[doc(alias = "A030")]
+    FixedFrequency10: u16 = "fixed_frequency_10", "A030";
+    at Holding 0x103C;
+    const MODICON: u32 = 4157;
+    const REFERENCE: u32 = 404_157;
+    unit "Hz";
+    decimals 1;
+    raw 0..=4000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Fixed frequency 11.
+    ///
+    /// `A031` at holding 103Eh (4158), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
+    #[doc(alias = "A031")]
+    FixedFrequency11: u16 = "fixed_frequency_11", "A031";
+    at Holding 0x103E;
+    const MODICON: u32 = 4159;
+    const REFERENCE: u32 = 404_159;
+    unit "Hz";
+    decimals 1;
+    raw 0..=4000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Fixed frequency 12.
+    ///
+    /// `A032` at holding 1040h (4160), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
+    #[doc(alias = "A032")]
+    FixedFrequency12: u16 = "fixed_frequency_12", "A032";
+    at Holding 0x1040;
+    const MODICON: u32 = 4161;
+    const REFERENCE: u32 = 404_161;
+    unit "Hz";
+    decimals 1;
+    raw 0..=4000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Fixed frequency 13.
+    ///
+    /// `A033` at holding 1042h (4162), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
+    #[doc(alias = "A033")]
+    FixedFrequency13: u16 = "fixed_frequency_13", "A033";
+    at Holding 0x1042;
+    const MODICON: u32 = 4163;
+    const REFERENCE: u32 = 404_163;
+    unit "Hz";
+    decimals 1;
+    raw 0..=4000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Fixed frequency 14.
+    ///
+    /// `A034` at holding 1044h (4164), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
+    #[doc(alias = "A034")]
+    FixedFrequency14: u16 = "fixed_frequency_14", "A034";
+    at Holding 0x1044;
+    const MODICON: u32 = 4165;
+    const REFERENCE: u32 = 404_165;
+    unit "Hz";
+    decimals 1;
+    raw 0..=4000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Fixed frequency 15.
+    ///
+    /// `A035` at holding 1046h (4166), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
+    #[doc(alias = "A035")]
+    FixedFrequency15: u16 = "fixed_frequency_15", "A035";
+    at Holding 0x1046;
+    const MODICON: u32 = 4167;
+    const REFERENCE: u32 = 404_167;
+    unit "Hz";
+    decimals 1;
+    raw 0..=4000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Jog frequency.
+    ///
+    /// `A038` at holding 1047h (4167), `u16`, raw `0..999`, one count is `0.01 Hz`, read and write.
+    #[doc(alias = "A038")]
+    JogFrequency: u16 = "jog_frequency", "A038";
+    at Holding 0x1047;
+    const MODICON: u32 = 4168;
+    const REFERENCE: u32 = 404_168;
+    unit "Hz";
+    decimals 2;
+    raw 0..=999;
+    => value f64 as scaled(100, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Jog stop mode.
+    ///
+    /// `A039` at holding 1048h (4168), `u16`, raw `0..2`, read and write.
+    #[doc(alias = "A039")]
+    JogStopMode: u16 = "jog_stop_mode", "A039";
+    at Holding 0x1048;
+    const MODICON: u32 = 4169;
+    const REFERENCE: u32 = 404_169;
+    raw 0..=2;
+    => value enums::JogStopMode as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Boost mode.
+    ///
+    /// `A041` at holding 1049h (4169), `u16`, raw `0, 1`, read and write.
+    #[doc(alias = "A041")]
+    BoostMode: u16 = "boost_mode", "A041";
+    at Holding 0x1049;
+    const MODICON: u32 = 4170;
+    const REFERENCE: u32 = 404_170;
+    raw 0..=1;
+    => value enums::BoostMode as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Boost mode set 2.
+    ///
+    /// `A241` at holding 150Fh (5391), `u16`, raw `0, 1`, read and write.
+    #[doc(alias = "A241")]
+    BoostModeSet2: u16 = "boost_mode_set_2", "A241";
+    at Holding 0x150F;
+    const MODICON: u32 = 5392;
+    const REFERENCE: u32 = 405_392;
+    raw 0..=1;
+    => value enums::BoostMode as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Manual boost.
+    ///
+    /// `A042` at holding 104Ah (4170), `u16`, raw `0..200`, one count is `0.1 %`, read and write.
+    #[doc(alias = "A042")]
+    ManualBoost: u16 = "manual_boost", "A042";
+    at Holding 0x104A;
+    const MODICON: u32 = 4171;
+    const REFERENCE: u32 = 404_171;
+    unit "%";
+    decimals 1;
+    raw 0..=200;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Manual boost set 2.
+    ///
+    /// `A242` at holding 1510h (5392), `u16`, raw `0..200`, one count is `0.1 %`, read and write.
+    #[doc(alias = "A242")]
+    ManualBoostSet2: u16 = "manual_boost_set_2", "A242";
+    at Holding 0x1510;
+    const MODICON: u32 = 5393;
+    const REFERENCE: u32 = 405_393;
+    unit "%";
+    decimals 1;
+    raw 0..=200;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Manual boost frequency.
+    ///
+    /// `A043` at holding 104Bh (4171), `u16`, raw `0..500`, one count is `0.1 %`, read and write.
+    #[doc(alias = "A043")]
+    ManualBoostFrequency: u16 = "manual_boost_frequency", "A043";
+    at Holding 0x104B;
+    const MODICON: u32 = 4172;
+    const REFERENCE: u32 = 404_172;
+    unit "%";
+    decimals 1;
+    raw 0..=500;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Manual boost frequency set 2.
+    ///
+    /// `A243` at holding 1511h (5393), `u16`, raw `0..500`, one count is `0.1 %`, read and write.
+    #[doc(alias = "A243")]
+    ManualBoostFrequencySet2: u16 = "manual_boost_frequency_set_2", "A243";
+    at Holding 0x1511;
+    const MODICON: u32 = 5394;
+    const REFERENCE: u32 = 405_394;
+    unit "%";
+    decimals 1;
+    raw 0..=500;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Vf characteristic.
+    ///
+    /// `A044` at holding 104Ch (4172), `u16`, raw `0, 1`, read and write.
+    #[doc(alias = "A044")]
+    VfCharacteristic: u16 = "vf_characteristic", "A044";
+    at Holding 0x104C;
+    const MODICON: u32 = 4173;
+    const REFERENCE: u32 = 404_173;
+    raw 0..=1;
+    => value enums::VfCharacteristic as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Vf characteristic set 2.
+    ///
+    /// `A244` at holding 1512h (5394), `u16`, raw `0, 1`, read and write.
+    #[doc(alias = "A244")]
+    VfCharacteristicSet2: u16 = "vf_characteristic_set_2", "A244";
+    at Holding 0x1512;
+    const MODICON: u32 = 5395;
+    const REFERENCE: u32 = 405_395;
+    raw 0..=1;
+    => value enums::VfCharacteristic as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Output voltage setting.
+    ///
+    /// `A045` at holding 104Dh (4173), `u16`, raw `20..100`, read and write.
+    #[doc(alias = "A045")]
+    OutputVoltageSetting: u16 = "output_voltage_setting", "A045";
+    at Holding 0x104D;
+    const MODICON: u32 = 4174;
+    const REFERENCE: u32 = 404_174;
+    unit "%";
+    raw 20..=100;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Output voltage setting set 2.
+    ///
+    /// `A245` at holding 1513h (5395), `u16`, raw `20..100`, read and write.
+    #[doc(alias = "A245")]
+    OutputVoltageSettingSet2: u16 = "output_voltage_setting_set_2", "A245";
+    at Holding 0x1513;
+    const MODICON: u32 = 5396;
+    const REFERENCE: u32 = 405_396;
+    unit "%";
+    raw 20..=100;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Dc brake enable.
+    ///
+    /// `A051` at holding 1050h (4176), `u16`, raw `0, 1`, read and write.
+    #[doc(alias = "A051")]
+    DcBrakeEnable: u16 = "dc_brake_enable", "A051";
+    at Holding 0x1050;
+    const MODICON: u32 = 4177;
+    const REFERENCE: u32 = 404_177;
+    raw 0..=1;
+    => value enums::InactiveActive as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Dc brake frequency.
+    ///
+    /// `A052` at holding 1051h (4177), `u16`, raw `max(5, start_frequency.raw)..600`, one count is `0.1 Hz`,
+    /// read and write.
+    #[doc(alias = "A052")]
+    DcBrakeFrequency: u16 = "dc_brake_frequency", "A052";
+    at Holding 0x1051;
+    const MODICON: u32 = 4178;
+    const REFERENCE: u32 = 404_178;
+    unit "Hz";
+    decimals 1;
+    raw 5..=600;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write {
+        count i32;
+        with with::DcBrakeFrequency;
+        limits |with| [
+            (runtime::Rule::new(1, 1).limited_by(with.start_frequency)?.limit()?.max(5), 600),
+        ];
+    }
+}
+
+point! {
+    /// Dc brake delay.
+    ///
+    /// `A053` at holding 1052h (4178), `u16`, raw `0..50`, one count is `0.1 s`, read and write.
+    #[doc(alias = "A053")]
+    DcBrakeDelay: u16 = "dc_brake_delay", "A053";
+    at Holding 0x1052;
+    const MODICON: u32 = 4179;
+    const REFERENCE: u32 = 404_179;
+    unit "s";
+    decimals 1;
+    raw 0..=50;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Dc brake torque.
+    ///
+    /// `A054` at holding 1053h (4179), `u16`, raw `0..100`, read and write.
+    #[doc(alias = "A054")]
+    DcBrakeTorque: u16 = "dc_brake_torque", "A054";
+    at Holding 0x1053;
+    const MODICON: u32 = 4180;
+    const REFERENCE: u32 = 404_180;
+    unit "%";
+    raw 0..=100;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Dc brake time.
+    ///
+    /// `A055` at holding 1054h (4180), `u16`, raw `0..600`, one count is `0.1 s`, read and write.
+    #[doc(alias = "A055")]
+    DcBrakeTime: u16 = "dc_brake_time", "A055";
+    at Holding 0x1054;
+    const MODICON: u32 = 4181;
+    const REFERENCE: u32 = 404_181;
+    unit "s";
+    decimals 1;
+    raw 0..=600;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Dc brake trigger.
+    ///
+    /// `A056` at holding 1055h (4181), `u16`, raw `0, 1`, read and write.
+    #[doc(alias = "A056")]
+    DcBrakeTrigger: u16 = "dc_brake_trigger", "A056";
+    at Holding 0x1055;
+    const MODICON: u32 = 4182;
+    const REFERENCE: u32 = 404_182;
+    raw 0..=1;
+    => value enums::DcBrakeTrigger as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Upper frequency limit.
+    ///
+    /// `A061` at holding 1059h (4185), `u16`, raw `lower_frequency_limit.raw..min(4000, maximum_frequency.raw x 10);
+    /// while lower_frequency_limit.raw is 0: from 0`, one count is `0.1 Hz`, read and write.
+    ///
+    /// Special code: `0` `inactive` (may be written).
+    #[doc(alias = "A061")]
+    UpperFrequencyLimit: u16 = "upper_frequency_limit", "A061";
+    at Holding 0x1059;
+    const MODICON: u32 = 4186;
+    const REFERENCE: u32 = 404_186;
+    unit "Hz";
+    decimals 1;
+    raw 0..=4000;
+    => reading f64 as scaled(10, 1);
+    codes {
+        /// Inactive.
+        INACTIVE = writable("inactive", 0);
+    };
+    read { count i32; }
+    write {
+        count i32;
+        with with::UpperFrequencyLimit;
+        limits |with| [
+            (
+                if matches!(runtime::Raw::to_i64(with.lower_frequency_limit), 0) {
+                    0
+                } else {
+                    runtime::Rule::new(1, 1).limited_by(with.lower_frequency_limit)?.limit()?.max(0)
+                },
+                runtime::Rule::new(10, 1).limited_by(with.maximum_frequency)?.limit()?.min(4000),
+            ),
+        ];
+    }
+}
+
+point! {
+    /// Upper frequency limit set 2.
+    ///
+    /// `A261` at holding 1516h (5398), `u16`, raw `lower_frequency_limit_set_2.raw..min(4000,
+    /// maximum_frequency_set_2.raw x 10); while lower_frequency_limit_set_2.raw is 0: from 0`, one count is
+    /// `0.1 Hz`, read and write.
+    ///
+    /// Special code: `0` `inactive` (may be written).
+    #[doc(alias = "A261")]
+    UpperFrequencyLimitSet2: u16 = "upper_frequency_limit_set_2", "A261";
+    at Holding 0x1516;
+    const MODICON: u32 = 5399;
+    const REFERENCE: u32 = 405_399;
+    unit "Hz";
+    decimals 1;
+    raw 0..=4000;
+    => reading f64 as scaled(10, 1);
+    codes {
+        /// Inactive.
+        INACTIVE = writable("inactive", 0);
+    };
+    read { count i32; }
+    write {
+        count i32;
+        with with::UpperFrequencyLimitSet2;
+        limits |with| [
+            (
+                if matches!(runtime::Raw::to_i64(with.lower_frequency_limit_set_2), 0) {
+                    0
+                } else {
+                    runtime::Rule::new(1, 1).limited_by(with.lower_frequency_limit_set_2)?.limit()?.max(0)
+                },
+                runtime::Rule::new(10, 1).limited_by(with.maximum_frequency_set_2)?.limit()?.min(4000),
+            ),
+        ];
+    }
+}
+
+point! {
+    /// Lower frequency limit.
+    ///
+    /// `A062` at holding 105Ah (4186), `u16`, raw `max(5, start_frequency.raw)..min(4000,
+    /// upper_frequency_limit.raw); while upper_frequency_limit.raw is 0: to 4000`, one count is `0.1 Hz`, read
+    /// and write.
+    ///
+    /// Special code: `0` `inactive` (may be written).
+    #[doc(alias = "A062")]
+    LowerFrequencyLimit: u16 = "lower_frequency_limit", "A062";
+    at Holding 0x105A;
+    const MODICON: u32 = 4187;
+    const REFERENCE: u32 = 404_187;
+    unit "Hz";
+    decimals 1;
+    raw 5..=4000;
+    => reading f64 as scaled(10, 1);
+    codes {
+        /// Inactive.
+        INACTIVE = writable("inactive", 0);
+    };
+    read { count i32; }
+    write {
+        count i32;
+        with with::LowerFrequencyLimit;
+        limits |with| [
+            (
+                runtime::Rule::new(1, 1).limited_by(with.start_frequency)?.limit()?.max(5),
+                if matches!(runtime::Raw::to_i64(with.upper_frequency_limit), 0) {
+                    4000
+                } else {
+                    runtime::Rule::new(1, 1).limited_by(with.upper_frequency_limit)?.limit()?.min(4000)
+                },
+            ),
+        ];
+    }
+}
+
+point! {
+    /// Lower frequency limit set 2.
+    ///
+    /// `A262` at holding 1517h (5399), `u16`, raw `max(5, start_frequency.raw)..min(4000,
+    /// upper_frequency_limit_set_2.raw); while upper_frequency_limit_set_2.raw is 0: to 4000`, one count is
+    /// `0.1 Hz`, read and write.
+    ///
+    /// Special code: `0` `inactive` (may be written).
+    #[doc(alias = "A262")]
+    LowerFrequencyLimitSet2: u16 = "lower_frequency_limit_set_2", "A262";
+    at Holding 0x1517;
+    const MODICON: u32 = 5400;
+    const REFERENCE: u32 = 405_400;
+    unit "Hz";
+    decimals 1;
+    raw 5..=4000;
+    => reading f64 as scaled(10, 1);
+    codes {
+        /// Inactive.
+        INACTIVE = writable("inactive", 0);
+    };
+    read { count i32; }
+    write {
+        count i32;
+        with with::LowerFrequencyLimitSet2;
+        limits |with| [
+            (
+                runtime::Rule::new(1, 1).limited_by(with.start_frequency)?.limit()?.max(5),
+                if matches!(runtime::Raw::to_i64(with.upper_frequency_limit_set_2), 0) {
+                    4000
+                } else {
+                    runtime::Rule::new(1, 1).limited_by(with.upper_frequency_limit_set_2)?.limit()?.min(4000)
+                },
+            ),
+        ];
+    }
+}
+
+point! {
+    /// Jump frequency 1.
+    ///
+    /// `A063` at holding 105Ch (4188), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
+    #[doc(alias = "A063")]
+    JumpFrequency1: u16 = "jump_frequency_1", "A063";
+    at Holding 0x105C;
+    const MODICON: u32 = 4189;
+    const REFERENCE: u32 = 404_189;
+    unit "Hz";
+    decimals 1;
+    raw 0..=4000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Jump frequency 1 width.
+    ///
+    /// `A064` at holding 105Dh (4189), `u16`, raw `0..100`, one count is `0.1 Hz`, read and write.
+    #[doc(alias = "A064")]
+    JumpFrequency1Width: u16 = "jump_frequency_1_width", "A064";
+    at Holding 0x105D;
+    const MODICON: u32 = 4190;
+    const REFERENCE: u32 = 404_190;
+    unit "Hz";
+    decimals 1;
+    raw 0..=100;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Jump frequency 2.
+    ///
+    /// `A065` at holding 105Fh (4191), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
+    #[doc(alias = "A065")]
+    JumpFrequency2: u16 = "jump_frequency_2", "A065";
+    at Holding 0x105F;
+    const MODICON: u32 = 4192;
+    const REFERENCE: u32 = 404_192;
+    unit "Hz";
+    decimals 1;
+    raw 0..=4000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Jump frequency 2 width.
+    ///
+    /// `A066` at holding 1060h (4192), `u16`, raw `0..100`, one count is `0.1 Hz`, read and write.
+    #[doc(alias = "A066")]
+    JumpFrequency2Width: u16 = "jump_frequency_2_width", "A066";
+    at Holding 0x1060;
+    const MODICON: u32 = 4193;
+    const REFERENCE: u32 = 404_193;
+    unit "Hz";
+    decimals 1;
+    raw 0..=100;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Jump frequency 3.
+    ///
+    /// `A067` at holding 1062h (4194), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
+    #[doc(alias = "A067")]
+    JumpFrequency3: u16 = "jump_frequency_3", "A067";
+    at Holding 0x1062;
+    const MODICON: u32 = 4195;
+    const REFERENCE: u32 = 404_195;
+    unit "Hz";
+    decimals 1;
+    raw 0..=4000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Jump frequency 3 width.
+    ///
+    /// `A068` at holding 1063h (4195), `u16`, raw `0..100`, one count is `0.1 Hz`, read and write.
+    #[doc(alias = "A068")]
+    JumpFrequency3Width: u16 = "jump_frequency_3_width", "A068";
+    at Holding 0x1063;
+    const MODICON: u32 = 4196;
+    const REFERENCE: u32 = 404_196;
+    unit "Hz";
+    decimals 1;
+    raw 0..=100;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Pid enable.
+    ///
+    /// `A071` at holding 1067h (4199), `u16`, raw `0, 1`, read and write.
+    #[doc(alias = "A071")]
+    PidEnable: u16 = "pid_enable", "A071";
+    at Holding 0x1067;
+    const MODICON: u32 = 4200;
+    const REFERENCE: u32 = 404_200;
+    raw 0..=1;
+    => value enums::InactiveActive as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Pid proportional gain.
+    ///
+    /// `A072` at holding 1068h (4200), `u16`, raw `2..50`, one count is `0.1`, read and write.
+    #[doc(alias = "A072")]
+    PidProportionalGain: u16 = "pid_proportional_gain", "A072";
+    at Holding 0x1068;
+    const MODICON: u32 = 4201;
+    const REFERENCE: u32 = 404_201;
+    decimals 1;
+    raw 2..=50;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Pid integral time.
+    ///
+    /// `A073` at holding 1069h (4201), `u16`, raw `0..1500`, one count is `0.1 s`, read and write.
+    #[doc(alias = "A073")]
+    PidIntegralTime: u16 = "pid_integral_time", "A073";
+    at Holding 0x1069;
+    const MODICON: u32 = 4202;
+    const REFERENCE: u32 = 404_202;
+    unit "s";
+    decimals 1;
+    raw 0..=1500;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Pid derivative time.
+    ///
+    /// `A074` at holding 106Ah (4202), `u16`, raw `0..1000`, one count is `0.1 s`, read and write.
+    #[doc(alias = "A074")]
+    PidDerivativeTime: u16 = "pid_derivative_time", "A074";
+    at Holding 0x106A;
+    const MODICON: u32 = 4203;
+    const REFERENCE: u32 = 404_203;
+    unit "s";
+    decimals 1;
+    raw 0..=1000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Pid display factor.
+    ///
+    /// `A075` at holding 106Bh (4203), `u16`, raw `1..9999`, one count is `0.01`, read and write.
+    #[doc(alias = "A075")]
+    PidDisplayFactor: u16 = "pid_display_factor", "A075";
+    at Holding 0x106B;
+    const MODICON: u32 = 4204;
+    const REFERENCE: u32 = 404_204;
+    decimals 2;
+    raw 1..=9999;
+    => value f64 as scaled(100, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Pid process value source.
+    ///
+    /// `A076` at holding 106Ch (4204), `u16`, raw `0..3, 10`, read and write.
+    ///
+    /// Erratum: `a076_range`.
+    #[doc(alias = "A076")]
+    PidProcessValueSource: u16 = "pid_process_value_source", "A076";
+    at Holding 0x106C;
+    const MODICON: u32 = 4205;
+    const REFERENCE: u32 = 404_205;
+    raw 0..=10;
+    => value enums::PidProcessValueSource as named(u16);
+    read { count i32; }
+    write { count i32; in [0..=3 | 10]; }
+}
+
+point! {
+    /// Pid inversion.
+    ///
+    /// `A077` at holding 106Dh (4205), `u16`, raw `0, 1`, read and write.
+    #[doc(alias = "A077")]
+    PidInversion: u16 = "pid_inversion", "A077";
+    at Holding 0x106D;
+    const MODICON: u32 = 4206;
+    const REFERENCE: u32 = 404_206;
+    raw 0..=1;
+    => value enums::PidInversion as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Pid output limit.
+    ///
+    /// `A078` at holding 106Eh (4206), `u16`, raw `0..1000`, one count is `0.1 %`, read and write.
+    #[doc(alias = "A078")]
+    PidOutputLimit: u16 = "pid_output_limit", "A078";
+    at Holding 0x106E;
+    const MODICON: u32 = 4207;
+    const REFERENCE: u32 = 404_207;
+    unit "%";
+    decimals 1;
+    raw 0..=1000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Avr mode.
+    ///
+    /// `A081` at holding 106Fh (4207), `u16`, raw `0..2`, read and write.
+    #[doc(alias = "A081")]
+    AvrMode: u16 = "avr_mode", "A081";
+    at Holding 0x106F;
+    const MODICON: u32 = 4208;
+    const REFERENCE: u32 = 404_208;
+    raw 0..=2;
+    => value enums::AvrMode as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Motor voltage.
+    ///
+    /// `A082` at holding 1070h (4208), `u16`, raw `0..5`, read and write.
+    #[doc(alias = "A082")]
+    MotorVoltage: u16 = "motor_voltage", "A082";
+    at Holding 0x1070;
+    const MODICON: u32 = 4209;
+    const REFERENCE: u32 = 404_209;
+    raw 0..=5;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Acceleration time 2.
+    ///
+    /// `A092` at holding 1073h (4211), `u32`, raw `1..300000`, steps of `0.01 s, from 100 s on 0.1 s`, one
+    /// count is `0.01 s`, read and write.
+    ///
+    /// Erratum: `a092_resolution`.
+    #[doc(alias = "A092")]
+    AccelerationTime2: u32 = "acceleration_time_2", "A092";
+    at Holding 0x1073;
+    addresses [0x1073, 0x1074];
+    words 2;
+    const MODICON: u32 = 4212;
+    const REFERENCE: u32 = 404_212;
+    unit "s";
+    decimals 2;
+    raw 1..=300_000;
+    => value f64 as scaled(100, 1);
+    read { count i64; }
+    write { count i64; }
+}
+
+point! {
+    /// Deceleration time 2.
+    ///
+    /// `A093` at holding 1075h (4213), `u32`, raw `1..300000`, steps of `0.01 s, from 100 s on 0.1 s`, one
+    /// count is `0.01 s`, read and write.
+    ///
+    /// Erratum: `a093_resolution`.
+    #[doc(alias = "A093")]
+    DecelerationTime2: u32 = "deceleration_time_2", "A093";
+    at Holding 0x1075;
+    addresses [0x1075, 0x1076];
+    words 2;
+    const MODICON: u32 = 4214;
+    const REFERENCE: u32 = 404_214;
+    unit "s";
+    decimals 2;
+    raw 1..=300_000;
+    => value f64 as scaled(100, 1);
+    read { count i64; }
+    write { count i64; }
+}
+
+point! {
+    /// Deceleration time 2 set 2.
+    ///
+    /// `A293` at holding 1519h (5401), `u32`, raw `1..300000`, steps of `0.01 s, from 100 s on 0.1 s`, one
+    /// count is `0.01 s`, read and write.
+    ///
+    /// Erratum: `a293_resolution`.
+    #[doc(alias = "A293")]
+    DecelerationTime2Set2: u32 = "deceleration_time_2_set_2", "A293";
+    at Holding 0x1519;
+    addresses [0x1519, 0x151A];
+    words 2;
+    const MODICON: u32 = 5402;
+    const REFERENCE: u32 = 405_402;
+    unit "s";
+    decimals 2;
+    raw 1..=300_000;
+    => value f64 as scaled(100, 1);
+    read { count i64; }
+    write { count i64; }
+}
+
+point! {
+    /// Ramp 2 selection.
+    ///
+    /// `A094` at holding 1077h (4215), `u16`, raw `0, 1`, read and write.
+    #[doc(alias = "A094")]
+    Ramp2Selection: u16 = "ramp_2_selection", "A094";
+    at Holding 0x1077;
+    const MODICON: u32 = 4216;
+    const REFERENCE: u32 = 404_216;
+    raw 0..=1;
+    => value enums::Ramp2Selection as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Ramp 2 selection set 2.
+    ///
+    /// `A294` at holding 151Bh (5403), `u16`, raw `0, 1`, read and write.
+    #[doc(alias = "A294")]
+    Ramp2SelectionSet2: u16 = "ramp_2_selection_set_2", "A294";
+    at Holding 0x151B;
+    const MODICON: u32 = 5404;
+    const REFERENCE: u32 = 405_404;
+    raw 0..=1;
+    => value enums::Ramp2Selection as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Acceleration change frequency.
+    ///
+    /// `A095` at holding 1079h (4217), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
+    #[doc(alias = "A095")]
+    AccelerationChangeFrequency: u16 = "acceleration_change_frequency", "A095";
+    at Holding 0x1079;
+    const MODICON: u32 = 4218;
+    const REFERENCE: u32 = 404_218;
+    unit "Hz";
+    decimals 1;
+    raw 0..=4000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Acceleration change frequency set 2.
+    ///
+    /// `A295` at holding 151Dh (5405), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
+    #[doc(alias = "A295")]
+    AccelerationChangeFrequencySet2: u16 = "acceleration_change_frequency_set_2", "A295";
+    at Holding 0x151D;
+    const MODICON: u32 = 5406;
+    const REFERENCE: u32 = 405_406;
+    unit "Hz";
+    decimals 1;
+    raw 0..=4000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Deceleration change frequency.
+    ///
+    /// `A096` at holding 107Bh (4219), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
+    #[doc(alias = "A096")]
+    DecelerationChangeFrequency: u16 = "deceleration_change_frequency", "A096";
+    at Holding 0x107B;
+    const MODICON: u32 = 4220;
+    const REFERENCE: u32 = 404_220;
+    unit "Hz";
+    decimals 1;
+    raw 0..=4000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Deceleration change frequency set 2.
+    ///
+    /// `A296` at holding 151Fh (5407), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
+    #[doc(alias = "A296")]
+    DecelerationChangeFrequencySet2: u16 = "deceleration_change_frequency_set_2", "A296";
+    at Holding 0x151F;
+    const MODICON: u32 = 5408;
+    const REFERENCE: u32 = 405_408;
+    unit "Hz";
+    decimals 1;
+    raw 0..=4000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Acceleration curve.
+    ///
+    /// `A097` at holding 107Ch (4220), `u16`, raw `0, 1`, read and write.
+    #[doc(alias = "A097")]
+    AccelerationCurve: u16 = "acceleration_curve", "A097";
+    at Holding 0x107C;
+    const MODICON: u32 = 4221;
+    const REFERENCE: u32 = 404_221;
+    raw 0..=1;
+    => value enums::RampCurve as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Deceleration curve.
+    ///
+    /// `A098` at holding 107Dh (4221), `u16`, raw `0, 1`, read and write.
+    #[doc(alias = "A098")]
+    DecelerationCurve: u16 = "deceleration_curve", "A098";
+    at Holding 0x107D;
+    const MODICON: u32 = 4222;
+    const REFERENCE: u32 = 404_222;
+    raw 0..=1;
+    => value enums::RampCurve as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Input oi minimum frequency.
+    ///
+    /// `A101` at holding 107Fh (4223), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
+    #[doc(alias = "A101")]
+    InputOiMinimumFrequency: u16 = "input_oi_minimum_frequency", "A101";
+    at Holding 0x107F;
+    const MODICON: u32 = 4224;
+    const REFERENCE: u32 = 404_224;
+    unit "Hz";
+    decimals 1;
+    raw 0..=4000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Input oi maximum frequency.
+    ///
+    /// `A102` at holding 1081h (4225), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
+    #[doc(alias = "A102")]
+    InputOiMaximumFrequency: u16 = "input_oi_maximum_frequency", "A102";
+    at Holding 0x1081;
+    const MODICON: u32 = 4226;
+    const REFERENCE: u32 = 404_226;
+    unit "Hz";
+    decimals 1;
+    raw 0..=4000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Input oi minimum setpoint.
+    ///
+    /// `A103` at holding 1082h (4226), `u16`, raw `0..100`, read and write.
+    #[doc(alias = "A103")]
+    InputOiMinimumSetpoint: u16 = "input_oi_minimum_setpoint", "A103";
+    at Holding 0x1082;
+    const MODICON: u32 = 4227;
+    const REFERENCE: u32 = 404_227;
+    unit "%";
+    raw 0..=100;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Input oi maximum setpoint.
+    ///
+    /// `A104` at holding 1083h (4227), `u16`, raw `0..100`, read and write.
+    #[doc(alias = "A104")]
+    InputOiMaximumSetpoint: u16 = "input_oi_maximum_setpoint", "A104";
+    at Holding 0x1083;
+    const MODICON: u32 = 4228;
+    const REFERENCE: u32 = 404_228;
+    unit "%";
+    raw 0..=100;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Input oi start condition.
+    ///
+    /// `A105` at holding 1084h (4228), `u16`, raw `0, 1`, read and write.
+    #[doc(alias = "A105")]
+    InputOiStartCondition: u16 = "input_oi_start_condition", "A105";
+    at Holding 0x1084;
+    const MODICON: u32 = 4229;
+    const REFERENCE: u32 = 404_229;
+    raw 0..=1;
+    => value enums::InputOiStartCondition as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Calculation input a.
+    ///
+    /// `A141` at holding 108Dh (4237), `u16`, raw `0..4`, read and write.
+    #[doc(alias = "A141")]
+    CalculationInputA: u16 = "calculation_input_a", "A141";
+    at Holding 0x108D;
+    const MODICON: u32 = 4238;
+    const REFERENCE: u32 = 404_238;
+    raw 0..=4;
+    => value enums::CalculationInput as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Calculation input b.
+    ///
+    /// `A142` at holding 108Eh (4238), `u16`, raw `0..4`, read and write.
+    #[doc(alias = "A142")]
+    CalculationInputB: u16 = "calculation_input_b", "A142";
+    at Holding 0x108E;
+    const MODICON: u32 = 4239;
+    const REFERENCE: u32 = 404_239;
+    raw 0..=4;
+    => value enums::CalculationInput as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Calculation operator.
+    ///
+    /// `A143` at holding 108Fh (4239), `u16`, raw `0..2`, read and write.
+    ///
+    /// Erratum: `a143_wire_hex`.
+    #[doc(alias = "A143")]
+    CalculationOperator: u16 = "calculation_operator", "A143";
+    at Holding 0x108F;
+    const MODICON: u32 = 4240;
+    const REFERENCE: u32 = 404_240;
+    raw 0..=2;
+    => value enums::CalculationOperator as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Frequency offset.
+    ///
+    /// `A145` at holding 1090h (4240), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
+    #[doc(alias = "A145")]
+    FrequencyOffset: u16 = "frequency_offset", "A145";
+    at Holding 0x1090;
+    const MODICON: u32 = 4241;
+    const REFERENCE: u32 = 404_241;
+    unit "Hz";
+    decimals 1;
+    raw 0..=4000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Frequency offset sign.
+    ///
+    /// `A146` at holding 1092h (4242), `u16`, raw `0, 1`, read and write.
+    #[doc(alias = "A146")]
+    FrequencyOffsetSign: u16 = "frequency_offset_sign", "A146";
+    at Holding 0x1092;
+    const MODICON: u32 = 4243;
+    const REFERENCE: u32 = 404_243;
+    raw 0..=1;
+    => value enums::FrequencyOffsetSign as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Potentiometer minimum frequency.
+    ///
+    /// `A151` at holding 1094h (4244), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
+    #[doc(alias = "A151")]
+    PotentiometerMinimumFrequency: u16 = "potentiometer_minimum_frequency", "A151";
+    at Holding 0x1094;
+    const MODICON: u32 = 4245;
+    const REFERENCE: u32 = 404_245;
+    unit "Hz";
+    decimals 1;
+    raw 0..=4000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Potentiometer maximum frequency.
+    ///
+    /// `A152` at holding 1096h (4246), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
+    #[doc(alias = "A152")]
+    PotentiometerMaximumFrequency: u16 = "potentiometer_maximum_frequency", "A152";
+    at Holding 0x1096;
+    const MODICON: u32 = 4247;
+    const REFERENCE: u32 = 404_247;
+    unit "Hz";
+    decimals 1;
+    raw 0..=4000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Potentiometer minimum setpoint.
+    ///
+    /// `A153` at holding 1097h (4247), `u16`, raw `0..100`, read and write.
+    #[doc(alias = "A153")]
+    PotentiometerMinimumSetpoint: u16 = "potentiometer_minimum_setpoint", "A153";
+    at Holding 0x1097;
+    const MODICON: u32 = 4248;
+    const REFERENCE: u32 = 404_248;
+    unit "%";
+    raw 0..=100;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Potentiometer maximum setpoint.
+    ///
+    /// `A154` at holding 1098h (4248), `u16`, raw `0..100`, read and write.
+    #[doc(alias = "A154")]
+    PotentiometerMaximumSetpoint: u16 = "potentiometer_maximum_setpoint", "A154";
+    at Holding 0x1098;
+    const MODICON: u32 = 4249;
+    const REFERENCE: u32 = 404_249;
+    unit "%";
+    raw 0..=100;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Potentiometer start condition.
+    ///
+    /// `A155` at holding 1099h (4249), `u16`, raw `0, 1`, read and write.
+    #[doc(alias = "A155")]
+    PotentiometerStartCondition: u16 = "potentiometer_start_condition", "A155";
+    at Holding 0x1099;
+    const MODICON: u32 = 4250;
+    const REFERENCE: u32 = 404_250;
+    raw 0..=1;
+    => value enums::PotentiometerStartCondition as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Restart mode.
+    ///
+    /// `b001` at holding 10A4h (4260), `u16`, raw `0..3`, read and write.
+    #[doc(alias = "b001")]
+    RestartMode: u16 = "restart_mode", "b001";
+    at Holding 0x10A4;
+    const MODICON: u32 = 4261;
+    const REFERENCE: u32 = 404_261;
+    raw 0..=3;
+    => value enums::RestartMode as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Allowed power failure time.
+    ///
+    /// `b002` at holding 10A5h (4261), `u16`, raw `3..250`, one count is `0.1 s`, read and write.
+    #[doc(alias = "b002")]
+    AllowedPowerFailureTime: u16 = "allowed_power_failure_time", "b002";
+    at Holding 0x10A5;
+    const MODICON: u32 = 4262;
+    const REFERENCE: u32 = 404_262;
+    unit "s";
+    decimals 1;
+    raw 3..=250;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Restart delay.
+    ///
+    /// `b003` at holding 10A6h (4262), `u16`, raw `3..1000`, one count is `0.1 s`, read and write.
+    #[doc(alias = "b003")]
+    RestartDelay: u16 = "restart_delay", "b003";
+    at Holding 0x10A6;
+    const MODICON: u32 = 4263;
+    const REFERENCE: u32 = 404_263;
+    unit "s";
+    decimals 1;
+    raw 3..=1000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Power failure trip at standstill.
+    ///
+    /// `b004` at holding 10A7h (4263), `u16`, raw `0, 1`, read and write.
+    #[doc(alias = "b004")]
+    PowerFailureTripAtStandstill: u16 = "power_failure_trip_at_standstill", "b004";
+    at Holding 0x10A7;
+    const MODICON: u32 = 4264;
+    const REFERENCE: u32 = 404_264;
+    raw 0..=1;
+    => value enums::PowerFailureTripAtStandstill as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Power failure restarts.
+    ///
+    /// `b005` at holding 10A8h (4264), `u16`, raw `0, 1`, read and write.
+    #[doc(alias = "b005")]
+    PowerFailureRestarts: u16 = "power_failure_restarts", "b005";
+    at Holding 0x10A8;
+    const MODICON: u32 = 4265;
+    const REFERENCE: u32 = 404_265;
+    raw 0..=1;
+    => value enums::PowerFailureRestarts as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Motor protection level.
+    ///
+    /// `b012` at holding 10ACh (4268), `u16`, raw `2000..12000`, one count is `0.01 %`, read and write.
+    #[doc(alias = "b012")]
+    MotorProtectionLevel: u16 = "motor_protection_level", "b012";
+    at Holding 0x10AC;
+    const MODICON: u32 = 4269;
+    const REFERENCE: u32 = 404_269;
+    unit "%";
+    decimals 2;
+    raw 2000..=12_000;
+    => value f64 as scaled(100, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Motor protection level set 2.
+    ///
+    /// `b212` at holding 1525h (5413), `u16`, raw `2000..12000`, one count is `0.01 %`, read and write.
+    #[doc(alias = "b212")]
+    MotorProtectionLevelSet2: u16 = "motor_protection_level_set_2", "b212";
+    at Holding 0x1525;
+    const MODICON: u32 = 5414;
+    const REFERENCE: u32 = 405_414;
+    unit "%";
+    decimals 2;
+    raw 2000..=12_000;
+    => value f64 as scaled(100, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Motor protection characteristic.
+    ///
+    /// `b013` at holding 10ADh (4269), `u16`, raw `0..2`, read and write.
+    ///
+    /// Erratum: `b013_choices`.
+    #[doc(alias = "b013")]
+    MotorProtectionCharacteristic: u16 = "motor_protection_characteristic", "b013";
+    at Holding 0x10AD;
+    const MODICON: u32 = 4270;
+    const REFERENCE: u32 = 404_270;
+    raw 0..=2;
+    => value enums::MotorProtectionCharacteristic as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Motor protection characteristic set 2.
+    ///
+    /// `b213` at holding 1526h (5414), `u16`, raw `0..2`, read and write.
+    ///
+    /// Erratum: `b013_choices`.
+    #[doc(alias = "b213")]
+    MotorProtectionCharacteristicSet2: u16 = "motor_protection_characteristic_set_2", "b213";
+    at Holding 0x1526;
+    const MODICON: u32 = 5415;
+    const REFERENCE: u32 = 405_415;
+    raw 0..=2;
+    => value enums::MotorProtectionCharacteristic as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Current limit mode.
+    ///
+    /// `b021` at holding 10B4h (4276), `u16`, raw `0..2`, read and write.
+    #[doc(alias = "b021")]
+    CurrentLimitMode: u16 = "current_limit_mode", "b021";
+    at Holding 0x10B4;
+    const MODICON: u32 = 4277;
+    const REFERENCE: u32 = 404_277;
+    raw 0..=2;
+    => value enums::CurrentLimitMode as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Current limit mode set 2.
+    ///
+    /// `b221` at holding 1527h (5415), `u16`, raw `0..2`, read and write.
+    #[doc(alias = "b221")]
+    CurrentLimitModeSet2: u16 = "current_limit_mode_set_2", "b221";
+    at Holding 0x1527;
+    const MODICON: u32 = 5416;
+    const REFERENCE: u32 = 405_416;
+    raw 0..=2;
+    => value enums::CurrentLimitMode as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Current limit level.
+    ///
+    /// `b022` at holding 10B5h (4277), `u16`, raw `1000..15000`, one count is `0.01 %`, read and write.
+    #[doc(alias = "b022")]
+    CurrentLimitLevel: u16 = "current_limit_level", "b022";
+    at Holding 0x10B5;
+    const MODICON: u32 = 4278;
+    const REFERENCE: u32 = 404_278;
+    unit "%";
+    decimals 2;
+    raw 1000..=15_000;
+    => value f64 as scaled(100, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Current limit level set 2.
+    ///
+    /// `b222` at holding 1528h (5416), `u16`, raw `1000..15000`, one count is `0.01 %`, read and write.
+    #[doc(alias = "b222")]
+    CurrentLimitLevelSet2: u16 = "current_limit_level_set_2", "b222";
+    at Holding 0x1528;
+    const MODICON: u32 = 5417;
+    const REFERENCE: u32 = 405_417;
+    unit "%";
+    decimals 2;
+    raw 1000..=15_000;
+    => value f64 as scaled(100, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Current limit time.
+    ///
+    /// `b023` at holding 10B6h (4278), `u16`, raw `1..300`, one count is `0.1 s`, read and write.
+    #[doc(alias = "b023")]
+    CurrentLimitTime: u16 = "current_limit_time", "b023";
+    at Holding 0x10B6;
+    const MODICON: u32 = 4279;
+    const REFERENCE: u32 = 404_279;
+    unit "s";
+    decimals 1;
+    raw 1..=300;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Current limit time set 2.
+    ///
+    /// `b223` at holding 1529h (5417), `u16`, raw `1..300`, one count is `0.1 s`, read and write.
+    #[doc(alias = "b223")]
+    CurrentLimitTimeSet2: u16 = "current_limit_time_set_2", "b223";
+    at Holding 0x1529;
+    const MODICON: u32 = 5418;
+    const REFERENCE: u32 = 405_418;
+    unit "s";
+    decimals 1;
+    raw 1..=300;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Current limit source.
+    ///
+    /// `b028` at holding 10BAh (4282), `u16`, raw `0, 1`, read and write.
+    #[doc(alias = "b028")]
+    CurrentLimitSource: u16 = "current_limit_source", "b028";
+    at Holding 0x10BA;
+    const MODICON: u32 = 4283;
+    const REFERENCE: u32 = 404_283;
+    raw 0..=1;
+    => value enums::CurrentLimitSource as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Current limit source set 2.
+    ///
+    /// `b228` at holding 152Ah (5418), `u16`, raw `0, 1`, read and write.
+    #[doc(alias = "b228")]
+    CurrentLimitSourceSet2: u16 = "current_limit_source_set_2", "b228";
+    at Holding 0x152A;
+    const MODICON: u32 = 5419;
+    const REFERENCE: u32 = 405_419;
+    raw 0..=1;
+    => value enums::CurrentLimitSource as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Parameter lock.
+    ///
+    /// `b031` at holding 10BBh (4283), `u16`, raw `0..3`, read and write.
+    #[doc(alias = "b031")]
+    ParameterLock: u16 = "parameter_lock", "b031";
+    at Holding 0x10BB;
+    const MODICON: u32 = 4284;
+    const REFERENCE: u32 = 404_284;
+    raw 0..=3;
+    => value enums::ParameterLock as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Analog output gain.
+    ///
+    /// `b080` at holding 10CEh (4302), `u16`, raw `0..255`, read and write.
+    #[doc(alias = "b080")]
+    AnalogOutputGain: u16 = "analog_output_gain", "b080";
+    at Holding 0x10CE;
+    const MODICON: u32 = 4303;
+    const REFERENCE: u32 = 404_303;
+    raw 0..=255;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Start frequency.
+    ///
+    /// `b082` at holding 10D0h (4304), `u16`, raw `5..99`, one count is `0.1 Hz`, read and write.
+    #[doc(alias = "b082")]
+    StartFrequency: u16 = "start_frequency", "b082";
+    at Holding 0x10D0;
+    const MODICON: u32 = 4305;
+    const REFERENCE: u32 = 404_305;
+    unit "Hz";
+    decimals 1;
+    raw 5..=99;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Carrier frequency.
+    ///
+    /// `b083` at holding 10D1h (4305), `u16`, raw `20..140`, one count is `0.1 kHz`, read and write.
+    ///
+    /// Erratum: `b083_unit`.
+    #[doc(alias = "b083")]
+    CarrierFrequency: u16 = "carrier_frequency", "b083";
+    at Holding 0x10D1;
+    const MODICON: u32 = 4306;
+    const REFERENCE: u32 = 404_306;
+    unit "kHz";
+    decimals 1;
+    raw 20..=140;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Initialization mode.
+    ///
+    /// `b084` at holding 10D2h (4306), `u16`, raw `0..2`, read and write.
+    #[doc(alias = "b084")]
+    InitializationMode: u16 = "initialization_mode", "b084";
+    at Holding 0x10D2;
+    const MODICON: u32 = 4307;
+    const REFERENCE: u32 = 404_307;
+    raw 0..=2;
+    => value enums::InitializationMode as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Frequency display factor.
+    ///
+    /// `b086` at holding 10D4h (4308), `u16`, raw `1..999`, one count is `0.1`, read and write.
+    #[doc(alias = "b086")]
+    FrequencyDisplayFactor: u16 = "frequency_display_factor", "b086";
+    at Holding 0x10D4;
+    const MODICON: u32 = 4309;
+    const REFERENCE: u32 = 404_309;
+    decimals 1;
+    raw 1..=999;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Stop key lock.
+    ///
+    /// `b087` at holding 10D5h (4309), `u16`, raw `0, 1`, read and write.
+    #[doc(alias = "b087")]
+    StopKeyLock: u16 = "stop_key_lock", "b087";
+    at Holding 0x10D5;
+    const MODICON: u32 = 4310;
+    const REFERENCE: u32 = 404_310;
+    raw 0..=1;
+    => value enums::StopKeyLock as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Coast restart mode.
+    ///
+    /// `b088` at holding 10D6h (4310), `u16`, raw `0, 1`, read and write.
+    #[doc(alias = "b088")]
+    CoastRestartMode: u16 = "coast_restart_mode", "b088";
+    at Holding 0x10D6;
+    const MODICON: u32 = 4311;
+    const REFERENCE: u32 = 404_311;
+    raw 0..=1;
+    => value enums::CoastRestartMode as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Network display.
+    ///
+    /// `b089` at holding 10D7h (4311), `u16`, raw `1..7`, read and write.
+    #[doc(alias = "b089")]
+    NetworkDisplay: u16 = "network_display", "b089";
+    at Holding 0x10D7;
+    const MODICON: u32 = 4312;
+    const REFERENCE: u32 = 404_312;
+    raw 1..=7;
+    => value enums::NetworkDisplay as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Stop mode.
+    ///
+    /// `b091` at holding 10D9h (4313), `u16`, raw `0, 1`, read and write.
+    #[doc(alias = "b091")]
+    StopMode: u16 = "stop_mode", "b091";
+    at Holding 0x10D9;
+    const MODICON: u32 = 4314;
+    const REFERENCE: u32 = 404_314;
+    raw 0..=1;
+    => value enums::StopMode as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Overvoltage deceleration enable.
+    ///
+    /// `b130` at holding 10F4h (4340), `u16`, raw `0, 1`, read and write.
+    #[doc(alias = "b130")]
+    OvervoltageDecelerationEnable: u16 = "overvoltage_deceleration_enable", "b130";
+    at Holding 0x10F4;
+    const MODICON: u32 = 4341;
+    const REFERENCE: u32 = 404_341;
+    raw 0..=1;
+    => value enums::InactiveActive as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Overvoltage deceleration level 200v.
+    ///
+    /// `b131` at holding 10F5h (4341), `u16`, raw `330..390`, read and write, for `voltage_class=200V`.
+    #[doc(alias = "b131")]
+    OvervoltageDecelerationLevel200v: u16 = "overvoltage_deceleration_level_200v", "b131";
+    at Holding 0x10F5;
+    const MODICON: u32 = 4342;
+    const REFERENCE: u32 = 404_342;
+    unit "V";
+    raw 330..=390;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Overvoltage deceleration level 400v.
+    ///
+    /// `b131` at holding 10F5h (4341), `u16`, raw `660..780`, read and write, for `voltage_class=400V`.
+    #[doc(alias = "b131")]
+    OvervoltageDecelerationLevel400v: u16 = "overvoltage_deceleration_level_400v", "b131";
+    at Holding 0x10F5;
+    const MODICON: u32 = 4342;
+    const REFERENCE: u32 = 404_342;
+    unit "V";
+    raw 660..=780;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Digital input 1 function.
+    ///
+    /// `C001` at holding 1102h (4354), `u16`, raw `0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53, 255`, read
+    /// and write.
+    #[doc(alias = "C001")]
+    DigitalInput1Function: u16 = "digital_input_1_function", "C001";
+    at Holding 0x1102;
+    const MODICON: u32 = 4355;
+    const REFERENCE: u32 = 404_355;
+    raw 0..=255;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; in [0..=9 | 11..=13 | 15..=16 | 18..=24 | 27..=29 | 31 | 50..=53 | 255]; }
+}
+
+point! {
+    /// Digital input 1 function set 2.
+    ///
+    /// `C201` at holding 1530h (5424), `u16`, raw `0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53, 255`, read
+    /// and write.
+    #[doc(alias = "C201")]
+    DigitalInput1FunctionSet2: u16 = "digital_input_1_function_set_2", "C201";
+    at Holding 0x1530;
+    const MODICON: u32 = 5425;
+    const REFERENCE: u32 = 405_425;
+    raw 0..=255;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; in [0..=9 | 11..=13 | 15..=16 | 18..=24 | 27..=29 | 31 | 50..=53 | 255]; }
+}
+
+point! {
+    /// Digital input 2 function.
+    ///
+    /// `C002` at holding 1103h (4355), `u16`, raw `0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53, 255`, read
+    /// and write.
+    #[doc(alias = "C002")]
+    DigitalInput2Function: u16 = "digital_input_2_function", "C002";
+    at Holding 0x1103;
+    const MODICON: u32 = 4356;
+    const REFERENCE: u32 = 404_356;
+    raw 0..=255;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; in [0..=9 | 11..=13 | 15..=16 | 18..=24 | 27..=29 | 31 | 50..=53 | 255]; }
+}
+
+point! {
+    /// Digital input 2 function set 2.
+    ///
+    /// `C202` at holding 1531h (5425), `u16`, raw `0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53, 255`, read
+    /// and write.
+    #[doc(alias = "C202")]
+    DigitalInput2FunctionSet2: u16 = "digital_input_2_function_set_2", "C202";
+    at Holding 0x1531;
+    const MODICON: u32 = 5426;
+    const REFERENCE: u32 = 405_426;
+    raw 0..=255;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; in [0..=9 | 11..=13 | 15..=16 | 18..=24 | 27..=29 | 31 | 50..=53 | 255]; }
+}
+
+point! {
+    /// Digital input 3 function.
+    ///
+    /// `C003` at holding 1104h (4356), `u16`, raw `0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53, 255`, read
+    /// and write.
+    #[doc(alias = "C003")]
+    DigitalInput3Function: u16 = "digital_input_3_function", "C003";
+    at Holding 0x1104;
+    const MODICON: u32 = 4357;
+    const REFERENCE: u32 = 404_357;
+    raw 0..=255;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; in [0..=9 | 11..=13 | 15..=16 | 18..=24 | 27..=29 | 31 | 50..=53 | 255]; }
+}
+
+point! {
+    /// Digital input 3 function set 2.
+    ///
+    /// `C203` at holding 1532h (5426), `u16`, raw `0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53, 255`, read
+    /// and write.
+    #[doc(alias = "C203")]
+    DigitalInput3FunctionSet2: u16 = "digital_input_3_function_set_2", "C203";
+    at Holding 0x1532;
+    const MODICON: u32 = 5427;
+    const REFERENCE: u32 = 405_427;
+    raw 0..=255;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; in [0..=9 | 11..=13 | 15..=16 | 18..=24 | 27..=29 | 31 | 50..=53 | 255]; }
+}
+
+point! {
+    /// Digital input 4 function.
+    ///
+    /// `C004` at holding 1105h (4357), `u16`, raw `0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53, 255`, read
+    /// and write.
+    #[doc(alias = "C004")]
+    DigitalInput4Function: u16 = "digital_input_4_function", "C004";
+    at Holding 0x1105;
+    const MODICON: u32 = 4358;
+    const REFERENCE: u32 = 404_358;
+    raw 0..=255;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; in [0..=9 | 11..=13 | 15..=16 | 18..=24 | 27..=29 | 31 | 50..=53 | 255]; }
+}
+
+point! {
+    /// Digital input 4 function set 2.
+    ///
+    /// `C204` at holding 1533h (5427), `u16`, raw `0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53, 255`, read
+    /// and write.
+    #[doc(alias = "C204")]
+    DigitalInput4FunctionSet2: u16 = "digital_input_4_function_set_2", "C204";
+    at Holding 0x1533;
+    const MODICON: u32 = 5428;
+    const REFERENCE: u32 = 405_428;
+    raw 0..=255;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; in [0..=9 | 11..=13 | 15..=16 | 18..=24 | 27..=29 | 31 | 50..=53 | 255]; }
+}
+
+point! {
+    /// Digital input 5 function.
+    ///
+    /// `C005` at holding 1106h (4358), `u16`, raw `0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53, 255`, read
+    /// and write.
+    #[doc(alias = "C005")]
+    DigitalInput5Function: u16 = "digital_input_5_function", "C005";
+    at Holding 0x1106;
+    const MODICON: u32 = 4359;
+    const REFERENCE: u32 = 404_359;
+    raw 0..=255;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; in [0..=9 | 11..=13 | 15..=16 | 18..=24 | 27..=29 | 31 | 50..=53 | 255]; }
+}
+
+point! {
+    /// Digital input 5 function set 2.
+    ///
+    /// `C205` at holding 1534h (5428), `u16`, raw `0..9, 11..13, 15, 16, 18..24, 27..29, 31, 50..53, 255`, read
+    /// and write.
+    #[doc(alias = "C205")]
+    DigitalInput5FunctionSet2: u16 = "digital_input_5_function_set_2", "C205";
+    at Holding 0x1534;
+    const MODICON: u32 = 5429;
+    const REFERENCE: u32 = 405_429;
+    raw 0..=255;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; in [0..=9 | 11..=13 | 15..=16 | 18..=24 | 27..=29 | 31 | 50..=53 | 255]; }
+}
+
+point! {
+    /// Digital input 1 contact.
+    ///
+    /// `C011` at holding 110Ah (4362), `u16`, raw `0, 1`, read and write.
+    #[doc(alias = "C011")]
+    DigitalInput1Contact: u16 = "digital_input_1_contact", "C011";
+    at Holding 0x110A;
+    const MODICON: u32 = 4363;
+    const REFERENCE: u32 = 404_363;
+    raw 0..=1;
+    => value enums::Contact as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Digital input 2 contact.
+    ///
+    /// `C012` at holding 110Bh (4363), `u16`, raw `0, 1`, read and write.
+    #[doc(alias = "C012")]
+    DigitalInput2Contact: u16 = "digital_input_2_contact", "C012";
+    at Holding 0x110B;
+    const MODICON: u32 = 4364;
+    const REFERENCE: u32 = 404_364;
+    raw 0..=1;
+    => value enums::Contact as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Digital input 3 contact.
+    ///
+    /// `C013` at holding 110Ch (4364), `u16`, raw `0, 1`, read and write.
+    #[doc(alias = "C013")]
+    DigitalInput3Contact: u16 = "digital_input_3_contact", "C013";
+    at Holding 0x110C;
+    const MODICON: u32 = 4365;
+    const REFERENCE: u32 = 404_365;
+    raw 0..=1;
+    => value enums::Contact as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Digital input 4 contact.
+    ///
+    /// `C014` at holding 110Dh (4365), `u16`, raw `0, 1`, read and write.
+    #[doc(alias = "C014")]
+    DigitalInput4Contact: u16 = "digital_input_4_contact", "C014";
+    at Holding 0x110D;
+    const MODICON: u32 = 4366;
+    const REFERENCE: u32 = 404_366;
+    raw 0..=1;
+    => value enums::Contact as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Digital input 5 contact.
+    ///
+    /// `C015` at holding 110Eh (4366), `u16`, raw `0, 1`, read and write.
+    #[doc(alias = "C015")]
+    DigitalInput5Contact: u16 = "digital_input_5_contact", "C015";
+    at Holding 0x110E;
+    const MODICON: u32 = 4367;
+    const REFERENCE: u32 = 404_367;
+    raw 0..=1;
+    => value enums::Contact as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Digital output 11 function.
+    ///
+    /// `C021` at holding 1113h (4371), `u16`, raw `0..10`, read and write.
+    #[doc(alias = "C021")]
+    DigitalOutput11Function: u16 = "digital_output_11_function", "C021";
+    at Holding 0x1113;
+    const MODICON: u32 = 4372;
+    const REFERENCE: u32 = 404_372;
+    raw 0..=10;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Digital output 12 function.
+    ///
+    /// `C022` at holding 1114h (4372), `u16`, raw `0..10`, read and write.
+    #[doc(alias = "C022")]
+    DigitalOutput12Function: u16 = "digital_output_12_function", "C022";
+    at Holding 0x1114;
+    const MODICON: u32 = 4373;
+    const REFERENCE: u32 = 404_373;
+    raw 0..=10;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Relay output function.
+    ///
+    /// `C026` at holding 1118h (4376), `u16`, raw `0..10`, read and write.
+    #[doc(alias = "C026")]
+    RelayOutputFunction: u16 = "relay_output_function", "C026";
+    at Holding 0x1118;
+    const MODICON: u32 = 4377;
+    const REFERENCE: u32 = 404_377;
+    raw 0..=10;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Analog output source.
+    ///
+    /// `C028` at holding 111Ah (4378), `u16`, raw `0, 1`, read and write.
+    #[doc(alias = "C028")]
+    AnalogOutputSource: u16 = "analog_output_source", "C028";
+    at Holding 0x111A;
+    const MODICON: u32 = 4379;
+    const REFERENCE: u32 = 404_379;
+    raw 0..=1;
+    => value enums::AnalogOutputSource as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Digital output 11 contact.
+    ///
+    /// `C031` at holding 111Ch (4380), `u16`, raw `0, 1`, read and write.
+    #[doc(alias = "C031")]
+    DigitalOutput11Contact: u16 = "digital_output_11_contact", "C031";
+    at Holding 0x111C;
+    const MODICON: u32 = 4381;
+    const REFERENCE: u32 = 404_381;
+    raw 0..=1;
+    => value enums::Contact as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Digital output 12 contact.
+    ///
+    /// `C032` at holding 111Dh (4381), `u16`, raw `0, 1`, read and write.
+    #[doc(alias = "C032")]
+    DigitalOutput12Contact: u16 = "digital_output_12_contact", "C032";
+    at Holding 0x111D;
+    const MODICON: u32 = 4382;
+    const REFERENCE: u32 = 404_382;
+    raw 0..=1;
+    => value enums::Contact as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Relay output contact.
+    ///
+    /// `C036` at holding 1121h (4385), `u16`, raw `0, 1`, read and write.
+    ///
+    /// Erratum: `c036_decimals`.
+    #[doc(alias = "C036")]
+    RelayOutputContact: u16 = "relay_output_contact", "C036";
+    at Holding 0x1121;
+    const MODICON: u32 = 4386;
+    const REFERENCE: u32 = 404_386;
+    raw 0..=1;
+    => value enums::Contact as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Overload alarm level.
+    ///
+    /// `C041` at holding 1123h (4387), `u16`, raw `0..20000`, one count is `0.01 %`, read and write.
+    #[doc(alias = "C041")]
+    OverloadAlarmLevel: u16 = "overload_alarm_level", "C041";
+    at Holding 0x1123;
+    const MODICON: u32 = 4388;
+    const REFERENCE: u32 = 404_388;
+    unit "%";
+    decimals 2;
+    raw 0..=20_000;
+    => value f64 as scaled(100, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Overload alarm level set 2.
+    ///
+    /// `C241` at holding 1538h (5432), `u16`, raw `0..20000`, one count is `0.01 %`, read and write.
+    #[doc(alias = "C241")]
+    OverloadAlarmLevelSet2: u16 = "overload_alarm_level_set_2", "C241";
+    at Holding 0x1538;
+    const MODICON: u32 = 5433;
+    const REFERENCE: u32 = 405_433;
+    unit "%";
+    decimals 2;
+    raw 0..=20_000;
+    => value f64 as scaled(100, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Arrival frequency acceleration.
+    ///
+    /// `C042` at holding 1125h (4389), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
+    #[doc(alias = "C042")]
+    ArrivalFrequencyAcceleration: u16 = "arrival_frequency_acceleration", "C042";
+    at Holding 0x1125;
+    const MODICON: u32 = 4390;
+    const REFERENCE: u32 = 404_390;
+    unit "Hz";
+    decimals 1;
+    raw 0..=4000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Arrival frequency deceleration.
+    ///
+    /// `C043` at holding 1127h (4391), `u16`, raw `0..4000`, one count is `0.1 Hz`, read and write.
+    #[doc(alias = "C043")]
+    ArrivalFrequencyDeceleration: u16 = "arrival_frequency_deceleration", "C043";
+    at Holding 0x1127;
+    const MODICON: u32 = 4392;
+    const REFERENCE: u32 = 404_392;
+    unit "Hz";
+    decimals 1;
+    raw 0..=4000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Pid deviation level.
+    ///
+    /// `C044` at holding 1128h (4392), `u16`, raw `0..1000`, one count is `0.1 %`, read and write.
+    #[doc(alias = "C044")]
+    PidDeviationLevel: u16 = "pid_deviation_level", "C044";
+    at Holding 0x1128;
+    const MODICON: u32 = 4393;
+    const REFERENCE: u32 = 404_393;
+    unit "%";
+    decimals 1;
+    raw 0..=1000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Pid process value upper limit.
+    ///
+    /// `C052` at holding 112Dh (4397), `u16`, raw `0..1000`, one count is `0.1 %`, read and write.
+    #[doc(alias = "C052")]
+    PidProcessValueUpperLimit: u16 = "pid_process_value_upper_limit", "C052";
+    at Holding 0x112D;
+    const MODICON: u32 = 4398;
+    const REFERENCE: u32 = 404_398;
+    unit "%";
+    decimals 1;
+    raw 0..=1000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Pid process value lower limit.
+    ///
+    /// `C053` at holding 112Eh (4398), `u16`, raw `0..1000`, one count is `0.1 %`, read and write.
+    #[doc(alias = "C053")]
+    PidProcessValueLowerLimit: u16 = "pid_process_value_lower_limit", "C053";
+    at Holding 0x112E;
+    const MODICON: u32 = 4399;
+    const REFERENCE: u32 = 404_399;
+    unit "%";
+    decimals 1;
+    raw 0..=1000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Input o calibration.
+    ///
+    /// `C081` at holding 1140h (4416), `u16`, raw `0..2000`, one count is `0.1 %`, read and write.
+    #[doc(alias = "C081")]
+    InputOCalibration: u16 = "input_o_calibration", "C081";
+    at Holding 0x1140;
+    const MODICON: u32 = 4417;
+    const REFERENCE: u32 = 404_417;
+    unit "%";
+    decimals 1;
+    raw 0..=2000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Input oi calibration.
+    ///
+    /// `C082` at holding 1141h (4417), `u16`, raw `0..2000`, one count is `0.1 %`, read and write.
+    #[doc(alias = "C082")]
+    InputOiCalibration: u16 = "input_oi_calibration", "C082";
+    at Holding 0x1141;
+    const MODICON: u32 = 4418;
+    const REFERENCE: u32 = 404_418;
+    unit "%";
+    decimals 1;
+    raw 0..=2000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Thermistor input calibration.
+    ///
+    /// `C085` at holding 1143h (4419), `u16`, raw `0..2000`, one count is `0.1 %`, read and write.
+    #[doc(alias = "C085")]
+    ThermistorInputCalibration: u16 = "thermistor_input_calibration", "C085";
+    at Holding 0x1143;
+    const MODICON: u32 = 4420;
+    const REFERENCE: u32 = 404_420;
+    unit "%";
+    decimals 1;
+    raw 0..=2000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Analog output offset.
+    ///
+    /// `C086` at holding 1144h (4420), `u16`, raw `0..100`, one count is `0.1 V`, read and write.
+    #[doc(alias = "C086")]
+    AnalogOutputOffset: u16 = "analog_output_offset", "C086";
+    at Holding 0x1144;
+    const MODICON: u32 = 4421;
+    const REFERENCE: u32 = 404_421;
+    unit "V";
+    decimals 1;
+    raw 0..=100;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Motor potentiometer memory.
+    ///
+    /// `C101` at holding 1148h (4424), `u16`, raw `0, 1`, read and write.
+    #[doc(alias = "C101")]
+    MotorPotentiometerMemory: u16 = "motor_potentiometer_memory", "C101";
+    at Holding 0x1148;
+    const MODICON: u32 = 4425;
+    const REFERENCE: u32 = 404_425;
+    raw 0..=1;
+    => value enums::MotorPotentiometerMemory as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Reset mode.
+    ///
+    /// `C102` at holding 1149h (4425), `u16`, raw `0..2`, read and write.
+    #[doc(alias = "C102")]
+    ResetMode: u16 = "reset_mode", "C102";
+    at Holding 0x1149;
+    const MODICON: u32 = 4426;
+    const REFERENCE: u32 = 404_426;
+    raw 0..=2;
+    => value enums::ResetMode as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Logic input a.
+    ///
+    /// `C141` at holding 114Fh (4431), `u16`, raw `0..10`, read and write.
+    #[doc(alias = "C141")]
+    LogicInputA: u16 = "logic_input_a", "C141";
+    at Holding 0x114F;
+    const MODICON: u32 = 4432;
+    const REFERENCE: u32 = 404_432;
+    raw 0..=10;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Logic input b.
+    ///
+    /// `C142` at holding 1150h (4432), `u16`, raw `0..10`, read and write.
+    #[doc(alias = "C142")]
+    LogicInputB: u16 = "logic_input_b", "C142";
+    at Holding 0x1150;
+    const MODICON: u32 = 4433;
+    const REFERENCE: u32 = 404_433;
+    raw 0..=10;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Logic operator.
+    ///
+    /// `C143` at holding 1151h (4433), `u16`, raw `0..2`, read and write.
+    #[doc(alias = "C143")]
+    LogicOperator: u16 = "logic_operator", "C143";
+    at Holding 0x1151;
+    const MODICON: u32 = 4434;
+    const REFERENCE: u32 = 404_434;
+    raw 0..=2;
+    => value enums::LogicOperator as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Digital output 11 on delay.
+    ///
+    /// `C144` at holding 1152h (4434), `u16`, raw `0..1000`, one count is `0.1 s`, read and write.
+    #[doc(alias = "C144")]
+    DigitalOutput11OnDelay: u16 = "digital_output_11_on_delay", "C144";
+    at Holding 0x1152;
+    const MODICON: u32 = 4435;
+    const REFERENCE: u32 = 404_435;
+    unit "s";
+    decimals 1;
+    raw 0..=1000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Digital output 11 off delay.
+    ///
+    /// `C145` at holding 1153h (4435), `u16`, raw `0..1000`, one count is `0.1 s`, read and write.
+    #[doc(alias = "C145")]
+    DigitalOutput11OffDelay: u16 = "digital_output_11_off_delay", "C145";
+    at Holding 0x1153;
+    const MODICON: u32 = 4436;
+    const REFERENCE: u32 = 404_436;
+    unit "s";
+    decimals 1;
+    raw 0..=1000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Digital output 12 on delay.
+    ///
+    /// `C146` at holding 1154h (4436), `u16`, raw `0..1000`, one count is `0.1 s`, read and write.
+    #[doc(alias = "C146")]
+    DigitalOutput12OnDelay: u16 = "digital_output_12_on_delay", "C146";
+    at Holding 0x1154;
+    const MODICON: u32 = 4437;
+    const REFERENCE: u32 = 404_437;
+    unit "s";
+    decimals 1;
+    raw 0..=1000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Digital output 12 off delay.
+    ///
+    /// `C147` at holding 1155h (4437), `u16`, raw `0..1000`, one count is `0.1 s`, read and write.
+    #[doc(alias = "C147")]
+    DigitalOutput12OffDelay: u16 = "digital_output_12_off_delay", "C147";
+    at Holding 0x1155;
+    const MODICON: u32 = 4438;
+    const REFERENCE: u32 = 404_438;
+    unit "s";
+    decimals 1;
+    raw 0..=1000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Relay output on delay.
+    ///
+    /// `C148` at holding 1156h (4438), `u16`, raw `0..1000`, one count is `0.1 s`, read and write.
+    #[doc(alias = "C148")]
+    RelayOutputOnDelay: u16 = "relay_output_on_delay", "C148";
+    at Holding 0x1156;
+    const MODICON: u32 = 4439;
+    const REFERENCE: u32 = 404_439;
+    unit "s";
+    decimals 1;
+    raw 0..=1000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Relay output off delay.
+    ///
+    /// `C149` at holding 1157h (4439), `u16`, raw `0..1000`, one count is `0.1 s`, read and write.
+    #[doc(alias = "C149")]
+    RelayOutputOffDelay: u16 = "relay_output_off_delay", "C149";
+    at Holding 0x1157;
+    const MODICON: u32 = 4440;
+    const REFERENCE: u32 = 404_440;
+    unit "s";
+    decimals 1;
+    raw 0..=1000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Motor power.
+    ///
+    /// `H003` at holding 1164h (4452), `u16`, raw `0..12`, read and write.
+    #[doc(alias = "H003")]
+    MotorPower: u16 = "motor_power", "H003";
+    at Holding 0x1164;
+    const MODICON: u32 = 4453;
+    const REFERENCE: u32 = 404_453;
+    raw 0..=12;
+    => value enums::MotorPower as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Motor power set 2.
+    ///
+    /// `H203` at holding 153Fh (5439), `u16`, raw `0..12`, read and write.
+    #[doc(alias = "H203")]
+    MotorPowerSet2: u16 = "motor_power_set_2", "H203";
+    at Holding 0x153F;
+    const MODICON: u32 = 5440;
+    const REFERENCE: u32 = 405_440;
+    raw 0..=12;
+    => value enums::MotorPower as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+}
+
+point! {
+    /// Motor poles.
+    ///
+    /// `H004` at holding 1165h (4453), `u16`, raw `2, 4, 6, 8`, read and write.
+    #[doc(alias = "H004")]
+    MotorPoles: u16 = "motor_poles", "H004";
+    at Holding 0x1165;
+    const MODICON: u32 = 4454;
+    const REFERENCE: u32 = 404_454;
+    raw 2..=8;
+    => value enums::MotorPoles as named(u16);
+    read { count i32; }
+    write { count i32; closed true; in [2 | 4 | 6 | 8]; }
+}
+
+point! {
+    /// Motor poles set 2.
+    ///
+    /// `H204` at holding 1540h (5440), `u16`, raw `2, 4, 6, 8`, read and write.
+    #[doc(alias = "H204")]
+    MotorPolesSet2: u16 = "motor_poles_set_2", "H204";
+    at Holding 0x1540;
+    const MODICON: u32 = 5441;
+    const REFERENCE: u32 = 405_441;
+    raw 2..=8;
+    => value enums::MotorPoles as named(u16);
+    read { count i32; }
+    write { count i32; closed true; in [2 | 4 | 6 | 8]; }
+}
+
+point! {
+    /// Stabilization constant.
+    ///
+    /// `H006` at holding 1167h (4455), `u16`, raw `0..255`, read and write.
+    #[doc(alias = "H006")]
+    StabilizationConstant: u16 = "stabilization_constant", "H006";
+    at Holding 0x1167;
+    const MODICON: u32 = 4456;
+    const REFERENCE: u32 = 404_456;
+    raw 0..=255;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Stabilization constant set 2.
+    ///
+    /// `H206` at holding 1542h (5442), `u16`, raw `0..255`, read and write.
+    #[doc(alias = "H206")]
+    StabilizationConstantSet2: u16 = "stabilization_constant_set_2", "H206";
+    at Holding 0x1542;
+    const MODICON: u32 = 5443;
+    const REFERENCE: u32 = 405_443;
+    raw 0..=255;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
 }

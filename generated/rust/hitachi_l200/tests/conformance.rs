@@ -4,12 +4,10 @@
 
 //! Runs the conformance vectors of the device: `cargo test`, or with `FIELDSCRIBE_VECTORS` the vectors of that file.
 
+use fieldscribe_conformance::modbus as frames;
+use fieldscribe_conformance::{self as runner, table};
+
 use hitachi_l200 as device;
-
-#[macro_use]
-mod runner;
-
-use runner::frames;
 
 table! { decode decode {
     "network_frequency_setpoint" NetworkFrequencySetpoint ();
@@ -149,10 +147,15 @@ table! { encode encode {
     "dc_brake_frequency" DcBrakeFrequency (DcBrakeFrequency: start_frequency "start_frequency");
     "dc_brake_delay" DcBrakeDelay ();
     "dc_brake_time" DcBrakeTime ();
-    "upper_frequency_limit" UpperFrequencyLimit (UpperFrequencyLimit: lower_frequency_limit "lower_frequency_limit" maximum_frequency "maximum_frequency");
-    "upper_frequency_limit_set_2" UpperFrequencyLimitSet2 (UpperFrequencyLimitSet2: lower_frequency_limit_set_2 "lower_frequency_limit_set_2" maximum_frequency_set_2 "maximum_frequency_set_2");
-    "lower_frequency_limit" LowerFrequencyLimit (LowerFrequencyLimit: start_frequency "start_frequency" upper_frequency_limit "upper_frequency_limit");
-    "lower_frequency_limit_set_2" LowerFrequencyLimitSet2 (LowerFrequencyLimitSet2: start_frequency "start_frequency" upper_frequency_limit_set_2 "upper_frequency_limit_set_2");
+    "upper_frequency_limit" UpperFrequencyLimit (UpperFrequencyLimit: lower_frequency_limit
+        "lower_frequency_limit" maximum_frequency "maximum_frequency");
+    "upper_frequency_limit_set_2" UpperFrequencyLimitSet2 (UpperFrequencyLimitSet2:
+        lower_frequency_limit_set_2 "lower_frequency_limit_set_2" maximum_frequency_set_2
+        "maximum_frequency_set_2");
+    "lower_frequency_limit" LowerFrequencyLimit (LowerFrequencyLimit: start_frequency "start_frequency"
+        upper_frequency_limit "upper_frequency_limit");
+    "lower_frequency_limit_set_2" LowerFrequencyLimitSet2 (LowerFrequencyLimitSet2: start_frequency
+        "start_frequency" upper_frequency_limit_set_2 "upper_frequency_limit_set_2");
     "jump_frequency_1" JumpFrequency1 ();
     "jump_frequency_1_width" JumpFrequency1Width ();
     "jump_frequency_2" JumpFrequency2 ();
@@ -488,10 +491,15 @@ table! { encode_count encode_count {
     "dc_brake_frequency" DcBrakeFrequency (DcBrakeFrequency: start_frequency "start_frequency");
     "dc_brake_delay" DcBrakeDelay ();
     "dc_brake_time" DcBrakeTime ();
-    "upper_frequency_limit" UpperFrequencyLimit (UpperFrequencyLimit: lower_frequency_limit "lower_frequency_limit" maximum_frequency "maximum_frequency");
-    "upper_frequency_limit_set_2" UpperFrequencyLimitSet2 (UpperFrequencyLimitSet2: lower_frequency_limit_set_2 "lower_frequency_limit_set_2" maximum_frequency_set_2 "maximum_frequency_set_2");
-    "lower_frequency_limit" LowerFrequencyLimit (LowerFrequencyLimit: start_frequency "start_frequency" upper_frequency_limit "upper_frequency_limit");
-    "lower_frequency_limit_set_2" LowerFrequencyLimitSet2 (LowerFrequencyLimitSet2: start_frequency "start_frequency" upper_frequency_limit_set_2 "upper_frequency_limit_set_2");
+    "upper_frequency_limit" UpperFrequencyLimit (UpperFrequencyLimit: lower_frequency_limit
+        "lower_frequency_limit" maximum_frequency "maximum_frequency");
+    "upper_frequency_limit_set_2" UpperFrequencyLimitSet2 (UpperFrequencyLimitSet2:
+        lower_frequency_limit_set_2 "lower_frequency_limit_set_2" maximum_frequency_set_2
+        "maximum_frequency_set_2");
+    "lower_frequency_limit" LowerFrequencyLimit (LowerFrequencyLimit: start_frequency "start_frequency"
+        upper_frequency_limit "upper_frequency_limit");
+    "lower_frequency_limit_set_2" LowerFrequencyLimitSet2 (LowerFrequencyLimitSet2: start_frequency
+        "start_frequency" upper_frequency_limit_set_2 "upper_frequency_limit_set_2");
     "jump_frequency_1" JumpFrequency1 ();
     "jump_frequency_1_width" JumpFrequency1Width ();
     "jump_frequency_2" JumpFrequency2 ();
@@ -561,10 +569,13 @@ table! { encode_plain encode_plain {
     "frequency_source_set_2" FrequencySourceSet2 ();
     "run_source" RunSource ();
     "run_source_set_2" RunSourceSet2 ();
-    "motor_rated_frequency" MotorRatedFrequency (MotorRatedFrequency: maximum_frequency "maximum_frequency");
-    "motor_rated_frequency_set_2" MotorRatedFrequencySet2 (MotorRatedFrequencySet2: maximum_frequency_set_2 "maximum_frequency_set_2");
+    "motor_rated_frequency" MotorRatedFrequency (MotorRatedFrequency: maximum_frequency
+        "maximum_frequency");
+    "motor_rated_frequency_set_2" MotorRatedFrequencySet2 (MotorRatedFrequencySet2: maximum_frequency_set_2
+        "maximum_frequency_set_2");
     "maximum_frequency" MaximumFrequency (MaximumFrequency: motor_rated_frequency "motor_rated_frequency");
-    "maximum_frequency_set_2" MaximumFrequencySet2 (MaximumFrequencySet2: motor_rated_frequency_set_2 "motor_rated_frequency_set_2");
+    "maximum_frequency_set_2" MaximumFrequencySet2 (MaximumFrequencySet2: motor_rated_frequency_set_2
+        "motor_rated_frequency_set_2");
     "at_terminal_selection" AtTerminalSelection ();
     "input_o_minimum_setpoint" InputOMinimumSetpoint ();
     "input_o_maximum_setpoint" InputOMaximumSetpoint ();
@@ -693,10 +704,15 @@ table! { check check {
     "dc_brake_frequency" DcBrakeFrequency (DcBrakeFrequency: start_frequency "start_frequency");
     "dc_brake_delay" DcBrakeDelay ();
     "dc_brake_time" DcBrakeTime ();
-    "upper_frequency_limit" UpperFrequencyLimit (UpperFrequencyLimit: lower_frequency_limit "lower_frequency_limit" maximum_frequency "maximum_frequency");
-    "upper_frequency_limit_set_2" UpperFrequencyLimitSet2 (UpperFrequencyLimitSet2: lower_frequency_limit_set_2 "lower_frequency_limit_set_2" maximum_frequency_set_2 "maximum_frequency_set_2");
-    "lower_frequency_limit" LowerFrequencyLimit (LowerFrequencyLimit: start_frequency "start_frequency" upper_frequency_limit "upper_frequency_limit");
-    "lower_frequency_limit_set_2" LowerFrequencyLimitSet2 (LowerFrequencyLimitSet2: start_frequency "start_frequency" upper_frequency_limit_set_2 "upper_frequency_limit_set_2");
+    "upper_frequency_limit" UpperFrequencyLimit (UpperFrequencyLimit: lower_frequency_limit
+        "lower_frequency_limit" maximum_frequency "maximum_frequency");
+    "upper_frequency_limit_set_2" UpperFrequencyLimitSet2 (UpperFrequencyLimitSet2:
+        lower_frequency_limit_set_2 "lower_frequency_limit_set_2" maximum_frequency_set_2
+        "maximum_frequency_set_2");
+    "lower_frequency_limit" LowerFrequencyLimit (LowerFrequencyLimit: start_frequency "start_frequency"
+        upper_frequency_limit "upper_frequency_limit");
+    "lower_frequency_limit_set_2" LowerFrequencyLimitSet2 (LowerFrequencyLimitSet2: start_frequency
+        "start_frequency" upper_frequency_limit_set_2 "upper_frequency_limit_set_2");
     "jump_frequency_1" JumpFrequency1 ();
     "jump_frequency_1_width" JumpFrequency1Width ();
     "jump_frequency_2" JumpFrequency2 ();
@@ -763,10 +779,13 @@ table! { check check {
     "frequency_source_set_2" FrequencySourceSet2 ();
     "run_source" RunSource ();
     "run_source_set_2" RunSourceSet2 ();
-    "motor_rated_frequency" MotorRatedFrequency (MotorRatedFrequency: maximum_frequency "maximum_frequency");
-    "motor_rated_frequency_set_2" MotorRatedFrequencySet2 (MotorRatedFrequencySet2: maximum_frequency_set_2 "maximum_frequency_set_2");
+    "motor_rated_frequency" MotorRatedFrequency (MotorRatedFrequency: maximum_frequency
+        "maximum_frequency");
+    "motor_rated_frequency_set_2" MotorRatedFrequencySet2 (MotorRatedFrequencySet2: maximum_frequency_set_2
+        "maximum_frequency_set_2");
     "maximum_frequency" MaximumFrequency (MaximumFrequency: motor_rated_frequency "motor_rated_frequency");
-    "maximum_frequency_set_2" MaximumFrequencySet2 (MaximumFrequencySet2: motor_rated_frequency_set_2 "motor_rated_frequency_set_2");
+    "maximum_frequency_set_2" MaximumFrequencySet2 (MaximumFrequencySet2: motor_rated_frequency_set_2
+        "motor_rated_frequency_set_2");
     "at_terminal_selection" AtTerminalSelection ();
     "input_o_minimum_setpoint" InputOMinimumSetpoint ();
     "input_o_maximum_setpoint" InputOMaximumSetpoint ();
@@ -1134,10 +1153,14 @@ table! { address address {
     "deceleration_time_2_set_2" DecelerationTime2Set2 (at MODICON "modicon" REFERENCE "reference");
     "ramp_2_selection" Ramp2Selection (at MODICON "modicon" REFERENCE "reference");
     "ramp_2_selection_set_2" Ramp2SelectionSet2 (at MODICON "modicon" REFERENCE "reference");
-    "acceleration_change_frequency" AccelerationChangeFrequency (at MODICON "modicon" REFERENCE "reference");
-    "acceleration_change_frequency_set_2" AccelerationChangeFrequencySet2 (at MODICON "modicon" REFERENCE "reference");
-    "deceleration_change_frequency" DecelerationChangeFrequency (at MODICON "modicon" REFERENCE "reference");
-    "deceleration_change_frequency_set_2" DecelerationChangeFrequencySet2 (at MODICON "modicon" REFERENCE "reference");
+    "acceleration_change_frequency" AccelerationChangeFrequency (at MODICON "modicon" REFERENCE
+        "reference");
+    "acceleration_change_frequency_set_2" AccelerationChangeFrequencySet2 (at MODICON "modicon" REFERENCE
+        "reference");
+    "deceleration_change_frequency" DecelerationChangeFrequency (at MODICON "modicon" REFERENCE
+        "reference");
+    "deceleration_change_frequency_set_2" DecelerationChangeFrequencySet2 (at MODICON "modicon" REFERENCE
+        "reference");
     "acceleration_curve" AccelerationCurve (at MODICON "modicon" REFERENCE "reference");
     "deceleration_curve" DecelerationCurve (at MODICON "modicon" REFERENCE "reference");
     "input_oi_minimum_frequency" InputOiMinimumFrequency (at MODICON "modicon" REFERENCE "reference");
@@ -1150,20 +1173,28 @@ table! { address address {
     "calculation_operator" CalculationOperator (at MODICON "modicon" REFERENCE "reference");
     "frequency_offset" FrequencyOffset (at MODICON "modicon" REFERENCE "reference");
     "frequency_offset_sign" FrequencyOffsetSign (at MODICON "modicon" REFERENCE "reference");
-    "potentiometer_minimum_frequency" PotentiometerMinimumFrequency (at MODICON "modicon" REFERENCE "reference");
-    "potentiometer_maximum_frequency" PotentiometerMaximumFrequency (at MODICON "modicon" REFERENCE "reference");
-    "potentiometer_minimum_setpoint" PotentiometerMinimumSetpoint (at MODICON "modicon" REFERENCE "reference");
-    "potentiometer_maximum_setpoint" PotentiometerMaximumSetpoint (at MODICON "modicon" REFERENCE "reference");
-    "potentiometer_start_condition" PotentiometerStartCondition (at MODICON "modicon" REFERENCE "reference");
+    "potentiometer_minimum_frequency" PotentiometerMinimumFrequency (at MODICON "modicon" REFERENCE
+        "reference");
+    "potentiometer_maximum_frequency" PotentiometerMaximumFrequency (at MODICON "modicon" REFERENCE
+        "reference");
+    "potentiometer_minimum_setpoint" PotentiometerMinimumSetpoint (at MODICON "modicon" REFERENCE
+        "reference");
+    "potentiometer_maximum_setpoint" PotentiometerMaximumSetpoint (at MODICON "modicon" REFERENCE
+        "reference");
+    "potentiometer_start_condition" PotentiometerStartCondition (at MODICON "modicon" REFERENCE
+        "reference");
     "restart_mode" RestartMode (at MODICON "modicon" REFERENCE "reference");
     "allowed_power_failure_time" AllowedPowerFailureTime (at MODICON "modicon" REFERENCE "reference");
     "restart_delay" RestartDelay (at MODICON "modicon" REFERENCE "reference");
-    "power_failure_trip_at_standstill" PowerFailureTripAtStandstill (at MODICON "modicon" REFERENCE "reference");
+    "power_failure_trip_at_standstill" PowerFailureTripAtStandstill (at MODICON "modicon" REFERENCE
+        "reference");
     "power_failure_restarts" PowerFailureRestarts (at MODICON "modicon" REFERENCE "reference");
     "motor_protection_level" MotorProtectionLevel (at MODICON "modicon" REFERENCE "reference");
     "motor_protection_level_set_2" MotorProtectionLevelSet2 (at MODICON "modicon" REFERENCE "reference");
-    "motor_protection_characteristic" MotorProtectionCharacteristic (at MODICON "modicon" REFERENCE "reference");
-    "motor_protection_characteristic_set_2" MotorProtectionCharacteristicSet2 (at MODICON "modicon" REFERENCE "reference");
+    "motor_protection_characteristic" MotorProtectionCharacteristic (at MODICON "modicon" REFERENCE
+        "reference");
+    "motor_protection_characteristic_set_2" MotorProtectionCharacteristicSet2 (at MODICON "modicon"
+        REFERENCE "reference");
     "current_limit_mode" CurrentLimitMode (at MODICON "modicon" REFERENCE "reference");
     "current_limit_mode_set_2" CurrentLimitModeSet2 (at MODICON "modicon" REFERENCE "reference");
     "current_limit_level" CurrentLimitLevel (at MODICON "modicon" REFERENCE "reference");
@@ -1182,9 +1213,12 @@ table! { address address {
     "coast_restart_mode" CoastRestartMode (at MODICON "modicon" REFERENCE "reference");
     "network_display" NetworkDisplay (at MODICON "modicon" REFERENCE "reference");
     "stop_mode" StopMode (at MODICON "modicon" REFERENCE "reference");
-    "overvoltage_deceleration_enable" OvervoltageDecelerationEnable (at MODICON "modicon" REFERENCE "reference");
-    "overvoltage_deceleration_level_200v" OvervoltageDecelerationLevel200v (at MODICON "modicon" REFERENCE "reference");
-    "overvoltage_deceleration_level_400v" OvervoltageDecelerationLevel400v (at MODICON "modicon" REFERENCE "reference");
+    "overvoltage_deceleration_enable" OvervoltageDecelerationEnable (at MODICON "modicon" REFERENCE
+        "reference");
+    "overvoltage_deceleration_level_200v" OvervoltageDecelerationLevel200v (at MODICON "modicon" REFERENCE
+        "reference");
+    "overvoltage_deceleration_level_400v" OvervoltageDecelerationLevel400v (at MODICON "modicon" REFERENCE
+        "reference");
     "digital_input_1_function" DigitalInput1Function (at MODICON "modicon" REFERENCE "reference");
     "digital_input_1_function_set_2" DigitalInput1FunctionSet2 (at MODICON "modicon" REFERENCE "reference");
     "digital_input_2_function" DigitalInput2Function (at MODICON "modicon" REFERENCE "reference");
@@ -1209,8 +1243,10 @@ table! { address address {
     "relay_output_contact" RelayOutputContact (at MODICON "modicon" REFERENCE "reference");
     "overload_alarm_level" OverloadAlarmLevel (at MODICON "modicon" REFERENCE "reference");
     "overload_alarm_level_set_2" OverloadAlarmLevelSet2 (at MODICON "modicon" REFERENCE "reference");
-    "arrival_frequency_acceleration" ArrivalFrequencyAcceleration (at MODICON "modicon" REFERENCE "reference");
-    "arrival_frequency_deceleration" ArrivalFrequencyDeceleration (at MODICON "modicon" REFERENCE "reference");
+    "arrival_frequency_acceleration" ArrivalFrequencyAcceleration (at MODICON "modicon" REFERENCE
+        "reference");
+    "arrival_frequency_deceleration" ArrivalFrequencyDeceleration (at MODICON "modicon" REFERENCE
+        "reference");
     "pid_deviation_level" PidDeviationLevel (at MODICON "modicon" REFERENCE "reference");
     "pid_process_value_upper_limit" PidProcessValueUpperLimit (at MODICON "modicon" REFERENCE "reference");
     "pid_process_value_lower_limit" PidProcessValueLowerLimit (at MODICON "modicon" REFERENCE "reference");
@@ -1622,10 +1658,14 @@ table! { write_by_write write {
     "frequency_source_set_2" FrequencySourceSet2 (wire () ());
     "run_source" RunSource (wire () ());
     "run_source_set_2" RunSourceSet2 (wire () ());
-    "motor_rated_frequency" MotorRatedFrequency (wire () (MotorRatedFrequency: maximum_frequency "maximum_frequency"));
-    "motor_rated_frequency_set_2" MotorRatedFrequencySet2 (wire () (MotorRatedFrequencySet2: maximum_frequency_set_2 "maximum_frequency_set_2"));
-    "maximum_frequency" MaximumFrequency (wire () (MaximumFrequency: motor_rated_frequency "motor_rated_frequency"));
-    "maximum_frequency_set_2" MaximumFrequencySet2 (wire () (MaximumFrequencySet2: motor_rated_frequency_set_2 "motor_rated_frequency_set_2"));
+    "motor_rated_frequency" MotorRatedFrequency (wire () (MotorRatedFrequency: maximum_frequency
+        "maximum_frequency"));
+    "motor_rated_frequency_set_2" MotorRatedFrequencySet2 (wire () (MotorRatedFrequencySet2:
+        maximum_frequency_set_2 "maximum_frequency_set_2"));
+    "maximum_frequency" MaximumFrequency (wire () (MaximumFrequency: motor_rated_frequency
+        "motor_rated_frequency"));
+    "maximum_frequency_set_2" MaximumFrequencySet2 (wire () (MaximumFrequencySet2:
+        motor_rated_frequency_set_2 "motor_rated_frequency_set_2"));
     "at_terminal_selection" AtTerminalSelection (wire () ());
     "input_o_minimum_frequency" InputOMinimumFrequency (wire () ());
     "input_o_maximum_frequency" InputOMaximumFrequency (wire () ());
@@ -1668,10 +1708,15 @@ table! { write_by_write write {
     "dc_brake_torque" DcBrakeTorque (wire () ());
     "dc_brake_time" DcBrakeTime (wire () ());
     "dc_brake_trigger" DcBrakeTrigger (wire () ());
-    "upper_frequency_limit" UpperFrequencyLimit (wire () (UpperFrequencyLimit: lower_frequency_limit "lower_frequency_limit" maximum_frequency "maximum_frequency"));
-    "upper_frequency_limit_set_2" UpperFrequencyLimitSet2 (wire () (UpperFrequencyLimitSet2: lower_frequency_limit_set_2 "lower_frequency_limit_set_2" maximum_frequency_set_2 "maximum_frequency_set_2"));
-    "lower_frequency_limit" LowerFrequencyLimit (wire () (LowerFrequencyLimit: start_frequency "start_frequency" upper_frequency_limit "upper_frequency_limit"));
-    "lower_frequency_limit_set_2" LowerFrequencyLimitSet2 (wire () (LowerFrequencyLimitSet2: start_frequency "start_frequency" upper_frequency_limit_set_2 "upper_frequency_limit_set_2"));
+    "upper_frequency_limit" UpperFrequencyLimit (wire () (UpperFrequencyLimit: lower_frequency_limit
+        "lower_frequency_limit" maximum_frequency "maximum_frequency"));
+    "upper_frequency_limit_set_2" UpperFrequencyLimitSet2 (wire () (UpperFrequencyLimitSet2:
+        lower_frequency_limit_set_2 "lower_frequency_limit_set_2" maximum_frequency_set_2
+        "maximum_frequency_set_2"));
+    "lower_frequency_limit" LowerFrequencyLimit (wire () (LowerFrequencyLimit: start_frequency
+        "start_frequency" upper_frequency_limit "upper_frequency_limit"));
+    "lower_frequency_limit_set_2" LowerFrequencyLimitSet2 (wire () (LowerFrequencyLimitSet2:
+        start_frequency "start_frequency" upper_frequency_limit_set_2 "upper_frequency_limit_set_2"));
     "jump_frequency_1" JumpFrequency1 (wire () ());
     "jump_frequency_1_width" JumpFrequency1Width (wire () ());
     "jump_frequency_2" JumpFrequency2 (wire () ());
@@ -1850,5 +1895,5 @@ fn main() -> std::process::ExitCode {
     let folder = env!("CARGO_MANIFEST_DIR");
     let default = format!("{folder}/../../vectors/{}.txt", device::DEVICE);
     let device = [device::DEVICE, device::VERSION, device::DIGEST];
-    runner::main(&default, device, run)
+    runner::main(&default, device, run, frames::check)
 }

@@ -7,1140 +7,286 @@
 //! Documented only, as the documentation explains; one with an address is reached by it, as raw words:
 //! - `limit_comparators`
 
-use fieldscribe_runtime as runtime;
-use fieldscribe_runtime::arithmetic;
+use fieldscribe_runtime::point;
 
 use crate::flags;
 
-/// Program status.
-///
-/// At holding 001Fh (31), `u16`, raw `0..65535`, read only.
-#[derive(Clone, Copy, Debug)]
-pub struct ProgramStatus;
-
-impl runtime::Point for ProgramStatus {
-    type Raw = u16;
-    type Value = flags::ProgramStatus;
-    const NAME: &'static str = "program_status";
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x001F;
-}
-
-impl runtime::Whole for ProgramStatus {}
-
-impl runtime::Readable for ProgramStatus {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        flags::ProgramStatus::from(raw)
-    }
-}
-
-impl runtime::CountReadable for ProgramStatus {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-/// Controller status.
-///
-/// At holding 0020h (32), `u16`, raw `0..65535`, read only.
-///
-/// Errata: `controller_status_bits`.
-#[derive(Clone, Copy, Debug)]
-pub struct ControllerStatus;
-
-impl runtime::Point for ControllerStatus {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "controller_status";
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x0020;
-}
-
-impl runtime::Whole for ControllerStatus {}
-
-impl runtime::Readable for ControllerStatus {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for ControllerStatus {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-/// Binary outputs.
-///
-/// At holding 0021h (33), `u16`, raw `0..65535`, read only.
-///
-/// Errata: `switching_states`, `binary_outputs_mask_6`.
-#[derive(Clone, Copy, Debug)]
-pub struct BinaryOutputs;
-
-impl runtime::Point for BinaryOutputs {
-    type Raw = u16;
-    type Value = flags::BinaryOutputs;
-    const NAME: &'static str = "binary_outputs";
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x0021;
-}
-
-impl runtime::Whole for BinaryOutputs {}
-
-impl runtime::Readable for BinaryOutputs {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        flags::BinaryOutputs::from(raw)
-    }
-}
-
-impl runtime::CountReadable for BinaryOutputs {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-/// Binary inputs.
-///
-/// At holding 0023h (35), `u16`, raw `0..65535`, read only.
-///
-/// Errata: `binary_inputs_count`, `binary_input_8_bit`, `binary_input_7_bit`, `binary_inputs_order`, `switching_states`.
-#[derive(Clone, Copy, Debug)]
-pub struct BinaryInputs;
-
-impl runtime::Point for BinaryInputs {
-    type Raw = u16;
-    type Value = flags::BinaryInputs;
-    const NAME: &'static str = "binary_inputs";
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x0023;
-}
-
-impl runtime::Whole for BinaryInputs {}
-
-impl runtime::Readable for BinaryInputs {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        flags::BinaryInputs::from(raw)
-    }
-}
-
-impl runtime::CountReadable for BinaryInputs {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-/// Control contacts.
-///
-/// At holding 0025h (37), `u16`, raw `0..65535`, read only.
-#[derive(Clone, Copy, Debug)]
-pub struct ControlContacts;
-
-impl runtime::Point for ControlContacts {
-    type Raw = u16;
-    type Value = flags::ControlContacts;
-    const NAME: &'static str = "control_contacts";
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x0025;
-}
-
-impl runtime::Whole for ControlContacts {}
-
-impl runtime::Readable for ControlContacts {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        flags::ControlContacts::from(raw)
-    }
-}
-
-impl runtime::CountReadable for ControlContacts {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-/// Binary signals.
-///
-/// At holding 0026h (38), `u16`, raw `0..65535`, read only.
-///
-/// Errata: `binary_signals_bits`, `timers_of_binary_signals`.
-#[derive(Clone, Copy, Debug)]
-pub struct BinarySignals;
-
-impl runtime::Point for BinarySignals {
-    type Raw = u16;
-    type Value = flags::BinarySignals;
-    const NAME: &'static str = "binary_signals";
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x0026;
-}
-
-impl runtime::Whole for BinarySignals {}
-
-impl runtime::Readable for BinarySignals {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        flags::BinarySignals::from(raw)
-    }
-}
-
-impl runtime::CountReadable for BinarySignals {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-/// Binary output control.
-///
-/// At holding 0027h (39), `u16`, raw `0..65535`, read and write.
-///
-/// Errata: `binary_output_control_constant`, `binary_output_control_rows`.
-#[derive(Clone, Copy, Debug)]
-pub struct BinaryOutputControl;
-
-impl runtime::Point for BinaryOutputControl {
-    type Raw = u16;
-    type Value = flags::BinaryOutputControl;
-    const NAME: &'static str = "binary_output_control";
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x0027;
-    const FIXED_MASK: u32 = 0x8000;
-    const FIXED_BITS: u32 = 0x8000;
-}
-
-impl runtime::Whole for BinaryOutputControl {}
-
-impl runtime::Readable for BinaryOutputControl {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        flags::BinaryOutputControl::from(raw)
-    }
-}
-
-impl runtime::CountReadable for BinaryOutputControl {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for BinaryOutputControl {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let fixed = raw & 0x8000 == 0x8000;
-        runtime::allowed(fixed)
-    }
-}
-
-impl runtime::Encodable for BinaryOutputControl {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        let raw = (raw & !0x8000) | 0x8000;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for BinaryOutputControl {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        let raw = (raw & !0x8000) | 0x8000;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Program run time.
-///
-/// At holding 005Bh (91), `u32`, raw `0..4294967295`, read only.
-///
-/// Errata: `long_sign`.
-#[derive(Clone, Copy, Debug)]
-pub struct ProgramRunTime;
-
-impl runtime::Point for ProgramRunTime {
-    type Raw = u32;
-    type Value = u32;
-    const NAME: &'static str = "program_run_time";
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x005B;
-    const ADDRESSES: &'static [u16] = &[0x005B, 0x005C];
-    const WORDS: u16 = 2;
-    const UNIT: &'static str = "s";
-}
-
-impl runtime::Whole for ProgramRunTime {}
-
-impl runtime::Readable for ProgramRunTime {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u32, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for ProgramRunTime {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u32, (): ()) -> Self::Output<Self::Count> {
-        i64::from(raw)
-    }
-}
-
-/// Program remaining time.
-///
-/// At holding 005Dh (93), `u32`, raw `0..4294967295`, read only.
-///
-/// Errata: `long_sign`.
-#[derive(Clone, Copy, Debug)]
-pub struct ProgramRemainingTime;
-
-impl runtime::Point for ProgramRemainingTime {
-    type Raw = u32;
-    type Value = u32;
-    const NAME: &'static str = "program_remaining_time";
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x005D;
-    const ADDRESSES: &'static [u16] = &[0x005D, 0x005E];
-    const WORDS: u16 = 2;
-    const UNIT: &'static str = "s";
-}
-
-impl runtime::Whole for ProgramRemainingTime {}
-
-impl runtime::Readable for ProgramRemainingTime {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u32, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for ProgramRemainingTime {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u32, (): ()) -> Self::Output<Self::Count> {
-        i64::from(raw)
-    }
-}
-
-/// Section run time.
-///
-/// At holding 0061h (97), `u32`, raw `0..4294967295`, read only.
-///
-/// Errata: `long_sign`, `section_and_timer_units`.
-#[derive(Clone, Copy, Debug)]
-pub struct SectionRunTime;
-
-impl runtime::Point for SectionRunTime {
-    type Raw = u32;
-    type Value = u32;
-    const NAME: &'static str = "section_run_time";
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x0061;
-    const ADDRESSES: &'static [u16] = &[0x0061, 0x0062];
-    const WORDS: u16 = 2;
-}
-
-impl runtime::Whole for SectionRunTime {}
-
-impl runtime::Readable for SectionRunTime {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u32, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for SectionRunTime {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u32, (): ()) -> Self::Output<Self::Count> {
-        i64::from(raw)
-    }
-}
-
-/// Section remaining time.
-///
-/// At holding 0063h (99), `u32`, raw `0..4294967295`, read only.
-///
-/// Errata: `long_sign`, `section_and_timer_units`.
-#[derive(Clone, Copy, Debug)]
-pub struct SectionRemainingTime;
-
-impl runtime::Point for SectionRemainingTime {
-    type Raw = u32;
-    type Value = u32;
-    const NAME: &'static str = "section_remaining_time";
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x0063;
-    const ADDRESSES: &'static [u16] = &[0x0063, 0x0064];
-    const WORDS: u16 = 2;
-}
-
-impl runtime::Whole for SectionRemainingTime {}
-
-impl runtime::Readable for SectionRemainingTime {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u32, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for SectionRemainingTime {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u32, (): ()) -> Self::Output<Self::Count> {
-        i64::from(raw)
-    }
-}
-
-/// Timer 1 run time.
-///
-/// At holding 0067h (103), `u32`, raw `0..4294967295`, read only.
-///
-/// Errata: `long_sign`, `section_and_timer_units`.
-#[derive(Clone, Copy, Debug)]
-pub struct Timer1RunTime;
-
-impl runtime::Point for Timer1RunTime {
-    type Raw = u32;
-    type Value = u32;
-    const NAME: &'static str = "timer_1_run_time";
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x0067;
-    const ADDRESSES: &'static [u16] = &[0x0067, 0x0068];
-    const WORDS: u16 = 2;
-}
-
-impl runtime::Whole for Timer1RunTime {}
-
-impl runtime::Readable for Timer1RunTime {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u32, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for Timer1RunTime {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u32, (): ()) -> Self::Output<Self::Count> {
-        i64::from(raw)
-    }
-}
-
-/// Timer 2 run time.
-///
-/// At holding 0069h (105), `u32`, raw `0..4294967295`, read only.
-///
-/// Errata: `long_sign`, `section_and_timer_units`.
-#[derive(Clone, Copy, Debug)]
-pub struct Timer2RunTime;
-
-impl runtime::Point for Timer2RunTime {
-    type Raw = u32;
-    type Value = u32;
-    const NAME: &'static str = "timer_2_run_time";
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x0069;
-    const ADDRESSES: &'static [u16] = &[0x0069, 0x006A];
-    const WORDS: u16 = 2;
-}
-
-impl runtime::Whole for Timer2RunTime {}
-
-impl runtime::Readable for Timer2RunTime {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u32, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for Timer2RunTime {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u32, (): ()) -> Self::Output<Self::Count> {
-        i64::from(raw)
-    }
-}
-
-/// Timer 3 run time.
-///
-/// At holding 006Bh (107), `u32`, raw `0..4294967295`, read only.
-///
-/// Errata: `long_sign`, `section_and_timer_units`.
-#[derive(Clone, Copy, Debug)]
-pub struct Timer3RunTime;
-
-impl runtime::Point for Timer3RunTime {
-    type Raw = u32;
-    type Value = u32;
-    const NAME: &'static str = "timer_3_run_time";
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x006B;
-    const ADDRESSES: &'static [u16] = &[0x006B, 0x006C];
-    const WORDS: u16 = 2;
-}
-
-impl runtime::Whole for Timer3RunTime {}
-
-impl runtime::Readable for Timer3RunTime {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u32, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for Timer3RunTime {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u32, (): ()) -> Self::Output<Self::Count> {
-        i64::from(raw)
-    }
-}
-
-/// Timer 4 run time.
-///
-/// At holding 006Dh (109), `u32`, raw `0..4294967295`, read only.
-///
-/// Errata: `long_sign`, `section_and_timer_units`.
-#[derive(Clone, Copy, Debug)]
-pub struct Timer4RunTime;
-
-impl runtime::Point for Timer4RunTime {
-    type Raw = u32;
-    type Value = u32;
-    const NAME: &'static str = "timer_4_run_time";
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x006D;
-    const ADDRESSES: &'static [u16] = &[0x006D, 0x006E];
-    const WORDS: u16 = 2;
-}
-
-impl runtime::Whole for Timer4RunTime {}
-
-impl runtime::Readable for Timer4RunTime {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u32, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for Timer4RunTime {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u32, (): ()) -> Self::Output<Self::Count> {
-        i64::from(raw)
-    }
-}
-
-/// Setpoint 1.
-///
-/// At holding 3100h (12544), `f32`, read and write.
-///
-/// Errata: `setpoint_access`, `examples_keeps`.
-#[derive(Clone, Copy, Debug)]
-pub struct Setpoint1;
-
-impl runtime::Point for Setpoint1 {
-    type Raw = u32;
-    type Value = f64;
-    const NAME: &'static str = "setpoint_1";
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x3100;
-    const ADDRESSES: &'static [u16] = &[0x3101, 0x3100];
-    const WORDS: u16 = 2;
-    const FLOATING: bool = true;
-
-    #[inline]
-    fn from_words([b, a]: [u16; 2]) -> u32 {
-        runtime::Raw::from_words([a, b])
-    }
-}
-
-impl runtime::Whole for Setpoint1 {
-    #[inline]
-    fn to_words(raw: u32) -> [u16; 2] {
-        let [a, b] = runtime::Raw::into_words(raw);
-        [b, a]
-    }
-}
-
-impl runtime::Readable for Setpoint1 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u32, (): ()) -> Self::Output<Self::Value> {
-        f64::from(f32::from_bits(raw))
-    }
-}
-
-impl runtime::Writable for Setpoint1 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u32, (): ()) -> Result<(), runtime::Error> {
-        let number = arithmetic::f32_number(raw)?;
-        let holds = number.is_finite();
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for Setpoint1 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u32, runtime::Error> {
-        let raw = arithmetic::f32_bits(value)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Setpoint 2.
-///
-/// At holding 3102h (12546), `f32`, read and write.
-///
-/// Errata: `setpoint_2_address`, `setpoint_access`, `examples_keeps`.
-#[derive(Clone, Copy, Debug)]
-pub struct Setpoint2;
-
-impl runtime::Point for Setpoint2 {
-    type Raw = u32;
-    type Value = f64;
-    const NAME: &'static str = "setpoint_2";
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x3102;
-    const ADDRESSES: &'static [u16] = &[0x3103, 0x3102];
-    const WORDS: u16 = 2;
-    const FLOATING: bool = true;
-
-    #[inline]
-    fn from_words([b, a]: [u16; 2]) -> u32 {
-        runtime::Raw::from_words([a, b])
-    }
-}
-
-impl runtime::Whole for Setpoint2 {
-    #[inline]
-    fn to_words(raw: u32) -> [u16; 2] {
-        let [a, b] = runtime::Raw::into_words(raw);
-        [b, a]
-    }
-}
-
-impl runtime::Readable for Setpoint2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u32, (): ()) -> Self::Output<Self::Value> {
-        f64::from(f32::from_bits(raw))
-    }
-}
-
-impl runtime::Writable for Setpoint2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u32, (): ()) -> Result<(), runtime::Error> {
-        let number = arithmetic::f32_number(raw)?;
-        let holds = number.is_finite();
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for Setpoint2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u32, runtime::Error> {
-        let raw = arithmetic::f32_bits(value)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Proportional band 1 set 2.
-///
-/// `Pb1` at holding 3014h (12308), `f32`, read and write.
-///
-/// Errata: `pb1_access`, `examples_keeps`.
-#[doc(alias = "Pb1")]
-#[derive(Clone, Copy, Debug)]
-pub struct ProportionalBand1Set2;
-
-impl runtime::Point for ProportionalBand1Set2 {
-    type Raw = u32;
-    type Value = f64;
-    const NAME: &'static str = "proportional_band_1_set_2";
-    const CODE: Option<&'static str> = Some("Pb1");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x3014;
-    const ADDRESSES: &'static [u16] = &[0x3015, 0x3014];
-    const WORDS: u16 = 2;
-    const FLOATING: bool = true;
-
-    #[inline]
-    fn from_words([b, a]: [u16; 2]) -> u32 {
-        runtime::Raw::from_words([a, b])
-    }
-}
-
-impl runtime::Whole for ProportionalBand1Set2 {
-    #[inline]
-    fn to_words(raw: u32) -> [u16; 2] {
-        let [a, b] = runtime::Raw::into_words(raw);
-        [b, a]
-    }
-}
-
-impl runtime::Readable for ProportionalBand1Set2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u32, (): ()) -> Self::Output<Self::Value> {
-        f64::from(f32::from_bits(raw))
-    }
-}
-
-impl runtime::Writable for ProportionalBand1Set2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u32, (): ()) -> Result<(), runtime::Error> {
-        let number = arithmetic::f32_number(raw)?;
-        let holds = number.is_finite();
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for ProportionalBand1Set2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u32, runtime::Error> {
-        let raw = arithmetic::f32_bits(value)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Value 0077.
-///
-/// At holding 0077h (119), `f32`, write only.
-///
-/// Errata: `value_0077_meaning`.
-#[derive(Clone, Copy, Debug)]
-pub struct Value0077;
-
-impl runtime::Point for Value0077 {
-    type Raw = u32;
-    type Value = f64;
-    const NAME: &'static str = "value_0077";
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x0077;
-    const ADDRESSES: &'static [u16] = &[0x0078, 0x0077];
-    const WORDS: u16 = 2;
-    const FLOATING: bool = true;
-
-    #[inline]
-    fn from_words([b, a]: [u16; 2]) -> u32 {
-        runtime::Raw::from_words([a, b])
-    }
-}
-
-impl runtime::Whole for Value0077 {
-    #[inline]
-    fn to_words(raw: u32) -> [u16; 2] {
-        let [a, b] = runtime::Raw::into_words(raw);
-        [b, a]
-    }
-}
-
-impl runtime::Writable for Value0077 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u32, (): ()) -> Result<(), runtime::Error> {
-        let number = arithmetic::f32_number(raw)?;
-        let holds = number.is_finite();
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for Value0077 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u32, runtime::Error> {
-        let raw = arithmetic::f32_bits(value)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Value 00ce.
-///
-/// At holding 00CEh (206), `f32`, read only.
-///
-/// Errata: `value_00ce_meaning`.
-#[derive(Clone, Copy, Debug)]
-pub struct Value00ce;
-
-impl runtime::Point for Value00ce {
-    type Raw = u32;
-    type Value = f64;
-    const NAME: &'static str = "value_00ce";
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x00CE;
-    const ADDRESSES: &'static [u16] = &[0x00CF, 0x00CE];
-    const WORDS: u16 = 2;
-    const FLOATING: bool = true;
-
-    #[inline]
-    fn from_words([b, a]: [u16; 2]) -> u32 {
-        runtime::Raw::from_words([a, b])
-    }
-}
-
-impl runtime::Whole for Value00ce {
-    #[inline]
-    fn to_words(raw: u32) -> [u16; 2] {
-        let [a, b] = runtime::Raw::into_words(raw);
-        [b, a]
-    }
-}
-
-impl runtime::Readable for Value00ce {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u32, (): ()) -> Self::Output<Self::Value> {
-        f64::from(f32::from_bits(raw))
-    }
-}
-
-/// Program controller commands.
-///
-/// At holding 006Fh (111), `u16`, raw `0..65535`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct ProgramControllerCommands;
-
-impl runtime::Point for ProgramControllerCommands {
-    type Raw = u16;
-    type Value = flags::ProgramControllerCommands;
-    const NAME: &'static str = "program_controller_commands";
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x006F;
-}
-
-impl runtime::Whole for ProgramControllerCommands {}
-
-impl runtime::Readable for ProgramControllerCommands {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        flags::ProgramControllerCommands::from(raw)
-    }
-}
-
-impl runtime::CountReadable for ProgramControllerCommands {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for ProgramControllerCommands {
-    type With = ();
-
-    #[inline]
-    fn check_with(_: u16, (): ()) -> Result<(), runtime::Error> {
-        Ok(())
-    }
-}
-
-impl runtime::Encodable for ProgramControllerCommands {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for ProgramControllerCommands {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Controller commands.
-///
-/// At holding 0070h (112), `u16`, raw `0..65535`, read and write.
-///
-/// Errata: `controller_commands_mask`.
-#[derive(Clone, Copy, Debug)]
-pub struct ControllerCommands;
-
-impl runtime::Point for ControllerCommands {
-    type Raw = u16;
-    type Value = flags::ControllerCommands;
-    const NAME: &'static str = "controller_commands";
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x0070;
-}
-
-impl runtime::Whole for ControllerCommands {}
-
-impl runtime::Readable for ControllerCommands {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        flags::ControllerCommands::from(raw)
-    }
-}
-
-impl runtime::CountReadable for ControllerCommands {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for ControllerCommands {
-    type With = ();
-
-    #[inline]
-    fn check_with(_: u16, (): ()) -> Result<(), runtime::Error> {
-        Ok(())
-    }
-}
-
-impl runtime::Encodable for ControllerCommands {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for ControllerCommands {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Operation commands.
-///
-/// At holding 0071h (113), `u16`, raw `0..65535`, read and write.
-///
-/// Errata: `operation_commands_mask`.
-#[derive(Clone, Copy, Debug)]
-pub struct OperationCommands;
-
-impl runtime::Point for OperationCommands {
-    type Raw = u16;
-    type Value = flags::OperationCommands;
-    const NAME: &'static str = "operation_commands";
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x0071;
-}
-
-impl runtime::Whole for OperationCommands {}
-
-impl runtime::Readable for OperationCommands {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        flags::OperationCommands::from(raw)
-    }
-}
-
-impl runtime::CountReadable for OperationCommands {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for OperationCommands {
-    type With = ();
-
-    #[inline]
-    fn check_with(_: u16, (): ()) -> Result<(), runtime::Error> {
-        Ok(())
-    }
-}
-
-impl runtime::Encodable for OperationCommands {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for OperationCommands {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Timer commands.
-///
-/// At holding 0072h (114), `u16`, raw `0..65535`, read and write.
-///
-/// Errata: `timer_commands_mask`, `timer_commands_end`.
-#[derive(Clone, Copy, Debug)]
-pub struct TimerCommands;
-
-impl runtime::Point for TimerCommands {
-    type Raw = u16;
-    type Value = flags::TimerCommands;
-    const NAME: &'static str = "timer_commands";
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x0072;
-}
-
-impl runtime::Whole for TimerCommands {}
-
-impl runtime::Readable for TimerCommands {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        flags::TimerCommands::from(raw)
-    }
-}
-
-impl runtime::CountReadable for TimerCommands {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for TimerCommands {
-    type With = ();
-
-    #[inline]
-    fn check_with(_: u16, (): ()) -> Result<(), runtime::Error> {
-        Ok(())
-    }
-}
-
-impl runtime::Encodable for TimerCommands {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for TimerCommands {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
+point! {
+    /// Program status.
+    ///
+    /// At holding 001Fh (31), `u16`, raw `0..65535`, read only.
+    ProgramStatus: u16 = "program_status";
+    at Holding 0x001F;
+    => value flags::ProgramStatus as flags();
+    read { count i32; }
+}
+
+point! {
+    /// Controller status.
+    ///
+    /// At holding 0020h (32), `u16`, raw `0..65535`, read only.
+    ControllerStatus: u16 = "controller_status";
+    at Holding 0x0020;
+    => value u16 as plain();
+    read { count i32; }
+}
+
+point! {
+    /// Binary outputs.
+    ///
+    /// At holding 0021h (33), `u16`, raw `0..65535`, read only.
+    BinaryOutputs: u16 = "binary_outputs";
+    at Holding 0x0021;
+    => value flags::BinaryOutputs as flags();
+    read { count i32; }
+}
+
+point! {
+    /// Binary inputs.
+    ///
+    /// At holding 0023h (35), `u16`, raw `0..65535`, read only.
+    ///
+    /// Errata: `binary_input_8_bit`, `binary_input_7_bit`.
+    BinaryInputs: u16 = "binary_inputs";
+    at Holding 0x0023;
+    => value flags::BinaryInputs as flags();
+    read { count i32; }
+}
+
+point! {
+    /// Control contacts.
+    ///
+    /// At holding 0025h (37), `u16`, raw `0..65535`, read only.
+    ControlContacts: u16 = "control_contacts";
+    at Holding 0x0025;
+    => value flags::ControlContacts as flags();
+    read { count i32; }
+}
+
+point! {
+    /// Binary signals.
+    ///
+    /// At holding 0026h (38), `u16`, raw `0..65535`, read only.
+    BinarySignals: u16 = "binary_signals";
+    at Holding 0x0026;
+    => value flags::BinarySignals as flags();
+    read { count i32; }
+}
+
+point! {
+    /// Binary output control.
+    ///
+    /// At holding 0027h (39), `u16`, raw `0..65535`, read and write.
+    BinaryOutputControl: u16 = "binary_output_control";
+    at Holding 0x0027;
+    fixed 0x8000 0x8000;
+    => value flags::BinaryOutputControl as flags();
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Program run time.
+    ///
+    /// At holding 005Bh (91), `u32`, raw `0..4294967295`, read only.
+    ProgramRunTime: u32 = "program_run_time";
+    at Holding 0x005B;
+    addresses [0x005B, 0x005C];
+    words 2;
+    unit "s";
+    => value u32 as plain();
+    read { count i64; }
+}
+
+point! {
+    /// Program remaining time.
+    ///
+    /// At holding 005Dh (93), `u32`, raw `0..4294967295`, read only.
+    ProgramRemainingTime: u32 = "program_remaining_time";
+    at Holding 0x005D;
+    addresses [0x005D, 0x005E];
+    words 2;
+    unit "s";
+    => value u32 as plain();
+    read { count i64; }
+}
+
+point! {
+    /// Section run time.
+    ///
+    /// At holding 0061h (97), `u32`, raw `0..4294967295`, read only.
+    SectionRunTime: u32 = "section_run_time";
+    at Holding 0x0061;
+    addresses [0x0061, 0x0062];
+    words 2;
+    => value u32 as plain();
+    read { count i64; }
+}
+
+point! {
+    /// Section remaining time.
+    ///
+    /// At holding 0063h (99), `u32`, raw `0..4294967295`, read only.
+    SectionRemainingTime: u32 = "section_remaining_time";
+    at Holding 0x0063;
+    addresses [0x0063, 0x0064];
+    words 2;
+    => value u32 as plain();
+    read { count i64; }
+}
+
+point! {
+    /// Timer 1 run time.
+    ///
+    /// At holding 0067h (103), `u32`, raw `0..4294967295`, read only.
+    Timer1RunTime: u32 = "timer_1_run_time";
+    at Holding 0x0067;
+    addresses [0x0067, 0x0068];
+    words 2;
+    => value u32 as plain();
+    read { count i64; }
+}
+
+point! {
+    /// Timer 2 run time.
+    ///
+    /// At holding 0069h (105), `u32`, raw `0..4294967295`, read only.
+    Timer2RunTime: u32 = "timer_2_run_time";
+    at Holding 0x0069;
+    addresses [0x0069, 0x006A];
+    words 2;
+    => value u32 as plain();
+    read { count i64; }
+}
+
+point! {
+    /// Timer 3 run time.
+    ///
+    /// At holding 006Bh (107), `u32`, raw `0..4294967295`, read only.
+    Timer3RunTime: u32 = "timer_3_run_time";
+    at Holding 0x006B;
+    addresses [0x006B, 0x006C];
+    words 2;
+    => value u32 as plain();
+    read { count i64; }
+}
+
+point! {
+    /// Timer 4 run time.
+    ///
+    /// At holding 006Dh (109), `u32`, raw `0..4294967295`, read only.
+    Timer4RunTime: u32 = "timer_4_run_time";
+    at Holding 0x006D;
+    addresses [0x006D, 0x006E];
+    words 2;
+    => value u32 as plain();
+    read { count i64; }
+}
+
+point! {
+    /// Setpoint 1.
+    ///
+    /// At holding 3100h (12544), `f32`, read and write.
+    Setpoint1: u32 = "setpoint_1";
+    at Holding 0x3100;
+    addresses [0x3101, 0x3100];
+    words 2;
+    => value f64 as floating();
+    read {}
+    write {}
+}
+
+point! {
+    /// Setpoint 2.
+    ///
+    /// At holding 3102h (12546), `f32`, read and write.
+    Setpoint2: u32 = "setpoint_2";
+    at Holding 0x3102;
+    addresses [0x3103, 0x3102];
+    words 2;
+    => value f64 as floating();
+    read {}
+    write {}
+}
+
+point! {
+    /// Proportional band 1 set 2.
+    ///
+    /// `Pb1` at holding 3014h (12308), `f32`, read and write.
+    #[doc(alias = "Pb1")]
+    ProportionalBand1Set2: u32 = "proportional_band_1_set_2", "Pb1";
+    at Holding 0x3014;
+    addresses [0x3015, 0x3014];
+    words 2;
+    => value f64 as floating();
+    read {}
+    write {}
+}
+
+point! {
+    /// Value 0077.
+    ///
+    /// At holding 0077h (119), `f32`, write only.
+    Value0077: u32 = "value_0077";
+    at Holding 0x0077;
+    addresses [0x0078, 0x0077];
+    words 2;
+    => value f64 as floating();
+    write {}
+}
+
+point! {
+    /// Value 00ce.
+    ///
+    /// At holding 00CEh (206), `f32`, read only.
+    Value00ce: u32 = "value_00ce";
+    at Holding 0x00CE;
+    addresses [0x00CF, 0x00CE];
+    words 2;
+    => value f64 as floating();
+    read {}
+}
+
+point! {
+    /// Program controller commands.
+    ///
+    /// At holding 006Fh (111), `u16`, raw `0..65535`, read and write.
+    ProgramControllerCommands: u16 = "program_controller_commands";
+    at Holding 0x006F;
+    => value flags::ProgramControllerCommands as flags();
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Controller commands.
+    ///
+    /// At holding 0070h (112), `u16`, raw `0..65535`, read and write.
+    ControllerCommands: u16 = "controller_commands";
+    at Holding 0x0070;
+    => value flags::ControllerCommands as flags();
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Operation commands.
+    ///
+    /// At holding 0071h (113), `u16`, raw `0..65535`, read and write.
+    OperationCommands: u16 = "operation_commands";
+    at Holding 0x0071;
+    => value flags::OperationCommands as flags();
+    read { count i32; }
+    write { count i32; }
+}
+
+point! {
+    /// Timer commands.
+    ///
+    /// At holding 0072h (114), `u16`, raw `0..65535`, read and write.
+    TimerCommands: u16 = "timer_commands";
+    at Holding 0x0072;
+    => value flags::TimerCommands as flags();
+    read { count i32; }
+    write { count i32; }
 }

@@ -4,12 +4,10 @@
 
 //! Runs the conformance vectors of the device: `cargo test`, or with `FIELDSCRIBE_VECTORS` the vectors of that file.
 
+use fieldscribe_conformance::modbus as frames;
+use fieldscribe_conformance::{self as runner, table};
+
 use jumo_controller as device;
-
-#[macro_use]
-mod runner;
-
-use runner::frames;
 
 table! { decode decode {
     "setpoint_1" Setpoint1 ();
@@ -99,7 +97,8 @@ table! { flag flag {
     "program_status basic_position" ProgramStatus (flag u16 basic_position with_basic_position);
     "program_status automatic_mode" ProgramStatus (flag u16 automatic_mode with_automatic_mode);
     "program_status program_end_signal" ProgramStatus (flag u16 program_end_signal with_program_end_signal);
-    "program_status tolerance_band_signal" ProgramStatus (flag u16 tolerance_band_signal with_tolerance_band_signal);
+    "program_status tolerance_band_signal" ProgramStatus (flag u16 tolerance_band_signal
+        with_tolerance_band_signal);
     "binary_outputs binary_output_1" BinaryOutputs (flag u16 binary_output_1 with_binary_output_1);
     "binary_outputs binary_output_2" BinaryOutputs (flag u16 binary_output_2 with_binary_output_2);
     "binary_outputs binary_output_3" BinaryOutputs (flag u16 binary_output_3 with_binary_output_3);
@@ -118,10 +117,14 @@ table! { flag flag {
     "binary_inputs binary_input_5" BinaryInputs (flag u16 binary_input_5 with_binary_input_5);
     "binary_inputs binary_input_8" BinaryInputs (flag u16 binary_input_8 with_binary_input_8);
     "binary_inputs binary_input_7" BinaryInputs (flag u16 binary_input_7 with_binary_input_7);
-    "control_contacts control_contact_1" ControlContacts (flag u16 control_contact_1 with_control_contact_1);
-    "control_contacts control_contact_2" ControlContacts (flag u16 control_contact_2 with_control_contact_2);
-    "control_contacts control_contact_3" ControlContacts (flag u16 control_contact_3 with_control_contact_3);
-    "control_contacts control_contact_4" ControlContacts (flag u16 control_contact_4 with_control_contact_4);
+    "control_contacts control_contact_1" ControlContacts (flag u16 control_contact_1
+        with_control_contact_1);
+    "control_contacts control_contact_2" ControlContacts (flag u16 control_contact_2
+        with_control_contact_2);
+    "control_contacts control_contact_3" ControlContacts (flag u16 control_contact_3
+        with_control_contact_3);
+    "control_contacts control_contact_4" ControlContacts (flag u16 control_contact_4
+        with_control_contact_4);
     "binary_signals control_contact_1" BinarySignals (flag u16 control_contact_1 with_control_contact_1);
     "binary_signals control_contact_2" BinarySignals (flag u16 control_contact_2 with_control_contact_2);
     "binary_signals control_contact_3" BinarySignals (flag u16 control_contact_3 with_control_contact_3);
@@ -138,19 +141,27 @@ table! { flag flag {
     "binary_output_control output_8" BinaryOutputControl (flag u16 output_8 with_output_8);
     "binary_output_control output_9" BinaryOutputControl (flag u16 output_9 with_output_9);
     "binary_output_control output_10" BinaryOutputControl (flag u16 output_10 with_output_10);
-    "program_controller_commands hold_program" ProgramControllerCommands (flag u16 hold_program with_hold_program);
-    "program_controller_commands abort_program" ProgramControllerCommands (flag u16 abort_program with_abort_program);
-    "program_controller_commands start_program" ProgramControllerCommands (flag u16 start_program with_start_program);
-    "program_controller_commands change_section" ProgramControllerCommands (flag u16 change_section with_change_section);
+    "program_controller_commands hold_program" ProgramControllerCommands (flag u16 hold_program
+        with_hold_program);
+    "program_controller_commands abort_program" ProgramControllerCommands (flag u16 abort_program
+        with_abort_program);
+    "program_controller_commands start_program" ProgramControllerCommands (flag u16 start_program
+        with_start_program);
+    "program_controller_commands change_section" ProgramControllerCommands (flag u16 change_section
+        with_change_section);
     "controller_commands hold_ramp" ControllerCommands (flag u16 hold_ramp with_hold_ramp);
     "controller_commands abort_ramp" ControllerCommands (flag u16 abort_ramp with_abort_ramp);
-    "controller_commands activate_manual_mode" ControllerCommands (flag u16 activate_manual_mode with_activate_manual_mode);
+    "controller_commands activate_manual_mode" ControllerCommands (flag u16 activate_manual_mode
+        with_activate_manual_mode);
     "controller_commands automatic_mode" ControllerCommands (flag u16 automatic_mode with_automatic_mode);
     "controller_commands controller_off" ControllerCommands (flag u16 controller_off with_controller_off);
-    "controller_commands start_self_optimisation" ControllerCommands (flag u16 start_self_optimisation with_start_self_optimisation);
-    "controller_commands abort_self_optimisation" ControllerCommands (flag u16 abort_self_optimisation with_abort_self_optimisation);
+    "controller_commands start_self_optimisation" ControllerCommands (flag u16 start_self_optimisation
+        with_start_self_optimisation);
+    "controller_commands abort_self_optimisation" ControllerCommands (flag u16 abort_self_optimisation
+        with_abort_self_optimisation);
     "operation_commands displays_off" OperationCommands (flag u16 displays_off with_displays_off);
-    "operation_commands acknowledge_limit_comparators" OperationCommands (flag u16 acknowledge_limit_comparators with_acknowledge_limit_comparators);
+    "operation_commands acknowledge_limit_comparators" OperationCommands (flag u16
+        acknowledge_limit_comparators with_acknowledge_limit_comparators);
     "operation_commands text_display" OperationCommands (flag u16 text_display with_text_display);
     "timer_commands hold_timer_1" TimerCommands (flag u16 hold_timer_1 with_hold_timer_1);
     "timer_commands abort_timer_1" TimerCommands (flag u16 abort_timer_1 with_abort_timer_1);
@@ -300,5 +311,5 @@ fn main() -> std::process::ExitCode {
     let folder = env!("CARGO_MANIFEST_DIR");
     let default = format!("{folder}/../../vectors/{}.txt", device::DEVICE);
     let device = [device::DEVICE, device::VERSION, device::DIGEST];
-    runner::main(&default, device, run)
+    runner::main(&default, device, run, frames::check)
 }

@@ -65,917 +65,284 @@ pub mod documented {
     use fieldscribe_runtime as runtime;
 
     /// The words of `p102_set_1`.
-    pub const P102_SET_1: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Holding,
-        address: 0x1980,
-        words: 1,
-        index: None,
-    };
+    pub const P102_SET_1: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Holding, 0x1980, 1, None);
 
     /// The words of `p102_set_2`.
-    pub const P102_SET_2: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Holding,
-        address: 0x1981,
-        words: 1,
-        index: None,
-    };
+    pub const P102_SET_2: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Holding, 0x1981, 1, None);
 
     /// The words of `p102_set_3`.
-    pub const P102_SET_3: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Holding,
-        address: 0x1982,
-        words: 1,
-        index: None,
-    };
+    pub const P102_SET_3: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Holding, 0x1982, 1, None);
 
     /// The words of `p102_set_4`.
-    pub const P102_SET_4: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Holding,
-        address: 0x1983,
-        words: 1,
-        index: None,
-    };
+    pub const P102_SET_4: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Holding, 0x1983, 1, None);
 
     /// The words of `maximum_frequency`.
-    pub const MAXIMUM_FREQUENCY: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Holding,
-        address: 0x19C0,
-        words: 1,
-        index: None,
-    };
+    pub const MAXIMUM_FREQUENCY: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Holding, 0x19C0, 1, None);
 
     /// The words of `p502`.
-    pub const P502: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Holding,
-        address: 0x7D80,
-        words: 1,
-        index: None,
-    };
+    pub const P502: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Holding, 0x7D80, 1, None);
 
     /// The words of `control_word_source`.
-    pub const CONTROL_WORD_SOURCE: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Holding,
-        address: 0x7F40,
-        words: 1,
-        index: None,
-    };
+    pub const CONTROL_WORD_SOURCE: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Holding, 0x7F40, 1, None);
 
     /// The words of `uss_baud_rate`.
-    pub const USS_BAUD_RATE: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Holding,
-        address: 0x7FC0,
-        words: 1,
-        index: None,
-    };
+    pub const USS_BAUD_RATE: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Holding, 0x7FC0, 1, None);
 
     /// The words of `uss_address`.
-    pub const USS_ADDRESS: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Holding,
-        address: 0x8000,
-        words: 1,
-        index: None,
-    };
+    pub const USS_ADDRESS: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Holding, 0x8000, 1, None);
 
     /// The words of `actual_value_source_set_1_index_1`.
-    pub const ACTUAL_VALUE_SOURCE_SET_1_INDEX_1: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Holding,
-        address: 0x87C0,
-        words: 1,
-        index: Some(1),
-    };
+    pub const ACTUAL_VALUE_SOURCE_SET_1_INDEX_1: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Holding, 0x87C0, 1, Some(1));
 
     /// The words of `actual_value_source_set_1_index_2`.
-    pub const ACTUAL_VALUE_SOURCE_SET_1_INDEX_2: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Holding,
-        address: 0x87C4,
-        words: 1,
-        index: Some(2),
-    };
+    pub const ACTUAL_VALUE_SOURCE_SET_1_INDEX_2: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Holding, 0x87C4, 1, Some(2));
 
     /// The words of `actual_value_source_set_1_index_3`.
-    pub const ACTUAL_VALUE_SOURCE_SET_1_INDEX_3: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Holding,
-        address: 0x87C8,
-        words: 1,
-        index: Some(3),
-    };
+    pub const ACTUAL_VALUE_SOURCE_SET_1_INDEX_3: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Holding, 0x87C8, 1, Some(3));
 
     /// The words of `actual_value_source_set_1_index_4`.
-    pub const ACTUAL_VALUE_SOURCE_SET_1_INDEX_4: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Holding,
-        address: 0x87CC,
-        words: 1,
-        index: Some(4),
-    };
+    pub const ACTUAL_VALUE_SOURCE_SET_1_INDEX_4: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Holding, 0x87CC, 1, Some(4));
 
     /// The words of `actual_value_source_set_1_index_5`.
-    pub const ACTUAL_VALUE_SOURCE_SET_1_INDEX_5: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Holding,
-        address: 0x87D0,
-        words: 1,
-        index: Some(5),
-    };
+    pub const ACTUAL_VALUE_SOURCE_SET_1_INDEX_5: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Holding, 0x87D0, 1, Some(5));
 
     /// The words of `actual_value_source_set_2_index_1`.
-    pub const ACTUAL_VALUE_SOURCE_SET_2_INDEX_1: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Holding,
-        address: 0x87C1,
-        words: 1,
-        index: Some(1),
-    };
+    pub const ACTUAL_VALUE_SOURCE_SET_2_INDEX_1: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Holding, 0x87C1, 1, Some(1));
 
     /// The words of `actual_value_source_set_2_index_2`.
-    pub const ACTUAL_VALUE_SOURCE_SET_2_INDEX_2: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Holding,
-        address: 0x87C5,
-        words: 1,
-        index: Some(2),
-    };
+    pub const ACTUAL_VALUE_SOURCE_SET_2_INDEX_2: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Holding, 0x87C5, 1, Some(2));
 
     /// The words of `actual_value_source_set_2_index_3`.
-    pub const ACTUAL_VALUE_SOURCE_SET_2_INDEX_3: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Holding,
-        address: 0x87C9,
-        words: 1,
-        index: Some(3),
-    };
+    pub const ACTUAL_VALUE_SOURCE_SET_2_INDEX_3: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Holding, 0x87C9, 1, Some(3));
 
     /// The words of `actual_value_source_set_2_index_4`.
-    pub const ACTUAL_VALUE_SOURCE_SET_2_INDEX_4: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Holding,
-        address: 0x87CD,
-        words: 1,
-        index: Some(4),
-    };
+    pub const ACTUAL_VALUE_SOURCE_SET_2_INDEX_4: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Holding, 0x87CD, 1, Some(4));
 
     /// The words of `actual_value_source_set_2_index_5`.
-    pub const ACTUAL_VALUE_SOURCE_SET_2_INDEX_5: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Holding,
-        address: 0x87D1,
-        words: 1,
-        index: Some(5),
-    };
+    pub const ACTUAL_VALUE_SOURCE_SET_2_INDEX_5: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Holding, 0x87D1, 1, Some(5));
 
     /// The words of `actual_value_source_set_3_index_1`.
-    pub const ACTUAL_VALUE_SOURCE_SET_3_INDEX_1: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Holding,
-        address: 0x87C2,
-        words: 1,
-        index: Some(1),
-    };
+    pub const ACTUAL_VALUE_SOURCE_SET_3_INDEX_1: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Holding, 0x87C2, 1, Some(1));
 
     /// The words of `actual_value_source_set_3_index_2`.
-    pub const ACTUAL_VALUE_SOURCE_SET_3_INDEX_2: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Holding,
-        address: 0x87C6,
-        words: 1,
-        index: Some(2),
-    };
+    pub const ACTUAL_VALUE_SOURCE_SET_3_INDEX_2: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Holding, 0x87C6, 1, Some(2));
 
     /// The words of `actual_value_source_set_3_index_3`.
-    pub const ACTUAL_VALUE_SOURCE_SET_3_INDEX_3: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Holding,
-        address: 0x87CA,
-        words: 1,
-        index: Some(3),
-    };
+    pub const ACTUAL_VALUE_SOURCE_SET_3_INDEX_3: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Holding, 0x87CA, 1, Some(3));
 
     /// The words of `actual_value_source_set_3_index_4`.
-    pub const ACTUAL_VALUE_SOURCE_SET_3_INDEX_4: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Holding,
-        address: 0x87CE,
-        words: 1,
-        index: Some(4),
-    };
+    pub const ACTUAL_VALUE_SOURCE_SET_3_INDEX_4: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Holding, 0x87CE, 1, Some(4));
 
     /// The words of `actual_value_source_set_3_index_5`.
-    pub const ACTUAL_VALUE_SOURCE_SET_3_INDEX_5: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Holding,
-        address: 0x87D2,
-        words: 1,
-        index: Some(5),
-    };
+    pub const ACTUAL_VALUE_SOURCE_SET_3_INDEX_5: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Holding, 0x87D2, 1, Some(5));
 
     /// The words of `actual_value_source_set_4_index_1`.
-    pub const ACTUAL_VALUE_SOURCE_SET_4_INDEX_1: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Holding,
-        address: 0x87C3,
-        words: 1,
-        index: Some(1),
-    };
+    pub const ACTUAL_VALUE_SOURCE_SET_4_INDEX_1: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Holding, 0x87C3, 1, Some(1));
 
     /// The words of `actual_value_source_set_4_index_2`.
-    pub const ACTUAL_VALUE_SOURCE_SET_4_INDEX_2: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Holding,
-        address: 0x87C7,
-        words: 1,
-        index: Some(2),
-    };
+    pub const ACTUAL_VALUE_SOURCE_SET_4_INDEX_2: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Holding, 0x87C7, 1, Some(2));
 
     /// The words of `actual_value_source_set_4_index_3`.
-    pub const ACTUAL_VALUE_SOURCE_SET_4_INDEX_3: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Holding,
-        address: 0x87CB,
-        words: 1,
-        index: Some(3),
-    };
+    pub const ACTUAL_VALUE_SOURCE_SET_4_INDEX_3: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Holding, 0x87CB, 1, Some(3));
 
     /// The words of `actual_value_source_set_4_index_4`.
-    pub const ACTUAL_VALUE_SOURCE_SET_4_INDEX_4: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Holding,
-        address: 0x87CF,
-        words: 1,
-        index: Some(4),
-    };
+    pub const ACTUAL_VALUE_SOURCE_SET_4_INDEX_4: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Holding, 0x87CF, 1, Some(4));
 
     /// The words of `actual_value_source_set_4_index_5`.
-    pub const ACTUAL_VALUE_SOURCE_SET_4_INDEX_5: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Holding,
-        address: 0x87D3,
-        words: 1,
-        index: Some(5),
-    };
+    pub const ACTUAL_VALUE_SOURCE_SET_4_INDEX_5: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Holding, 0x87D3, 1, Some(5));
 
     /// The words of `setpoint_1_function`.
-    pub const SETPOINT_1_FUNCTION: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Holding,
-        address: 0x8880,
-        words: 1,
-        index: Some(1),
-    };
+    pub const SETPOINT_1_FUNCTION: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Holding, 0x8880, 1, Some(1));
 
     /// The words of `p601`.
-    pub const P601: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Holding,
-        address: 0x9640,
-        words: 1,
-        index: None,
-    };
+    pub const P601: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Holding, 0x9640, 1, None);
 
     /// The words of `p607_index_1`.
-    pub const P607_INDEX_1: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Holding,
-        address: 0x97C0,
-        words: 1,
-        index: Some(1),
-    };
+    pub const P607_INDEX_1: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Holding, 0x97C0, 1, Some(1));
 
     /// The words of `p607_index_2`.
-    pub const P607_INDEX_2: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Holding,
-        address: 0x97C1,
-        words: 1,
-        index: Some(2),
-    };
+    pub const P607_INDEX_2: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Holding, 0x97C1, 1, Some(2));
 
     /// The words of `received_control_word`.
-    pub const RECEIVED_CONTROL_WORD: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Holding,
-        address: 0xB900,
-        words: 1,
-        index: Some(1),
-    };
+    pub const RECEIVED_CONTROL_WORD: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Holding, 0xB900, 1, Some(1));
 
     /// The words of `sent_status_word`.
-    pub const SENT_STATUS_WORD: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Holding,
-        address: 0xB940,
-        words: 1,
-        index: Some(1),
-    };
+    pub const SENT_STATUS_WORD: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Holding, 0xB940, 1, Some(1));
 }
 
-use fieldscribe_runtime as runtime;
-use fieldscribe_runtime::arithmetic;
+use fieldscribe_runtime::point;
 
 use crate::flags;
 
-/// Control word.
-///
-/// `P050[1]` at holding 0C80h (3200) index 1, `u16`, raw `0..65535`, read and write.
-///
-/// Errata: `process_data_index_base`, `process_data_access`, `control_word_set_01`, `control_word_acknowledge_row`, `control_word_function_480`, `control_word_direction`.
-#[derive(Clone, Copy, Debug)]
-pub struct ControlWord;
-
-impl runtime::Point for ControlWord {
-    type Raw = u16;
-    type Value = flags::ControlWord;
-    const NAME: &'static str = "control_word";
-    const CODE: Option<&'static str> = Some("P050[1]");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x0C80;
-    const INDEX: Option<u8> = Some(1);
+point! {
+    /// Control word.
+    ///
+    /// `P050[1]` at holding 0C80h (3200) index 1, `u16`, raw `0..65535`, read and write.
+    ControlWord: u16 = "control_word", "P050[1]";
+    at Holding 0x0C80;
+    index 1;
+    => value flags::ControlWord as flags();
+    read { count i32; }
+    write { count i32; }
 }
 
-impl runtime::Whole for ControlWord {}
-
-impl runtime::Readable for ControlWord {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        flags::ControlWord::from(raw)
-    }
+point! {
+    /// Setpoint 1.
+    ///
+    /// `P050[2]` at holding 0C81h (3201) index 2, `u16`, raw `0..65535`, read and write.
+    Setpoint1: u16 = "setpoint_1", "P050[2]";
+    at Holding 0x0C81;
+    index 2;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
 }
 
-impl runtime::CountReadable for ControlWord {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
+point! {
+    /// Setpoint 2.
+    ///
+    /// `P050[3]` at holding 0C82h (3202) index 3, `u16`, raw `0..65535`, read and write.
+    Setpoint2: u16 = "setpoint_2", "P050[3]";
+    at Holding 0x0C82;
+    index 3;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
 }
 
-impl runtime::Writable for ControlWord {
-    type With = ();
-
-    #[inline]
-    fn check_with(_: u16, (): ()) -> Result<(), runtime::Error> {
-        Ok(())
-    }
+point! {
+    /// Setpoint 3.
+    ///
+    /// `P050[4]` at holding 0C83h (3203) index 4, `u16`, raw `0..65535`, read and write.
+    Setpoint3: u16 = "setpoint_3", "P050[4]";
+    at Holding 0x0C83;
+    index 4;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
 }
 
-impl runtime::Encodable for ControlWord {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
+point! {
+    /// Setpoint 4.
+    ///
+    /// `P050[5]` at holding 0C84h (3204) index 5, `u16`, raw `0..65535`, read and write.
+    Setpoint4: u16 = "setpoint_4", "P050[5]";
+    at Holding 0x0C84;
+    index 5;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
 }
 
-impl runtime::CountWritable for ControlWord {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
+point! {
+    /// Setpoint 5.
+    ///
+    /// `P050[6]` at holding 0C85h (3205) index 6, `u16`, raw `0..65535`, read and write.
+    Setpoint5: u16 = "setpoint_5", "P050[6]";
+    at Holding 0x0C85;
+    index 6;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
 }
 
-/// Setpoint 1.
-///
-/// `P050[2]` at holding 0C81h (3201) index 2, `u16`, raw `0..65535`, read and write.
-///
-/// Errata: `process_data_index_base`, `setpoint_scale`, `process_data_access`.
-#[derive(Clone, Copy, Debug)]
-pub struct Setpoint1;
-
-impl runtime::Point for Setpoint1 {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "setpoint_1";
-    const CODE: Option<&'static str> = Some("P050[2]");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x0C81;
-    const INDEX: Option<u8> = Some(2);
+point! {
+    /// Status word.
+    ///
+    /// `P051[1]` at holding 0CC0h (3264) index 1, `u16`, raw `0..65535`, read only.
+    StatusWord: u16 = "status_word", "P051[1]";
+    at Holding 0x0CC0;
+    index 1;
+    => value flags::StatusWord as flags();
+    read { count i32; }
 }
 
-impl runtime::Whole for Setpoint1 {}
-
-impl runtime::Readable for Setpoint1 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
+point! {
+    /// Actual value 1.
+    ///
+    /// `P051[2]` at holding 0CC1h (3265) index 2, `u16`, raw `0..65535`, read only.
+    ActualValue1: u16 = "actual_value_1", "P051[2]";
+    at Holding 0x0CC1;
+    index 2;
+    => value u16 as plain();
+    read { count i32; }
 }
 
-impl runtime::CountReadable for Setpoint1 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
+point! {
+    /// Actual value 2.
+    ///
+    /// `P051[3]` at holding 0CC2h (3266) index 3, `u16`, raw `0..65535`, read only.
+    ActualValue2: u16 = "actual_value_2", "P051[3]";
+    at Holding 0x0CC2;
+    index 3;
+    => value u16 as plain();
+    read { count i32; }
 }
 
-impl runtime::Writable for Setpoint1 {
-    type With = ();
-
-    #[inline]
-    fn check_with(_: u16, (): ()) -> Result<(), runtime::Error> {
-        Ok(())
-    }
+point! {
+    /// Actual value 3.
+    ///
+    /// `P051[4]` at holding 0CC3h (3267) index 4, `u16`, raw `0..65535`, read only.
+    ActualValue3: u16 = "actual_value_3", "P051[4]";
+    at Holding 0x0CC3;
+    index 4;
+    => value u16 as plain();
+    read { count i32; }
 }
 
-impl runtime::Encodable for Setpoint1 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
+point! {
+    /// Actual value 4.
+    ///
+    /// `P051[5]` at holding 0CC4h (3268) index 5, `u16`, raw `0..65535`, read only.
+    ActualValue4: u16 = "actual_value_4", "P051[5]";
+    at Holding 0x0CC4;
+    index 5;
+    => value u16 as plain();
+    read { count i32; }
 }
 
-impl runtime::CountWritable for Setpoint1 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Setpoint 2.
-///
-/// `P050[3]` at holding 0C82h (3202) index 3, `u16`, raw `0..65535`, read and write.
-///
-/// Errata: `process_data_index_base`, `setpoint_scale`, `process_data_access`.
-#[derive(Clone, Copy, Debug)]
-pub struct Setpoint2;
-
-impl runtime::Point for Setpoint2 {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "setpoint_2";
-    const CODE: Option<&'static str> = Some("P050[3]");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x0C82;
-    const INDEX: Option<u8> = Some(3);
-}
-
-impl runtime::Whole for Setpoint2 {}
-
-impl runtime::Readable for Setpoint2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for Setpoint2 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for Setpoint2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(_: u16, (): ()) -> Result<(), runtime::Error> {
-        Ok(())
-    }
-}
-
-impl runtime::Encodable for Setpoint2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for Setpoint2 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Setpoint 3.
-///
-/// `P050[4]` at holding 0C83h (3203) index 4, `u16`, raw `0..65535`, read and write.
-///
-/// Errata: `process_data_index_base`, `setpoint_scale`, `process_data_access`.
-#[derive(Clone, Copy, Debug)]
-pub struct Setpoint3;
-
-impl runtime::Point for Setpoint3 {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "setpoint_3";
-    const CODE: Option<&'static str> = Some("P050[4]");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x0C83;
-    const INDEX: Option<u8> = Some(4);
-}
-
-impl runtime::Whole for Setpoint3 {}
-
-impl runtime::Readable for Setpoint3 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for Setpoint3 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for Setpoint3 {
-    type With = ();
-
-    #[inline]
-    fn check_with(_: u16, (): ()) -> Result<(), runtime::Error> {
-        Ok(())
-    }
-}
-
-impl runtime::Encodable for Setpoint3 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for Setpoint3 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Setpoint 4.
-///
-/// `P050[5]` at holding 0C84h (3204) index 5, `u16`, raw `0..65535`, read and write.
-///
-/// Errata: `setpoint_scale`, `process_data_access`.
-#[derive(Clone, Copy, Debug)]
-pub struct Setpoint4;
-
-impl runtime::Point for Setpoint4 {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "setpoint_4";
-    const CODE: Option<&'static str> = Some("P050[5]");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x0C84;
-    const INDEX: Option<u8> = Some(5);
-}
-
-impl runtime::Whole for Setpoint4 {}
-
-impl runtime::Readable for Setpoint4 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for Setpoint4 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for Setpoint4 {
-    type With = ();
-
-    #[inline]
-    fn check_with(_: u16, (): ()) -> Result<(), runtime::Error> {
-        Ok(())
-    }
-}
-
-impl runtime::Encodable for Setpoint4 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for Setpoint4 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Setpoint 5.
-///
-/// `P050[6]` at holding 0C85h (3205) index 6, `u16`, raw `0..65535`, read and write.
-///
-/// Errata: `setpoint_scale`, `process_data_access`.
-#[derive(Clone, Copy, Debug)]
-pub struct Setpoint5;
-
-impl runtime::Point for Setpoint5 {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "setpoint_5";
-    const CODE: Option<&'static str> = Some("P050[6]");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x0C85;
-    const INDEX: Option<u8> = Some(6);
-}
-
-impl runtime::Whole for Setpoint5 {}
-
-impl runtime::Readable for Setpoint5 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for Setpoint5 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for Setpoint5 {
-    type With = ();
-
-    #[inline]
-    fn check_with(_: u16, (): ()) -> Result<(), runtime::Error> {
-        Ok(())
-    }
-}
-
-impl runtime::Encodable for Setpoint5 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for Setpoint5 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Status word.
-///
-/// `P051[1]` at holding 0CC0h (3264) index 1, `u16`, raw `0..65535`, read only.
-///
-/// Errata: `process_data_index_base`, `status_word_direction`, `status_word_function_481`, `status_word_other_types`, `status_word_bus_control`.
-#[derive(Clone, Copy, Debug)]
-pub struct StatusWord;
-
-impl runtime::Point for StatusWord {
-    type Raw = u16;
-    type Value = flags::StatusWord;
-    const NAME: &'static str = "status_word";
-    const CODE: Option<&'static str> = Some("P051[1]");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x0CC0;
-    const INDEX: Option<u8> = Some(1);
-}
-
-impl runtime::Whole for StatusWord {}
-
-impl runtime::Readable for StatusWord {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        flags::StatusWord::from(raw)
-    }
-}
-
-impl runtime::CountReadable for StatusWord {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-/// Actual value 1.
-///
-/// `P051[2]` at holding 0CC1h (3265) index 2, `u16`, raw `0..65535`, read only.
-///
-/// Errata: `process_data_index_base`, `actual_value_scale`.
-#[derive(Clone, Copy, Debug)]
-pub struct ActualValue1;
-
-impl runtime::Point for ActualValue1 {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "actual_value_1";
-    const CODE: Option<&'static str> = Some("P051[2]");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x0CC1;
-    const INDEX: Option<u8> = Some(2);
-}
-
-impl runtime::Whole for ActualValue1 {}
-
-impl runtime::Readable for ActualValue1 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for ActualValue1 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-/// Actual value 2.
-///
-/// `P051[3]` at holding 0CC2h (3266) index 3, `u16`, raw `0..65535`, read only.
-///
-/// Errata: `process_data_index_base`, `actual_value_scale`.
-#[derive(Clone, Copy, Debug)]
-pub struct ActualValue2;
-
-impl runtime::Point for ActualValue2 {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "actual_value_2";
-    const CODE: Option<&'static str> = Some("P051[3]");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x0CC2;
-    const INDEX: Option<u8> = Some(3);
-}
-
-impl runtime::Whole for ActualValue2 {}
-
-impl runtime::Readable for ActualValue2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for ActualValue2 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-/// Actual value 3.
-///
-/// `P051[4]` at holding 0CC3h (3267) index 4, `u16`, raw `0..65535`, read only.
-///
-/// Errata: `process_data_index_base`, `actual_value_scale`.
-#[derive(Clone, Copy, Debug)]
-pub struct ActualValue3;
-
-impl runtime::Point for ActualValue3 {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "actual_value_3";
-    const CODE: Option<&'static str> = Some("P051[4]");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x0CC3;
-    const INDEX: Option<u8> = Some(4);
-}
-
-impl runtime::Whole for ActualValue3 {}
-
-impl runtime::Readable for ActualValue3 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for ActualValue3 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-/// Actual value 4.
-///
-/// `P051[5]` at holding 0CC4h (3268) index 5, `u16`, raw `0..65535`, read only.
-///
-/// Errata: `actual_value_scale`.
-#[derive(Clone, Copy, Debug)]
-pub struct ActualValue4;
-
-impl runtime::Point for ActualValue4 {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "actual_value_4";
-    const CODE: Option<&'static str> = Some("P051[5]");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x0CC4;
-    const INDEX: Option<u8> = Some(5);
-}
-
-impl runtime::Whole for ActualValue4 {}
-
-impl runtime::Readable for ActualValue4 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for ActualValue4 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-/// Actual value 5.
-///
-/// `P051[6]` at holding 0CC5h (3269) index 6, `u16`, raw `0..65535`, read only.
-///
-/// Errata: `actual_value_scale`.
-#[derive(Clone, Copy, Debug)]
-pub struct ActualValue5;
-
-impl runtime::Point for ActualValue5 {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "actual_value_5";
-    const CODE: Option<&'static str> = Some("P051[6]");
-    const SPACE: runtime::Space = runtime::Space::Holding;
-    const ADDRESS: u16 = 0x0CC5;
-    const INDEX: Option<u8> = Some(6);
-}
-
-impl runtime::Whole for ActualValue5 {}
-
-impl runtime::Readable for ActualValue5 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for ActualValue5 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
+point! {
+    /// Actual value 5.
+    ///
+    /// `P051[6]` at holding 0CC5h (3269) index 6, `u16`, raw `0..65535`, read only.
+    ActualValue5: u16 = "actual_value_5", "P051[6]";
+    at Holding 0x0CC5;
+    index 6;
+    => value u16 as plain();
+    read { count i32; }
 }

@@ -4,12 +4,10 @@
 
 //! Runs the conformance vectors of the device: `cargo test`, or with `FIELDSCRIBE_VECTORS` the vectors of that file.
 
+use fieldscribe_conformance::modbus as frames;
+use fieldscribe_conformance::{self as runner, table};
+
 use nord_sk5xxe as device;
-
-#[macro_use]
-mod runner;
-
-use runner::frames;
 
 table! { decode decode {
 } }
@@ -86,8 +84,10 @@ table! { flag flag {
     "control_word enable_ramp" ControlWord (flag u16 enable_ramp with_enable_ramp);
     "control_word enable_setpoint" ControlWord (flag u16 enable_setpoint with_enable_setpoint);
     "control_word acknowledge_fault" ControlWord (flag u16 acknowledge_fault with_acknowledge_fault);
-    "control_word start_function_480_11" ControlWord (flag u16 start_function_480_11 with_start_function_480_11);
-    "control_word start_function_480_12" ControlWord (flag u16 start_function_480_12 with_start_function_480_12);
+    "control_word start_function_480_11" ControlWord (flag u16 start_function_480_11
+        with_start_function_480_11);
+    "control_word start_function_480_12" ControlWord (flag u16 start_function_480_12
+        with_start_function_480_12);
     "control_word control_data_valid" ControlWord (flag u16 control_data_valid with_control_data_valid);
     "control_word clockwise" ControlWord (flag u16 clockwise with_clockwise);
     "control_word counter_clockwise" ControlWord (flag u16 counter_clockwise with_counter_clockwise);
@@ -265,5 +265,5 @@ fn main() -> std::process::ExitCode {
     let folder = env!("CARGO_MANIFEST_DIR");
     let default = format!("{folder}/../../vectors/{}.txt", device::DEVICE);
     let device = [device::DEVICE, device::VERSION, device::DIGEST];
-    runner::main(&default, device, run)
+    runner::main(&default, device, run, frames::check)
 }

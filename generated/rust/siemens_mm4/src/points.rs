@@ -27,3024 +27,721 @@ pub mod documented {
     use fieldscribe_runtime as runtime;
 
     /// The words of `display_value`.
-    pub const DISPLAY_VALUE: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Parameter,
-        address: 0x0000,
-        words: 1,
-        index: None,
-    };
+    pub const DISPLAY_VALUE: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Parameter, 0x0000, 1, None);
 
     /// The words of `firmware_version`.
-    pub const FIRMWARE_VERSION: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Parameter,
-        address: 0x0012,
-        words: 1,
-        index: None,
-    };
+    pub const FIRMWARE_VERSION: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Parameter, 0x0012, 1, None);
 
     /// The words of `output_frequency`.
-    pub const OUTPUT_FREQUENCY: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Parameter,
-        address: 0x0015,
-        words: 1,
-        index: None,
-    };
+    pub const OUTPUT_FREQUENCY: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Parameter, 0x0015, 1, None);
 
     /// The words of `output_current`.
-    pub const OUTPUT_CURRENT: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Parameter,
-        address: 0x001B,
-        words: 1,
-        index: None,
-    };
+    pub const OUTPUT_CURRENT: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Parameter, 0x001B, 1, None);
 
     /// The words of `second_control_word_display`.
-    pub const SECOND_CONTROL_WORD_DISPLAY: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Parameter,
-        address: 0x0038,
-        words: 1,
-        index: None,
-    };
+    pub const SECOND_CONTROL_WORD_DISPLAY: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Parameter, 0x0038, 1, None);
 
     /// The words of `remote_local_selection_index_0`.
-    pub const REMOTE_LOCAL_SELECTION_INDEX_0: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Parameter,
-        address: 0x02CF,
-        words: 1,
-        index: Some(0),
-    };
+    pub const REMOTE_LOCAL_SELECTION_INDEX_0: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Parameter, 0x02CF, 1, Some(0));
 
     /// The words of `remote_local_selection_index_1`.
-    pub const REMOTE_LOCAL_SELECTION_INDEX_1: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Parameter,
-        address: 0x02CF,
-        words: 1,
-        index: Some(1),
-    };
+    pub const REMOTE_LOCAL_SELECTION_INDEX_1: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Parameter, 0x02CF, 1, Some(1));
 
     /// The words of `jog_acceleration_time`.
-    pub const JOG_ACCELERATION_TIME: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Parameter,
-        address: 0x0424,
-        words: 1,
-        index: None,
-    };
+    pub const JOG_ACCELERATION_TIME: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Parameter, 0x0424, 1, None);
 
     /// The words of `jog_deceleration_time`.
-    pub const JOG_DECELERATION_TIME: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Parameter,
-        address: 0x0425,
-        words: 1,
-        index: None,
-    };
+    pub const JOG_DECELERATION_TIME: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Parameter, 0x0425, 1, None);
 
     /// The words of `acceleration_time`.
-    pub const ACCELERATION_TIME: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Parameter,
-        address: 0x0460,
-        words: 1,
-        index: None,
-    };
+    pub const ACCELERATION_TIME: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Parameter, 0x0460, 1, None);
 
     /// The words of `deceleration_time`.
-    pub const DECELERATION_TIME: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Parameter,
-        address: 0x0461,
-        words: 1,
-        index: None,
-    };
+    pub const DECELERATION_TIME: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Parameter, 0x0461, 1, None);
 
     /// The words of `rs485_control_word_1`.
-    pub const RS485_CONTROL_WORD_1: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Parameter,
-        address: 0x07F4,
-        words: 1,
-        index: None,
-    };
+    pub const RS485_CONTROL_WORD_1: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Parameter, 0x07F4, 1, None);
 
     /// The words of `rs485_control_word_2`.
-    pub const RS485_CONTROL_WORD_2: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Parameter,
-        address: 0x07F5,
-        words: 1,
-        index: None,
-    };
+    pub const RS485_CONTROL_WORD_2: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Parameter, 0x07F5, 1, None);
 
     /// The words of `secret_password`.
-    pub const SECRET_PASSWORD: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Parameter,
-        address: 0x0F6E,
-        words: 1,
-        index: None,
-    };
+    pub const SECRET_PASSWORD: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Parameter, 0x0F6E, 1, None);
 
     /// The words of `second_setpoint`.
-    pub const SECOND_SETPOINT: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Telegram,
-        address: 0x0002,
-        words: 1,
-        index: None,
-    };
+    pub const SECOND_SETPOINT: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Telegram, 0x0002, 1, None);
 
     /// The words of `second_actual_value`.
-    pub const SECOND_ACTUAL_VALUE: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Telegram,
-        address: 0x0002,
-        words: 1,
-        index: None,
-    };
+    pub const SECOND_ACTUAL_VALUE: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Telegram, 0x0002, 1, None);
 }
 
-use fieldscribe_runtime as runtime;
-use fieldscribe_runtime::arithmetic;
+use fieldscribe_runtime::{self as runtime, point};
 
 use crate::enums;
 use crate::flags;
 use crate::with;
 
-/// User access level.
-///
-/// `P0003` at parameter 0003h (3), `u16`, raw `0..65535`, read and write.
-///
-/// Errata: `integer_parameters_type`.
-#[doc(alias = "P0003")]
-#[derive(Clone, Copy, Debug)]
-pub struct UserAccessLevel;
-
-impl runtime::Point for UserAccessLevel {
-    type Raw = u16;
-    type Value = enums::UserAccessLevel;
-    const NAME: &'static str = "user_access_level";
-    const CODE: Option<&'static str> = Some("P0003");
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0003;
-}
-
-impl runtime::Whole for UserAccessLevel {}
-
-impl runtime::uss::Parameter for UserAccessLevel {}
-
-impl runtime::Readable for UserAccessLevel {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::UserAccessLevel::from(raw)
-    }
-}
-
-impl runtime::CountReadable for UserAccessLevel {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for UserAccessLevel {
-    type With = ();
-
-    #[inline]
-    fn check_with(_: u16, (): ()) -> Result<(), runtime::Error> {
-        Ok(())
-    }
-}
-
-impl runtime::Encodable for UserAccessLevel {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for UserAccessLevel {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Inverter status word.
-///
-/// `r0052` at parameter 0034h (52), `u16`, raw `0..65535`, read only.
-///
-/// Errata: `status_word_parameter_type`, `zsw_bit_3_polarity`, `zsw_bit_5_polarity`, `zsw_bit_8_at_rest`, `zsw_bit_12_at_rest`, `zsw_bit_6_spelling`, `zsw_bit_9_words`, `zsw_bit_11_words`.
-#[doc(alias = "r0052")]
-#[derive(Clone, Copy, Debug)]
-pub struct InverterStatusWord;
-
-impl runtime::Point for InverterStatusWord {
-    type Raw = u16;
-    type Value = flags::InverterStatusWord;
-    const NAME: &'static str = "inverter_status_word";
-    const CODE: Option<&'static str> = Some("r0052");
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0034;
-}
-
-impl runtime::Whole for InverterStatusWord {}
-
-impl runtime::uss::Parameter for InverterStatusWord {}
-
-impl runtime::Readable for InverterStatusWord {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        flags::InverterStatusWord::from(raw)
-    }
-}
-
-impl runtime::CountReadable for InverterStatusWord {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-/// Command source.
-///
-/// `P0700` at parameter 02BCh (700), `u16`, raw `0..65535`, read and write.
-///
-/// Errata: `single_word_sign`, `command_source_numbers`.
-#[doc(alias = "P0700")]
-#[derive(Clone, Copy, Debug)]
-pub struct CommandSource;
-
-impl runtime::Point for CommandSource {
-    type Raw = u16;
-    type Value = enums::CommandSource;
-    const NAME: &'static str = "command_source";
-    const CODE: Option<&'static str> = Some("P0700");
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x02BC;
-}
-
-impl runtime::Whole for CommandSource {}
-
-impl runtime::uss::Parameter for CommandSource {}
-
-impl runtime::Readable for CommandSource {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::CommandSource::from(raw)
-    }
-}
-
-impl runtime::CountReadable for CommandSource {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for CommandSource {
-    type With = ();
-
-    #[inline]
-    fn check_with(_: u16, (): ()) -> Result<(), runtime::Error> {
-        Ok(())
-    }
-}
-
-impl runtime::Encodable for CommandSource {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for CommandSource {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// P0731 source.
-///
-/// `P0731` at parameter 02DBh (731), `u32`, raw `0..4294967295`, read and write.
-///
-/// Errata: `p0731_meaning`.
-#[doc(alias = "P0731")]
-#[derive(Clone, Copy, Debug)]
-pub struct P0731Source;
-
-impl runtime::Point for P0731Source {
-    type Raw = u32;
-    type Value = flags::P0731Source;
-    const NAME: &'static str = "p0731_source";
-    const CODE: Option<&'static str> = Some("P0731");
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x02DB;
-    const WORDS: u16 = 2;
-}
-
-impl runtime::Whole for P0731Source {}
-
-impl runtime::uss::Parameter for P0731Source {}
-
-impl runtime::Readable for P0731Source {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u32, (): ()) -> Self::Output<Self::Value> {
-        flags::P0731Source::from(raw)
-    }
-}
-
-impl runtime::CountReadable for P0731Source {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u32, (): ()) -> Self::Output<Self::Count> {
-        i64::from(raw)
-    }
-}
-
-impl runtime::Writable for P0731Source {
-    type With = ();
-
-    #[inline]
-    fn check_with(_: u32, (): ()) -> Result<(), runtime::Error> {
-        Ok(())
-    }
-}
-
-impl runtime::Encodable for P0731Source {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u32, runtime::Error> {
-        let raw = u32::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for P0731Source {
-    type Count = i64;
-
-    #[inline]
-    fn encode_count_with(count: i64, (): ()) -> Result<u32, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Main setpoint source.
-///
-/// `P1000` at parameter 03E8h (1000), `u16`, raw `0..65535`, read and write.
-///
-/// Errata: `integer_parameters_type`, `command_source_numbers`.
-#[doc(alias = "P1000")]
-#[derive(Clone, Copy, Debug)]
-pub struct MainSetpointSource;
-
-impl runtime::Point for MainSetpointSource {
-    type Raw = u16;
-    type Value = enums::MainSetpointSource;
-    const NAME: &'static str = "main_setpoint_source";
-    const CODE: Option<&'static str> = Some("P1000");
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x03E8;
-}
-
-impl runtime::Whole for MainSetpointSource {}
-
-impl runtime::uss::Parameter for MainSetpointSource {}
-
-impl runtime::Readable for MainSetpointSource {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::MainSetpointSource::from(raw)
-    }
-}
-
-impl runtime::CountReadable for MainSetpointSource {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for MainSetpointSource {
-    type With = ();
-
-    #[inline]
-    fn check_with(_: u16, (): ()) -> Result<(), runtime::Error> {
-        Ok(())
-    }
-}
-
-impl runtime::Encodable for MainSetpointSource {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for MainSetpointSource {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Maximum frequency.
-///
-/// `P1082` at parameter 043Ah (1082), `f32`, read and write.
-///
-/// Errata: `maximum_frequency_unit`.
-#[doc(alias = "P1082")]
-#[derive(Clone, Copy, Debug)]
-pub struct MaximumFrequency;
-
-impl runtime::Point for MaximumFrequency {
-    type Raw = u32;
-    type Value = f64;
-    const NAME: &'static str = "maximum_frequency";
-    const CODE: Option<&'static str> = Some("P1082");
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x043A;
-    const WORDS: u16 = 2;
-    const FLOATING: bool = true;
-    const UNIT: &'static str = "Hz";
-}
-
-impl runtime::Whole for MaximumFrequency {}
-
-impl runtime::uss::Parameter for MaximumFrequency {}
-
-impl runtime::Readable for MaximumFrequency {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u32, (): ()) -> Self::Output<Self::Value> {
-        f64::from(f32::from_bits(raw))
-    }
-}
-
-impl runtime::Writable for MaximumFrequency {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u32, (): ()) -> Result<(), runtime::Error> {
-        let number = arithmetic::f32_number(raw)?;
-        let holds = number.is_finite();
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for MaximumFrequency {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u32, runtime::Error> {
-        let raw = arithmetic::f32_bits(value)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Jog time selection source.
-///
-/// `P1124` at parameter 0464h (1124), `u32`, raw `0..4294967295`, read and write.
-///
-/// Errata: `source_type`, `jog_time_selection_words`.
-#[doc(alias = "P1124")]
-#[derive(Clone, Copy, Debug)]
-pub struct JogTimeSelectionSource;
-
-impl runtime::Point for JogTimeSelectionSource {
-    type Raw = u32;
-    type Value = flags::JogTimeSelectionSource;
-    const NAME: &'static str = "jog_time_selection_source";
-    const CODE: Option<&'static str> = Some("P1124");
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0464;
-    const WORDS: u16 = 2;
-}
-
-impl runtime::Whole for JogTimeSelectionSource {}
-
-impl runtime::uss::Parameter for JogTimeSelectionSource {}
-
-impl runtime::Readable for JogTimeSelectionSource {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u32, (): ()) -> Self::Output<Self::Value> {
-        flags::JogTimeSelectionSource::from(raw)
-    }
-}
-
-impl runtime::CountReadable for JogTimeSelectionSource {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u32, (): ()) -> Self::Output<Self::Count> {
-        i64::from(raw)
-    }
-}
-
-impl runtime::Writable for JogTimeSelectionSource {
-    type With = ();
-
-    #[inline]
-    fn check_with(_: u32, (): ()) -> Result<(), runtime::Error> {
-        Ok(())
-    }
-}
-
-impl runtime::Encodable for JogTimeSelectionSource {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u32, runtime::Error> {
-        let raw = u32::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for JogTimeSelectionSource {
-    type Count = i64;
-
-    #[inline]
-    fn encode_count_with(count: i64, (): ()) -> Result<u32, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Dc braking source.
-///
-/// `P1230` at parameter 04CEh (1230), `u32`, raw `0..4294967295`, read and write.
-///
-/// Errata: `source_type`.
-#[doc(alias = "P1230")]
-#[derive(Clone, Copy, Debug)]
-pub struct DcBrakingSource;
-
-impl runtime::Point for DcBrakingSource {
-    type Raw = u32;
-    type Value = flags::DcBrakingSource;
-    const NAME: &'static str = "dc_braking_source";
-    const CODE: Option<&'static str> = Some("P1230");
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x04CE;
-    const WORDS: u16 = 2;
-}
-
-impl runtime::Whole for DcBrakingSource {}
-
-impl runtime::uss::Parameter for DcBrakingSource {}
-
-impl runtime::Readable for DcBrakingSource {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u32, (): ()) -> Self::Output<Self::Value> {
-        flags::DcBrakingSource::from(raw)
-    }
-}
-
-impl runtime::CountReadable for DcBrakingSource {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u32, (): ()) -> Self::Output<Self::Count> {
-        i64::from(raw)
-    }
-}
-
-impl runtime::Writable for DcBrakingSource {
-    type With = ();
-
-    #[inline]
-    fn check_with(_: u32, (): ()) -> Result<(), runtime::Error> {
-        Ok(())
-    }
-}
-
-impl runtime::Encodable for DcBrakingSource {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u32, runtime::Error> {
-        let raw = u32::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for DcBrakingSource {
-    type Count = i64;
-
-    #[inline]
-    fn encode_count_with(count: i64, (): ()) -> Result<u32, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Output phase sequence.
-///
-/// `P1820` at parameter 071Ch (1820), `u16`, raw `0..65535`, read and write.
-///
-/// Errata: `integer_parameters_type`.
-#[doc(alias = "P1820")]
-#[derive(Clone, Copy, Debug)]
-pub struct OutputPhaseSequence;
-
-impl runtime::Point for OutputPhaseSequence {
-    type Raw = u16;
-    type Value = enums::OutputPhaseSequence;
-    const NAME: &'static str = "output_phase_sequence";
-    const CODE: Option<&'static str> = Some("P1820");
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x071C;
-}
-
-impl runtime::Whole for OutputPhaseSequence {}
-
-impl runtime::uss::Parameter for OutputPhaseSequence {}
-
-impl runtime::Readable for OutputPhaseSequence {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::OutputPhaseSequence::from(raw)
-    }
-}
-
-impl runtime::CountReadable for OutputPhaseSequence {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for OutputPhaseSequence {
-    type With = ();
-
-    #[inline]
-    fn check_with(_: u16, (): ()) -> Result<(), runtime::Error> {
-        Ok(())
-    }
-}
-
-impl runtime::Encodable for OutputPhaseSequence {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for OutputPhaseSequence {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Reference frequency.
-///
-/// `P2000` at parameter 07D0h (2000), `f32`, read and write.
-///
-/// Errata: `reference_frequency_unit`.
-#[doc(alias = "P2000")]
-#[derive(Clone, Copy, Debug)]
-pub struct ReferenceFrequency;
-
-impl runtime::Point for ReferenceFrequency {
-    type Raw = u32;
-    type Value = f64;
-    const NAME: &'static str = "reference_frequency";
-    const CODE: Option<&'static str> = Some("P2000");
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x07D0;
-    const WORDS: u16 = 2;
-    const FLOATING: bool = true;
-    const UNIT: &'static str = "Hz";
-}
-
-impl runtime::Whole for ReferenceFrequency {}
-
-impl runtime::uss::Parameter for ReferenceFrequency {}
-
-impl runtime::Readable for ReferenceFrequency {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u32, (): ()) -> Self::Output<Self::Value> {
-        f64::from(f32::from_bits(raw))
-    }
-}
-
-impl runtime::Writable for ReferenceFrequency {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u32, (): ()) -> Result<(), runtime::Error> {
-        let number = arithmetic::f32_number(raw)?;
-        let holds = number.is_finite();
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for ReferenceFrequency {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u32, runtime::Error> {
-        let raw = arithmetic::f32_bits(value)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Uss normalisation rs485.
-///
-/// `P2009` at parameter 07D9h (2009) index 0, `u16`, raw `0, 1`, read and write, for `interface=rs485`.
-///
-/// Errata: `integer_parameters_type`, `interface_indices`, `normalisation_default`.
-#[doc(alias = "P2009")]
-#[derive(Clone, Copy, Debug)]
-pub struct UssNormalisationRs485;
-
-impl runtime::Point for UssNormalisationRs485 {
-    type Raw = u16;
-    type Value = enums::UssNormalisation;
-    const NAME: &'static str = "uss_normalisation_rs485";
-    const CODE: Option<&'static str> = Some("P2009");
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x07D9;
-    const INDEX: Option<u8> = Some(0);
-    const RAW_MAX: u16 = 1;
-}
-
-impl runtime::Whole for UssNormalisationRs485 {}
-
-impl runtime::uss::Parameter for UssNormalisationRs485 {}
-
-impl runtime::Readable for UssNormalisationRs485 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::UssNormalisation::from(raw)
-    }
-}
-
-impl runtime::CountReadable for UssNormalisationRs485 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for UssNormalisationRs485 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for UssNormalisationRs485 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for UssNormalisationRs485 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Uss normalisation rs232.
-///
-/// `P2009` at parameter 07D9h (2009) index 1, `u16`, raw `0, 1`, read and write, for `interface=rs232`.
-///
-/// Errata: `integer_parameters_type`, `interface_indices`, `normalisation_default`.
-#[doc(alias = "P2009")]
-#[derive(Clone, Copy, Debug)]
-pub struct UssNormalisationRs232;
-
-impl runtime::Point for UssNormalisationRs232 {
-    type Raw = u16;
-    type Value = enums::UssNormalisation;
-    const NAME: &'static str = "uss_normalisation_rs232";
-    const CODE: Option<&'static str> = Some("P2009");
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x07D9;
-    const INDEX: Option<u8> = Some(1);
-    const RAW_MAX: u16 = 1;
-}
-
-impl runtime::Whole for UssNormalisationRs232 {}
-
-impl runtime::uss::Parameter for UssNormalisationRs232 {}
-
-impl runtime::Readable for UssNormalisationRs232 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::UssNormalisation::from(raw)
-    }
-}
-
-impl runtime::CountReadable for UssNormalisationRs232 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for UssNormalisationRs232 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for UssNormalisationRs232 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for UssNormalisationRs232 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Uss baud rate index 0.
-///
-/// `P2010` at parameter 07DAh (2010) index 0, `u16`, raw `0..65535`, read and write.
-///
-/// Errata: `single_word_sign`, `interface_indices`, `baud_codes`.
-#[doc(alias = "P2010")]
-#[derive(Clone, Copy, Debug)]
-pub struct UssBaudRateIndex0;
-
-impl runtime::Point for UssBaudRateIndex0 {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "uss_baud_rate_index_0";
-    const CODE: Option<&'static str> = Some("P2010");
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x07DA;
-    const INDEX: Option<u8> = Some(0);
-}
-
-impl runtime::Whole for UssBaudRateIndex0 {}
-
-impl runtime::uss::Parameter for UssBaudRateIndex0 {}
-
-impl runtime::Readable for UssBaudRateIndex0 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for UssBaudRateIndex0 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for UssBaudRateIndex0 {
-    type With = ();
-
-    #[inline]
-    fn check_with(_: u16, (): ()) -> Result<(), runtime::Error> {
-        Ok(())
-    }
-}
-
-impl runtime::Encodable for UssBaudRateIndex0 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for UssBaudRateIndex0 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Uss baud rate index 1.
-///
-/// `P2010` at parameter 07DAh (2010) index 1, `u16`, raw `0..65535`, read and write.
-///
-/// Errata: `single_word_sign`, `interface_indices`, `baud_codes`.
-#[doc(alias = "P2010")]
-#[derive(Clone, Copy, Debug)]
-pub struct UssBaudRateIndex1;
-
-impl runtime::Point for UssBaudRateIndex1 {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "uss_baud_rate_index_1";
-    const CODE: Option<&'static str> = Some("P2010");
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x07DA;
-    const INDEX: Option<u8> = Some(1);
-}
-
-impl runtime::Whole for UssBaudRateIndex1 {}
-
-impl runtime::uss::Parameter for UssBaudRateIndex1 {}
-
-impl runtime::Readable for UssBaudRateIndex1 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for UssBaudRateIndex1 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for UssBaudRateIndex1 {
-    type With = ();
-
-    #[inline]
-    fn check_with(_: u16, (): ()) -> Result<(), runtime::Error> {
-        Ok(())
-    }
-}
-
-impl runtime::Encodable for UssBaudRateIndex1 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for UssBaudRateIndex1 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Uss slave address index 0.
-///
-/// `P2011` at parameter 07DBh (2011) index 0, `u16`, raw `0..65535`, read and write.
-///
-/// Errata: `integer_parameters_type`, `interface_indices`.
-#[doc(alias = "P2011")]
-#[derive(Clone, Copy, Debug)]
-pub struct UssSlaveAddressIndex0;
-
-impl runtime::Point for UssSlaveAddressIndex0 {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "uss_slave_address_index_0";
-    const CODE: Option<&'static str> = Some("P2011");
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x07DB;
-    const INDEX: Option<u8> = Some(0);
-}
-
-impl runtime::Whole for UssSlaveAddressIndex0 {}
-
-impl runtime::uss::Parameter for UssSlaveAddressIndex0 {}
-
-impl runtime::Readable for UssSlaveAddressIndex0 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for UssSlaveAddressIndex0 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for UssSlaveAddressIndex0 {
-    type With = ();
-
-    #[inline]
-    fn check_with(_: u16, (): ()) -> Result<(), runtime::Error> {
-        Ok(())
-    }
-}
-
-impl runtime::Encodable for UssSlaveAddressIndex0 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for UssSlaveAddressIndex0 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Uss slave address index 1.
-///
-/// `P2011` at parameter 07DBh (2011) index 1, `u16`, raw `0..65535`, read and write.
-///
-/// Errata: `integer_parameters_type`, `interface_indices`.
-#[doc(alias = "P2011")]
-#[derive(Clone, Copy, Debug)]
-pub struct UssSlaveAddressIndex1;
-
-impl runtime::Point for UssSlaveAddressIndex1 {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "uss_slave_address_index_1";
-    const CODE: Option<&'static str> = Some("P2011");
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x07DB;
-    const INDEX: Option<u8> = Some(1);
-}
-
-impl runtime::Whole for UssSlaveAddressIndex1 {}
-
-impl runtime::uss::Parameter for UssSlaveAddressIndex1 {}
-
-impl runtime::Readable for UssSlaveAddressIndex1 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for UssSlaveAddressIndex1 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for UssSlaveAddressIndex1 {
-    type With = ();
-
-    #[inline]
-    fn check_with(_: u16, (): ()) -> Result<(), runtime::Error> {
-        Ok(())
-    }
-}
-
-impl runtime::Encodable for UssSlaveAddressIndex1 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for UssSlaveAddressIndex1 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Uss pzd length index 0 mm410.
-///
-/// `P2012` at parameter 07DCh (2012) index 0, `u16`, raw `0..4`, read and write, for `model=mm410`.
-///
-/// Errata: `integer_parameters_type`, `interface_indices`, `pzd_length_range`.
-#[doc(alias = "P2012")]
-#[derive(Clone, Copy, Debug)]
-pub struct UssPzdLengthIndex0Mm410;
-
-impl runtime::Point for UssPzdLengthIndex0Mm410 {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "uss_pzd_length_index_0_mm410";
-    const CODE: Option<&'static str> = Some("P2012");
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x07DC;
-    const INDEX: Option<u8> = Some(0);
-    const RAW_MAX: u16 = 4;
-}
-
-impl runtime::Whole for UssPzdLengthIndex0Mm410 {}
-
-impl runtime::uss::Parameter for UssPzdLengthIndex0Mm410 {}
-
-impl runtime::Readable for UssPzdLengthIndex0Mm410 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for UssPzdLengthIndex0Mm410 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for UssPzdLengthIndex0Mm410 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=4);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for UssPzdLengthIndex0Mm410 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for UssPzdLengthIndex0Mm410 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Uss pzd length index 0 mm420.
-///
-/// `P2012` at parameter 07DCh (2012) index 0, `u16`, raw `0..4`, read and write, for `model=mm420`.
-///
-/// Errata: `integer_parameters_type`, `interface_indices`, `pzd_length_range`.
-#[doc(alias = "P2012")]
-#[derive(Clone, Copy, Debug)]
-pub struct UssPzdLengthIndex0Mm420;
-
-impl runtime::Point for UssPzdLengthIndex0Mm420 {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "uss_pzd_length_index_0_mm420";
-    const CODE: Option<&'static str> = Some("P2012");
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x07DC;
-    const INDEX: Option<u8> = Some(0);
-    const RAW_MAX: u16 = 4;
-}
-
-impl runtime::Whole for UssPzdLengthIndex0Mm420 {}
-
-impl runtime::uss::Parameter for UssPzdLengthIndex0Mm420 {}
-
-impl runtime::Readable for UssPzdLengthIndex0Mm420 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for UssPzdLengthIndex0Mm420 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for UssPzdLengthIndex0Mm420 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=4);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for UssPzdLengthIndex0Mm420 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for UssPzdLengthIndex0Mm420 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Uss pzd length index 0 mm430.
-///
-/// `P2012` at parameter 07DCh (2012) index 0, `u16`, raw `0..8`, read and write, for `model=mm430`.
-///
-/// Errata: `integer_parameters_type`, `interface_indices`, `pzd_length_range`.
-#[doc(alias = "P2012")]
-#[derive(Clone, Copy, Debug)]
-pub struct UssPzdLengthIndex0Mm430;
-
-impl runtime::Point for UssPzdLengthIndex0Mm430 {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "uss_pzd_length_index_0_mm430";
-    const CODE: Option<&'static str> = Some("P2012");
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x07DC;
-    const INDEX: Option<u8> = Some(0);
-    const RAW_MAX: u16 = 8;
-}
-
-impl runtime::Whole for UssPzdLengthIndex0Mm430 {}
-
-impl runtime::uss::Parameter for UssPzdLengthIndex0Mm430 {}
-
-impl runtime::Readable for UssPzdLengthIndex0Mm430 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for UssPzdLengthIndex0Mm430 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for UssPzdLengthIndex0Mm430 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=8);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for UssPzdLengthIndex0Mm430 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for UssPzdLengthIndex0Mm430 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Uss pzd length index 0 mm440.
-///
-/// `P2012` at parameter 07DCh (2012) index 0, `u16`, raw `0..8`, read and write, for `model=mm440`.
-///
-/// Errata: `integer_parameters_type`, `interface_indices`, `pzd_length_range`.
-#[doc(alias = "P2012")]
-#[derive(Clone, Copy, Debug)]
-pub struct UssPzdLengthIndex0Mm440;
-
-impl runtime::Point for UssPzdLengthIndex0Mm440 {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "uss_pzd_length_index_0_mm440";
-    const CODE: Option<&'static str> = Some("P2012");
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x07DC;
-    const INDEX: Option<u8> = Some(0);
-    const RAW_MAX: u16 = 8;
-}
-
-impl runtime::Whole for UssPzdLengthIndex0Mm440 {}
-
-impl runtime::uss::Parameter for UssPzdLengthIndex0Mm440 {}
-
-impl runtime::Readable for UssPzdLengthIndex0Mm440 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for UssPzdLengthIndex0Mm440 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for UssPzdLengthIndex0Mm440 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=8);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for UssPzdLengthIndex0Mm440 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for UssPzdLengthIndex0Mm440 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Uss pzd length index 1 mm410.
-///
-/// `P2012` at parameter 07DCh (2012) index 1, `u16`, raw `0..4`, read and write, for `model=mm410`.
-///
-/// Errata: `integer_parameters_type`, `interface_indices`, `pzd_length_range`.
-#[doc(alias = "P2012")]
-#[derive(Clone, Copy, Debug)]
-pub struct UssPzdLengthIndex1Mm410;
-
-impl runtime::Point for UssPzdLengthIndex1Mm410 {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "uss_pzd_length_index_1_mm410";
-    const CODE: Option<&'static str> = Some("P2012");
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x07DC;
-    const INDEX: Option<u8> = Some(1);
-    const RAW_MAX: u16 = 4;
-}
-
-impl runtime::Whole for UssPzdLengthIndex1Mm410 {}
-
-impl runtime::uss::Parameter for UssPzdLengthIndex1Mm410 {}
-
-impl runtime::Readable for UssPzdLengthIndex1Mm410 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for UssPzdLengthIndex1Mm410 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for UssPzdLengthIndex1Mm410 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=4);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for UssPzdLengthIndex1Mm410 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for UssPzdLengthIndex1Mm410 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Uss pzd length index 1 mm420.
-///
-/// `P2012` at parameter 07DCh (2012) index 1, `u16`, raw `0..4`, read and write, for `model=mm420`.
-///
-/// Errata: `integer_parameters_type`, `interface_indices`, `pzd_length_range`.
-#[doc(alias = "P2012")]
-#[derive(Clone, Copy, Debug)]
-pub struct UssPzdLengthIndex1Mm420;
-
-impl runtime::Point for UssPzdLengthIndex1Mm420 {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "uss_pzd_length_index_1_mm420";
-    const CODE: Option<&'static str> = Some("P2012");
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x07DC;
-    const INDEX: Option<u8> = Some(1);
-    const RAW_MAX: u16 = 4;
-}
-
-impl runtime::Whole for UssPzdLengthIndex1Mm420 {}
-
-impl runtime::uss::Parameter for UssPzdLengthIndex1Mm420 {}
-
-impl runtime::Readable for UssPzdLengthIndex1Mm420 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for UssPzdLengthIndex1Mm420 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for UssPzdLengthIndex1Mm420 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=4);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for UssPzdLengthIndex1Mm420 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for UssPzdLengthIndex1Mm420 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Uss pzd length index 1 mm430.
-///
-/// `P2012` at parameter 07DCh (2012) index 1, `u16`, raw `0..8`, read and write, for `model=mm430`.
-///
-/// Errata: `integer_parameters_type`, `interface_indices`, `pzd_length_range`.
-#[doc(alias = "P2012")]
-#[derive(Clone, Copy, Debug)]
-pub struct UssPzdLengthIndex1Mm430;
-
-impl runtime::Point for UssPzdLengthIndex1Mm430 {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "uss_pzd_length_index_1_mm430";
-    const CODE: Option<&'static str> = Some("P2012");
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x07DC;
-    const INDEX: Option<u8> = Some(1);
-    const RAW_MAX: u16 = 8;
-}
-
-impl runtime::Whole for UssPzdLengthIndex1Mm430 {}
-
-impl runtime::uss::Parameter for UssPzdLengthIndex1Mm430 {}
-
-impl runtime::Readable for UssPzdLengthIndex1Mm430 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for UssPzdLengthIndex1Mm430 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for UssPzdLengthIndex1Mm430 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=8);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for UssPzdLengthIndex1Mm430 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for UssPzdLengthIndex1Mm430 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Uss pzd length index 1 mm440.
-///
-/// `P2012` at parameter 07DCh (2012) index 1, `u16`, raw `0..8`, read and write, for `model=mm440`.
-///
-/// Errata: `integer_parameters_type`, `interface_indices`, `pzd_length_range`.
-#[doc(alias = "P2012")]
-#[derive(Clone, Copy, Debug)]
-pub struct UssPzdLengthIndex1Mm440;
-
-impl runtime::Point for UssPzdLengthIndex1Mm440 {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "uss_pzd_length_index_1_mm440";
-    const CODE: Option<&'static str> = Some("P2012");
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x07DC;
-    const INDEX: Option<u8> = Some(1);
-    const RAW_MAX: u16 = 8;
-}
-
-impl runtime::Whole for UssPzdLengthIndex1Mm440 {}
-
-impl runtime::uss::Parameter for UssPzdLengthIndex1Mm440 {}
-
-impl runtime::Readable for UssPzdLengthIndex1Mm440 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for UssPzdLengthIndex1Mm440 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for UssPzdLengthIndex1Mm440 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=8);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for UssPzdLengthIndex1Mm440 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for UssPzdLengthIndex1Mm440 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Uss pkw length index 0.
-///
-/// `P2013` at parameter 07DDh (2013) index 0, `u16`, raw `0, 3, 4, 127`, read and write.
-///
-/// Errata: `integer_parameters_type`, `interface_indices`, `pkw_length_wording`, `pkw_length_0`.
-#[doc(alias = "P2013")]
-#[derive(Clone, Copy, Debug)]
-pub struct UssPkwLengthIndex0;
-
-impl runtime::Point for UssPkwLengthIndex0 {
-    type Raw = u16;
-    type Value = enums::UssPkwLength;
-    const NAME: &'static str = "uss_pkw_length_index_0";
-    const CODE: Option<&'static str> = Some("P2013");
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x07DD;
-    const INDEX: Option<u8> = Some(0);
-    const RAW_MAX: u16 = 127;
-}
-
-impl runtime::Whole for UssPkwLengthIndex0 {}
-
-impl runtime::uss::Parameter for UssPkwLengthIndex0 {}
-
-impl runtime::Readable for UssPkwLengthIndex0 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::UssPkwLength::from(raw)
-    }
-}
-
-impl runtime::CountReadable for UssPkwLengthIndex0 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for UssPkwLengthIndex0 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0 | 3..=4 | 127);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for UssPkwLengthIndex0 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for UssPkwLengthIndex0 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Uss pkw length index 1.
-///
-/// `P2013` at parameter 07DDh (2013) index 1, `u16`, raw `0, 3, 4, 127`, read and write.
-///
-/// Errata: `integer_parameters_type`, `interface_indices`, `pkw_length_wording`, `pkw_length_0`.
-#[doc(alias = "P2013")]
-#[derive(Clone, Copy, Debug)]
-pub struct UssPkwLengthIndex1;
-
-impl runtime::Point for UssPkwLengthIndex1 {
-    type Raw = u16;
-    type Value = enums::UssPkwLength;
-    const NAME: &'static str = "uss_pkw_length_index_1";
-    const CODE: Option<&'static str> = Some("P2013");
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x07DD;
-    const INDEX: Option<u8> = Some(1);
-    const RAW_MAX: u16 = 127;
-}
-
-impl runtime::Whole for UssPkwLengthIndex1 {}
-
-impl runtime::uss::Parameter for UssPkwLengthIndex1 {}
-
-impl runtime::Readable for UssPkwLengthIndex1 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::UssPkwLength::from(raw)
-    }
-}
-
-impl runtime::CountReadable for UssPkwLengthIndex1 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for UssPkwLengthIndex1 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0 | 3..=4 | 127);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for UssPkwLengthIndex1 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for UssPkwLengthIndex1 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Uss telegram off time index 0.
-///
-/// `P2014` at parameter 07DEh (2014) index 0, `u16`, raw `1..65535`, read and write.
-///
-/// Special code: `0` `monitoring_off` (may be written).
-///
-/// Errata: `integer_parameters_type`, `interface_indices`, `off_time_words`.
-#[doc(alias = "P2014")]
-#[derive(Clone, Copy, Debug)]
-pub struct UssTelegramOffTimeIndex0;
-
-impl runtime::Point for UssTelegramOffTimeIndex0 {
-    type Raw = u16;
-    type Value = runtime::Reading<u16, u16>;
-    const NAME: &'static str = "uss_telegram_off_time_index_0";
-    const CODE: Option<&'static str> = Some("P2014");
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x07DE;
-    const INDEX: Option<u8> = Some(0);
-    const UNIT: &'static str = "ms";
-    const RAW_MIN: u16 = 1;
-}
-
-impl runtime::Whole for UssTelegramOffTimeIndex0 {}
-
-impl runtime::Coded for UssTelegramOffTimeIndex0 {
-    const CODES: &'static [runtime::Code<u16>] = &[runtime::Code::one(Self::MONITORING_OFF)];
-}
-
-impl runtime::uss::Parameter for UssTelegramOffTimeIndex0 {}
-
-impl runtime::Readable for UssTelegramOffTimeIndex0 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        if let Some(special) = <Self as runtime::Coded>::special(raw) {
-            return runtime::Reading::Special(special);
-        }
-        let value = raw;
-        runtime::Reading::Value(value)
-    }
-}
-
-impl runtime::CountReadable for UssTelegramOffTimeIndex0 {
-    type Count = runtime::Reading<i32, u16>;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        if let Some(special) = <Self as runtime::Coded>::special(raw) {
-            return runtime::Reading::Special(special);
-        }
-        let count = i32::from(raw);
-        runtime::Reading::Value(count)
-    }
-}
-
-impl runtime::Writable for UssTelegramOffTimeIndex0 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        if let Some(special) = <Self as runtime::Coded>::special(raw) {
-            return special.checked();
-        }
-        let holds = matches!(raw, 1..=65_535);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for UssTelegramOffTimeIndex0 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let value = match value {
-            runtime::Reading::Value(value) => value,
-            runtime::Reading::Special(special) => return runtime::written::<Self>(special),
-        };
-        let raw = value;
-        let raw = arithmetic::checked::<Self>(raw, ())?;
-        runtime::quantity::<Self>(raw)
-    }
-}
-
-impl runtime::CountWritable for UssTelegramOffTimeIndex0 {
-    type Count = runtime::Reading<i32, u16>;
-
-    #[inline]
-    fn encode_count_with(count: Self::Count, (): ()) -> Result<u16, runtime::Error> {
-        let count = match count {
-            runtime::Reading::Value(count) => count,
-            runtime::Reading::Special(special) => return runtime::written::<Self>(special),
-        };
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        let raw = arithmetic::checked::<Self>(raw, ())?;
-        runtime::quantity::<Self>(raw)
-    }
-}
-
-impl UssTelegramOffTimeIndex0 {
-    /// Monitoring off.
-    pub const MONITORING_OFF: runtime::Special<u16> =
-        runtime::Special::writable("monitoring_off", 0);
-}
-
-/// Uss telegram off time index 1.
-///
-/// `P2014` at parameter 07DEh (2014) index 1, `u16`, raw `1..65535`, read and write.
-///
-/// Special code: `0` `monitoring_off` (may be written).
-///
-/// Errata: `integer_parameters_type`, `interface_indices`, `off_time_words`.
-#[doc(alias = "P2014")]
-#[derive(Clone, Copy, Debug)]
-pub struct UssTelegramOffTimeIndex1;
-
-impl runtime::Point for UssTelegramOffTimeIndex1 {
-    type Raw = u16;
-    type Value = runtime::Reading<u16, u16>;
-    const NAME: &'static str = "uss_telegram_off_time_index_1";
-    const CODE: Option<&'static str> = Some("P2014");
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x07DE;
-    const INDEX: Option<u8> = Some(1);
-    const UNIT: &'static str = "ms";
-    const RAW_MIN: u16 = 1;
-}
-
-impl runtime::Whole for UssTelegramOffTimeIndex1 {}
-
-impl runtime::Coded for UssTelegramOffTimeIndex1 {
-    const CODES: &'static [runtime::Code<u16>] = &[runtime::Code::one(Self::MONITORING_OFF)];
-}
-
-impl runtime::uss::Parameter for UssTelegramOffTimeIndex1 {}
-
-impl runtime::Readable for UssTelegramOffTimeIndex1 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        if let Some(special) = <Self as runtime::Coded>::special(raw) {
-            return runtime::Reading::Special(special);
-        }
-        let value = raw;
-        runtime::Reading::Value(value)
-    }
-}
-
-impl runtime::CountReadable for UssTelegramOffTimeIndex1 {
-    type Count = runtime::Reading<i32, u16>;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        if let Some(special) = <Self as runtime::Coded>::special(raw) {
-            return runtime::Reading::Special(special);
-        }
-        let count = i32::from(raw);
-        runtime::Reading::Value(count)
-    }
-}
-
-impl runtime::Writable for UssTelegramOffTimeIndex1 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        if let Some(special) = <Self as runtime::Coded>::special(raw) {
-            return special.checked();
-        }
-        let holds = matches!(raw, 1..=65_535);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for UssTelegramOffTimeIndex1 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let value = match value {
-            runtime::Reading::Value(value) => value,
-            runtime::Reading::Special(special) => return runtime::written::<Self>(special),
-        };
-        let raw = value;
-        let raw = arithmetic::checked::<Self>(raw, ())?;
-        runtime::quantity::<Self>(raw)
-    }
-}
-
-impl runtime::CountWritable for UssTelegramOffTimeIndex1 {
-    type Count = runtime::Reading<i32, u16>;
-
-    #[inline]
-    fn encode_count_with(count: Self::Count, (): ()) -> Result<u16, runtime::Error> {
-        let count = match count {
-            runtime::Reading::Value(count) => count,
-            runtime::Reading::Special(special) => return runtime::written::<Self>(special),
-        };
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        let raw = arithmetic::checked::<Self>(raw, ())?;
-        runtime::quantity::<Self>(raw)
-    }
-}
-
-impl UssTelegramOffTimeIndex1 {
-    /// Monitoring off.
-    pub const MONITORING_OFF: runtime::Special<u16> =
-        runtime::Special::writable("monitoring_off", 0);
-}
-
-/// Uss rs232 answer source index 0.
-///
-/// `P2016` at parameter 07E0h (2016) index 0, `u32`, raw `0..4294967295`, read and write.
-///
-/// Errata: `answer_source_type`, `answer_source_interfaces`, `answer_source_index_3`, `answer_source_count`.
-#[doc(alias = "P2016")]
-#[derive(Clone, Copy, Debug)]
-pub struct UssRs232AnswerSourceIndex0;
-
-impl runtime::Point for UssRs232AnswerSourceIndex0 {
-    type Raw = u32;
-    type Value = flags::UssRs232AnswerSourceIndex0;
-    const NAME: &'static str = "uss_rs232_answer_source_index_0";
-    const CODE: Option<&'static str> = Some("P2016");
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x07E0;
-    const INDEX: Option<u8> = Some(0);
-    const WORDS: u16 = 2;
-}
-
-impl runtime::Whole for UssRs232AnswerSourceIndex0 {}
-
-impl runtime::uss::Parameter for UssRs232AnswerSourceIndex0 {}
-
-impl runtime::Readable for UssRs232AnswerSourceIndex0 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u32, (): ()) -> Self::Output<Self::Value> {
-        flags::UssRs232AnswerSourceIndex0::from(raw)
-    }
-}
-
-impl runtime::CountReadable for UssRs232AnswerSourceIndex0 {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u32, (): ()) -> Self::Output<Self::Count> {
-        i64::from(raw)
-    }
-}
-
-impl runtime::Writable for UssRs232AnswerSourceIndex0 {
-    type With = ();
-
-    #[inline]
-    fn check_with(_: u32, (): ()) -> Result<(), runtime::Error> {
-        Ok(())
-    }
-}
-
-impl runtime::Encodable for UssRs232AnswerSourceIndex0 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u32, runtime::Error> {
-        let raw = u32::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for UssRs232AnswerSourceIndex0 {
-    type Count = i64;
-
-    #[inline]
-    fn encode_count_with(count: i64, (): ()) -> Result<u32, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Uss rs232 answer source index 1.
-///
-/// `P2016` at parameter 07E0h (2016) index 1, `u32`, raw `0..4294967295`, read and write.
-///
-/// Errata: `answer_source_type`, `answer_source_interfaces`, `answer_source_index_3`, `answer_source_count`.
-#[doc(alias = "P2016")]
-#[derive(Clone, Copy, Debug)]
-pub struct UssRs232AnswerSourceIndex1;
-
-impl runtime::Point for UssRs232AnswerSourceIndex1 {
-    type Raw = u32;
-    type Value = flags::UssRs232AnswerSourceIndex1;
-    const NAME: &'static str = "uss_rs232_answer_source_index_1";
-    const CODE: Option<&'static str> = Some("P2016");
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x07E0;
-    const INDEX: Option<u8> = Some(1);
-    const WORDS: u16 = 2;
-}
-
-impl runtime::Whole for UssRs232AnswerSourceIndex1 {}
-
-impl runtime::uss::Parameter for UssRs232AnswerSourceIndex1 {}
-
-impl runtime::Readable for UssRs232AnswerSourceIndex1 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u32, (): ()) -> Self::Output<Self::Value> {
-        flags::UssRs232AnswerSourceIndex1::from(raw)
-    }
-}
-
-impl runtime::CountReadable for UssRs232AnswerSourceIndex1 {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u32, (): ()) -> Self::Output<Self::Count> {
-        i64::from(raw)
-    }
-}
-
-impl runtime::Writable for UssRs232AnswerSourceIndex1 {
-    type With = ();
-
-    #[inline]
-    fn check_with(_: u32, (): ()) -> Result<(), runtime::Error> {
-        Ok(())
-    }
-}
-
-impl runtime::Encodable for UssRs232AnswerSourceIndex1 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u32, runtime::Error> {
-        let raw = u32::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for UssRs232AnswerSourceIndex1 {
-    type Count = i64;
-
-    #[inline]
-    fn encode_count_with(count: i64, (): ()) -> Result<u32, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Uss rs232 answer source index 2.
-///
-/// `P2016` at parameter 07E0h (2016) index 2, `u32`, raw `0..4294967295`, read and write.
-///
-/// Errata: `answer_source_type`, `answer_source_interfaces`, `answer_source_index_3`, `answer_source_count`.
-#[doc(alias = "P2016")]
-#[derive(Clone, Copy, Debug)]
-pub struct UssRs232AnswerSourceIndex2;
-
-impl runtime::Point for UssRs232AnswerSourceIndex2 {
-    type Raw = u32;
-    type Value = flags::UssRs232AnswerSourceIndex2;
-    const NAME: &'static str = "uss_rs232_answer_source_index_2";
-    const CODE: Option<&'static str> = Some("P2016");
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x07E0;
-    const INDEX: Option<u8> = Some(2);
-    const WORDS: u16 = 2;
-}
-
-impl runtime::Whole for UssRs232AnswerSourceIndex2 {}
-
-impl runtime::uss::Parameter for UssRs232AnswerSourceIndex2 {}
-
-impl runtime::Readable for UssRs232AnswerSourceIndex2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u32, (): ()) -> Self::Output<Self::Value> {
-        flags::UssRs232AnswerSourceIndex2::from(raw)
-    }
-}
-
-impl runtime::CountReadable for UssRs232AnswerSourceIndex2 {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u32, (): ()) -> Self::Output<Self::Count> {
-        i64::from(raw)
-    }
-}
-
-impl runtime::Writable for UssRs232AnswerSourceIndex2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(_: u32, (): ()) -> Result<(), runtime::Error> {
-        Ok(())
-    }
-}
-
-impl runtime::Encodable for UssRs232AnswerSourceIndex2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u32, runtime::Error> {
-        let raw = u32::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for UssRs232AnswerSourceIndex2 {
-    type Count = i64;
-
-    #[inline]
-    fn encode_count_with(count: i64, (): ()) -> Result<u32, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Uss rs232 answer source index 3.
-///
-/// `P2016` at parameter 07E0h (2016) index 3, `u32`, raw `0..4294967295`, read and write.
-///
-/// Errata: `answer_source_type`, `answer_source_interfaces`, `answer_source_index_3`, `answer_source_count`.
-#[doc(alias = "P2016")]
-#[derive(Clone, Copy, Debug)]
-pub struct UssRs232AnswerSourceIndex3;
-
-impl runtime::Point for UssRs232AnswerSourceIndex3 {
-    type Raw = u32;
-    type Value = flags::UssRs232AnswerSourceIndex3;
-    const NAME: &'static str = "uss_rs232_answer_source_index_3";
-    const CODE: Option<&'static str> = Some("P2016");
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x07E0;
-    const INDEX: Option<u8> = Some(3);
-    const WORDS: u16 = 2;
-}
-
-impl runtime::Whole for UssRs232AnswerSourceIndex3 {}
-
-impl runtime::uss::Parameter for UssRs232AnswerSourceIndex3 {}
-
-impl runtime::Readable for UssRs232AnswerSourceIndex3 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u32, (): ()) -> Self::Output<Self::Value> {
-        flags::UssRs232AnswerSourceIndex3::from(raw)
-    }
-}
-
-impl runtime::CountReadable for UssRs232AnswerSourceIndex3 {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u32, (): ()) -> Self::Output<Self::Count> {
-        i64::from(raw)
-    }
-}
-
-impl runtime::Writable for UssRs232AnswerSourceIndex3 {
-    type With = ();
-
-    #[inline]
-    fn check_with(_: u32, (): ()) -> Result<(), runtime::Error> {
-        Ok(())
-    }
-}
-
-impl runtime::Encodable for UssRs232AnswerSourceIndex3 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u32, runtime::Error> {
-        let raw = u32::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for UssRs232AnswerSourceIndex3 {
-    type Count = i64;
-
-    #[inline]
-    fn encode_count_with(count: i64, (): ()) -> Result<u32, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Uss rs485 answer source index 0.
-///
-/// `P2019` at parameter 07E3h (2019) index 0, `u32`, raw `0..4294967295`, read and write.
-///
-/// Errata: `answer_source_type`, `answer_source_interfaces`, `answer_source_index_3`, `answer_source_count`.
-#[doc(alias = "P2019")]
-#[derive(Clone, Copy, Debug)]
-pub struct UssRs485AnswerSourceIndex0;
-
-impl runtime::Point for UssRs485AnswerSourceIndex0 {
-    type Raw = u32;
-    type Value = flags::UssRs485AnswerSourceIndex0;
-    const NAME: &'static str = "uss_rs485_answer_source_index_0";
-    const CODE: Option<&'static str> = Some("P2019");
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x07E3;
-    const INDEX: Option<u8> = Some(0);
-    const WORDS: u16 = 2;
-}
-
-impl runtime::Whole for UssRs485AnswerSourceIndex0 {}
-
-impl runtime::uss::Parameter for UssRs485AnswerSourceIndex0 {}
-
-impl runtime::Readable for UssRs485AnswerSourceIndex0 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u32, (): ()) -> Self::Output<Self::Value> {
-        flags::UssRs485AnswerSourceIndex0::from(raw)
-    }
-}
-
-impl runtime::CountReadable for UssRs485AnswerSourceIndex0 {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u32, (): ()) -> Self::Output<Self::Count> {
-        i64::from(raw)
-    }
-}
-
-impl runtime::Writable for UssRs485AnswerSourceIndex0 {
-    type With = ();
-
-    #[inline]
-    fn check_with(_: u32, (): ()) -> Result<(), runtime::Error> {
-        Ok(())
-    }
-}
-
-impl runtime::Encodable for UssRs485AnswerSourceIndex0 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u32, runtime::Error> {
-        let raw = u32::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for UssRs485AnswerSourceIndex0 {
-    type Count = i64;
-
-    #[inline]
-    fn encode_count_with(count: i64, (): ()) -> Result<u32, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Uss rs485 answer source index 1.
-///
-/// `P2019` at parameter 07E3h (2019) index 1, `u32`, raw `0..4294967295`, read and write.
-///
-/// Errata: `answer_source_type`, `answer_source_interfaces`, `answer_source_index_3`, `answer_source_count`.
-#[doc(alias = "P2019")]
-#[derive(Clone, Copy, Debug)]
-pub struct UssRs485AnswerSourceIndex1;
-
-impl runtime::Point for UssRs485AnswerSourceIndex1 {
-    type Raw = u32;
-    type Value = flags::UssRs485AnswerSourceIndex1;
-    const NAME: &'static str = "uss_rs485_answer_source_index_1";
-    const CODE: Option<&'static str> = Some("P2019");
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x07E3;
-    const INDEX: Option<u8> = Some(1);
-    const WORDS: u16 = 2;
-}
-
-impl runtime::Whole for UssRs485AnswerSourceIndex1 {}
-
-impl runtime::uss::Parameter for UssRs485AnswerSourceIndex1 {}
-
-impl runtime::Readable for UssRs485AnswerSourceIndex1 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u32, (): ()) -> Self::Output<Self::Value> {
-        flags::UssRs485AnswerSourceIndex1::from(raw)
-    }
-}
-
-impl runtime::CountReadable for UssRs485AnswerSourceIndex1 {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u32, (): ()) -> Self::Output<Self::Count> {
-        i64::from(raw)
-    }
-}
-
-impl runtime::Writable for UssRs485AnswerSourceIndex1 {
-    type With = ();
-
-    #[inline]
-    fn check_with(_: u32, (): ()) -> Result<(), runtime::Error> {
-        Ok(())
-    }
-}
-
-impl runtime::Encodable for UssRs485AnswerSourceIndex1 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u32, runtime::Error> {
-        let raw = u32::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for UssRs485AnswerSourceIndex1 {
-    type Count = i64;
-
-    #[inline]
-    fn encode_count_with(count: i64, (): ()) -> Result<u32, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Uss rs485 answer source index 2.
-///
-/// `P2019` at parameter 07E3h (2019) index 2, `u32`, raw `0..4294967295`, read and write.
-///
-/// Errata: `answer_source_type`, `answer_source_interfaces`, `answer_source_index_3`, `answer_source_count`.
-#[doc(alias = "P2019")]
-#[derive(Clone, Copy, Debug)]
-pub struct UssRs485AnswerSourceIndex2;
-
-impl runtime::Point for UssRs485AnswerSourceIndex2 {
-    type Raw = u32;
-    type Value = flags::UssRs485AnswerSourceIndex2;
-    const NAME: &'static str = "uss_rs485_answer_source_index_2";
-    const CODE: Option<&'static str> = Some("P2019");
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x07E3;
-    const INDEX: Option<u8> = Some(2);
-    const WORDS: u16 = 2;
-}
-
-impl runtime::Whole for UssRs485AnswerSourceIndex2 {}
-
-impl runtime::uss::Parameter for UssRs485AnswerSourceIndex2 {}
-
-impl runtime::Readable for UssRs485AnswerSourceIndex2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u32, (): ()) -> Self::Output<Self::Value> {
-        flags::UssRs485AnswerSourceIndex2::from(raw)
-    }
-}
-
-impl runtime::CountReadable for UssRs485AnswerSourceIndex2 {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u32, (): ()) -> Self::Output<Self::Count> {
-        i64::from(raw)
-    }
-}
-
-impl runtime::Writable for UssRs485AnswerSourceIndex2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(_: u32, (): ()) -> Result<(), runtime::Error> {
-        Ok(())
-    }
-}
-
-impl runtime::Encodable for UssRs485AnswerSourceIndex2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u32, runtime::Error> {
-        let raw = u32::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for UssRs485AnswerSourceIndex2 {
-    type Count = i64;
-
-    #[inline]
-    fn encode_count_with(count: i64, (): ()) -> Result<u32, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Uss rs485 answer source index 3.
-///
-/// `P2019` at parameter 07E3h (2019) index 3, `u32`, raw `0..4294967295`, read and write.
-///
-/// Errata: `answer_source_type`, `answer_source_interfaces`, `answer_source_index_3`, `answer_source_count`.
-#[doc(alias = "P2019")]
-#[derive(Clone, Copy, Debug)]
-pub struct UssRs485AnswerSourceIndex3;
-
-impl runtime::Point for UssRs485AnswerSourceIndex3 {
-    type Raw = u32;
-    type Value = flags::UssRs485AnswerSourceIndex3;
-    const NAME: &'static str = "uss_rs485_answer_source_index_3";
-    const CODE: Option<&'static str> = Some("P2019");
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x07E3;
-    const INDEX: Option<u8> = Some(3);
-    const WORDS: u16 = 2;
-}
-
-impl runtime::Whole for UssRs485AnswerSourceIndex3 {}
-
-impl runtime::uss::Parameter for UssRs485AnswerSourceIndex3 {}
-
-impl runtime::Readable for UssRs485AnswerSourceIndex3 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u32, (): ()) -> Self::Output<Self::Value> {
-        flags::UssRs485AnswerSourceIndex3::from(raw)
-    }
-}
-
-impl runtime::CountReadable for UssRs485AnswerSourceIndex3 {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u32, (): ()) -> Self::Output<Self::Count> {
-        i64::from(raw)
-    }
-}
-
-impl runtime::Writable for UssRs485AnswerSourceIndex3 {
-    type With = ();
-
-    #[inline]
-    fn check_with(_: u32, (): ()) -> Result<(), runtime::Error> {
-        Ok(())
-    }
-}
-
-impl runtime::Encodable for UssRs485AnswerSourceIndex3 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u32, runtime::Error> {
-        let raw = u32::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for UssRs485AnswerSourceIndex3 {
-    type Count = i64;
-
-    #[inline]
-    fn encode_count_with(count: i64, (): ()) -> Result<u32, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Control word.
-///
-/// `STW` at telegram `task` word 0000h (0), `u16`, raw `0..65535`, write only.
-///
-/// Errata: `stw_bit_2_order`, `stw_bit_7_quote`, `stw_bit_7_edge`, `stw_bit_10_scope`, `stw_bit_15_order`, `stw_bits_3_to_5_names`, `stw_changed_bits`.
-#[doc(alias = "STW")]
-#[derive(Clone, Copy, Debug)]
-pub struct ControlWord;
-
-impl runtime::Point for ControlWord {
-    type Raw = u16;
-    type Value = flags::ControlWord;
-    const NAME: &'static str = "control_word";
-    const CODE: Option<&'static str> = Some("STW");
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x0000;
-    const TELEGRAM: Option<&'static str> = Some("task");
-    const FIXED_MASK: u32 = 0x0400;
-    const FIXED_BITS: u32 = 0x0400;
-}
-
-impl runtime::Whole for ControlWord {}
-
-impl runtime::uss::Sent for ControlWord {}
-
-impl runtime::Writable for ControlWord {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let fixed = raw & 0x0400 == 0x0400;
-        runtime::allowed(fixed)
-    }
-}
-
-impl runtime::Encodable for ControlWord {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        let raw = (raw & !0x0400) | 0x0400;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for ControlWord {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        let raw = (raw & !0x0400) | 0x0400;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl ControlWord {
-    /// The number in the numbering pzd.
-    pub const PZD: u32 = 1;
-}
-
-/// Main setpoint.
-///
-/// `HSW` at telegram `task` word 0001h (1), `u16`, raw `0..65535`, value `raw / 16384 x reference_frequency.raw Hz when uss_normalisation.raw is 0; raw x 0.01 Hz when uss_normalisation.raw is 1`, write only.
-///
-/// Errata: `hsw_sign`, `hsw_range`, `hsw_40_hertz`, `hsw_interface_source`, `hsw_number_words`.
-#[doc(alias = "HSW")]
-#[derive(Clone, Copy, Debug)]
-pub struct MainSetpoint;
-
-impl runtime::Point for MainSetpoint {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "main_setpoint";
-    const CODE: Option<&'static str> = Some("HSW");
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x0001;
-    const TELEGRAM: Option<&'static str> = Some("task");
-    const DECIMALS: u32 = 5;
-    const UNIT: &'static str = "Hz";
-}
-
-impl runtime::Whole for MainSetpoint {}
-
-impl runtime::uss::Sent for MainSetpoint {}
-
-impl runtime::Scaled for MainSetpoint {
-    type Factors = with::MainSetpoint;
-
-    #[inline]
-    fn rule(with: Self::Factors) -> Result<runtime::Rule, runtime::Error> {
-        let held = with.uss_normalisation;
-        if runtime::Raw::to_i64(held) == 0 {
-            let rule = runtime::Rule::new(16_384, 1);
-            let factor = with.reference_frequency;
-            let rule = rule.over_f32(factor)?;
-            return Ok(rule);
-        }
-        let held = with.uss_normalisation;
-        if runtime::Raw::to_i64(held) == 1 {
-            let rule = runtime::Rule::new(100, 1);
-            return Ok(rule);
-        }
-        Err(runtime::Error::NoCase)
-    }
-}
-
-impl runtime::Writable for MainSetpoint {
-    type With = with::MainSetpoint;
-
-    #[inline]
-    fn check_with(_: u16, _: Self::With) -> Result<(), runtime::Error> {
-        Ok(())
-    }
-}
-
-impl runtime::Encodable for MainSetpoint {
-    #[inline]
-    fn encode_with(value: Self::Value, with: Self::With) -> Result<u16, runtime::Error> {
-        let value = arithmetic::number(value)?;
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        arithmetic::nearest::<Self>(rule.encode(value), with)
-    }
-}
-
-impl runtime::CountWritable for MainSetpoint {
-    type Count = i64;
-
-    #[inline]
-    fn encode_count_with(count: i64, with: Self::With) -> Result<u16, runtime::Error> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        let raw = rule.encode_count::<100_000>(count)?;
-        arithmetic::store::<Self>(raw, with)
-    }
-}
-
-impl MainSetpoint {
-    /// The number in the numbering pzd.
-    pub const PZD: u32 = 2;
-}
-
-/// Second control word.
-///
-/// `STW2` at telegram `task` word 0003h (3), `u16`, raw `0..65535`, write only.
-///
-/// Errata: `external_fault_polarity`.
-#[doc(alias = "STW2")]
-#[derive(Clone, Copy, Debug)]
-pub struct SecondControlWord;
-
-impl runtime::Point for SecondControlWord {
-    type Raw = u16;
-    type Value = flags::SecondControlWord;
-    const NAME: &'static str = "second_control_word";
-    const CODE: Option<&'static str> = Some("STW2");
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x0003;
-    const TELEGRAM: Option<&'static str> = Some("task");
-}
-
-impl runtime::Whole for SecondControlWord {}
-
-impl runtime::uss::Sent for SecondControlWord {}
-
-impl runtime::Writable for SecondControlWord {
-    type With = ();
-
-    #[inline]
-    fn check_with(_: u16, (): ()) -> Result<(), runtime::Error> {
-        Ok(())
-    }
-}
-
-impl runtime::Encodable for SecondControlWord {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for SecondControlWord {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl SecondControlWord {
-    /// The number in the numbering pzd.
-    pub const PZD: u32 = 4;
-}
-
-/// Status word.
-///
-/// `ZSW` at telegram `answer` word 0000h (0), `u16`, raw `0..65535`, read only.
-///
-/// Errata: `zsw_bit_3_polarity`, `zsw_bit_5_polarity`, `zsw_bit_8_at_rest`, `zsw_bit_12_at_rest`, `zsw_bit_6_spelling`, `zsw_bit_9_words`, `zsw_bit_11_words`, `jog_ready_words`.
-#[doc(alias = "ZSW")]
-#[derive(Clone, Copy, Debug)]
-pub struct StatusWord;
-
-impl runtime::Point for StatusWord {
-    type Raw = u16;
-    type Value = flags::StatusWord;
-    const NAME: &'static str = "status_word";
-    const CODE: Option<&'static str> = Some("ZSW");
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x0000;
-    const TELEGRAM: Option<&'static str> = Some("answer");
-}
-
-impl runtime::Whole for StatusWord {}
-
-impl runtime::uss::Received for StatusWord {}
-
-impl runtime::Readable for StatusWord {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        flags::StatusWord::from(raw)
-    }
-}
-
-impl runtime::CountReadable for StatusWord {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl StatusWord {
-    /// The number in the numbering pzd.
-    pub const PZD: u32 = 1;
-}
-
-/// Main actual value.
-///
-/// `HIW` at telegram `answer` word 0001h (1), `u16`, raw `0..65535`, value `raw / 16384 x reference_frequency.raw Hz when uss_normalisation.raw is 0; raw x 0.01 Hz when uss_normalisation.raw is 1`, read only.
-///
-/// Errata: `hsw_sign`, `hsw_range`, `hiw_scale_with_other_source`.
-#[doc(alias = "HIW")]
-#[derive(Clone, Copy, Debug)]
-pub struct MainActualValue;
-
-impl runtime::Point for MainActualValue {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "main_actual_value";
-    const CODE: Option<&'static str> = Some("HIW");
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x0001;
-    const TELEGRAM: Option<&'static str> = Some("answer");
-    const DECIMALS: u32 = 5;
-    const UNIT: &'static str = "Hz";
-}
-
-impl runtime::Whole for MainActualValue {}
-
-impl runtime::uss::Received for MainActualValue {}
-
-impl runtime::Scaled for MainActualValue {
-    type Factors = with::MainActualValue;
-
-    #[inline]
-    fn rule(with: Self::Factors) -> Result<runtime::Rule, runtime::Error> {
-        let held = with.uss_normalisation;
-        if runtime::Raw::to_i64(held) == 0 {
-            let rule = runtime::Rule::new(16_384, 1);
-            let factor = with.reference_frequency;
-            let rule = rule.over_f32(factor)?;
-            return Ok(rule);
-        }
-        let held = with.uss_normalisation;
-        if runtime::Raw::to_i64(held) == 1 {
-            let rule = runtime::Rule::new(100, 1);
-            return Ok(rule);
-        }
-        Err(runtime::Error::NoCase)
-    }
-}
-
-impl runtime::Readable for MainActualValue {
-    type Factors = with::MainActualValue;
-    type Output<V> = Result<V, runtime::Error>;
-
-    #[inline]
-    fn decode_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Value> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::CountReadable for MainActualValue {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Count> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode_count::<100_000>(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl MainActualValue {
-    /// The number in the numbering pzd.
-    pub const PZD: u32 = 2;
-}
-
-/// Second status word.
-///
-/// `ZSW2` at telegram `answer` word 0003h (3), `u16`, raw `0..65535`, read only.
-///
-/// Errata: `zsw2_position`.
-#[doc(alias = "ZSW2")]
-#[derive(Clone, Copy, Debug)]
-pub struct SecondStatusWord;
-
-impl runtime::Point for SecondStatusWord {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "second_status_word";
-    const CODE: Option<&'static str> = Some("ZSW2");
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x0003;
-    const TELEGRAM: Option<&'static str> = Some("answer");
-}
-
-impl runtime::Whole for SecondStatusWord {}
-
-impl runtime::uss::Received for SecondStatusWord {}
-
-impl runtime::Readable for SecondStatusWord {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for SecondStatusWord {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl SecondStatusWord {
-    /// The number in the numbering pzd.
-    pub const PZD: u32 = 4;
+point! {
+    /// User access level.
+    ///
+    /// `P0003` at parameter 0003h (3), `u16`, raw `0..65535`, read and write.
+    #[doc(alias = "P0003")]
+    UserAccessLevel: u16 = "user_access_level", "P0003";
+    at Parameter 0x0003;
+    => value enums::UserAccessLevel as named(u16);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::uss::Parameter {}
+}
+
+point! {
+    /// Inverter status word.
+    ///
+    /// `r0052` at parameter 0034h (52), `u16`, raw `0..65535`, read only.
+    #[doc(alias = "r0052")]
+    InverterStatusWord: u16 = "inverter_status_word", "r0052";
+    at Parameter 0x0034;
+    => value flags::InverterStatusWord as flags();
+    read { count i32; }
+    impl runtime::uss::Parameter {}
+}
+
+point! {
+    /// Command source.
+    ///
+    /// `P0700` at parameter 02BCh (700), `u16`, raw `0..65535`, read and write.
+    #[doc(alias = "P0700")]
+    CommandSource: u16 = "command_source", "P0700";
+    at Parameter 0x02BC;
+    => value enums::CommandSource as named(u16);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::uss::Parameter {}
+}
+
+point! {
+    /// P0731 source.
+    ///
+    /// `P0731` at parameter 02DBh (731), `u32`, raw `0..4294967295`, read and write.
+    #[doc(alias = "P0731")]
+    P0731Source: u32 = "p0731_source", "P0731";
+    at Parameter 0x02DB;
+    words 2;
+    => value flags::P0731Source as flags();
+    read { count i64; }
+    write { count i64; }
+    impl runtime::uss::Parameter {}
+}
+
+point! {
+    /// Main setpoint source.
+    ///
+    /// `P1000` at parameter 03E8h (1000), `u16`, raw `0..65535`, read and write.
+    #[doc(alias = "P1000")]
+    MainSetpointSource: u16 = "main_setpoint_source", "P1000";
+    at Parameter 0x03E8;
+    => value enums::MainSetpointSource as named(u16);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::uss::Parameter {}
+}
+
+point! {
+    /// Maximum frequency.
+    ///
+    /// `P1082` at parameter 043Ah (1082), `f32`, read and write.
+    #[doc(alias = "P1082")]
+    MaximumFrequency: u32 = "maximum_frequency", "P1082";
+    at Parameter 0x043A;
+    words 2;
+    unit "Hz";
+    => value f64 as floating();
+    read {}
+    write {}
+    impl runtime::uss::Parameter {}
+}
+
+point! {
+    /// Jog time selection source.
+    ///
+    /// `P1124` at parameter 0464h (1124), `u32`, raw `0..4294967295`, read and write.
+    #[doc(alias = "P1124")]
+    JogTimeSelectionSource: u32 = "jog_time_selection_source", "P1124";
+    at Parameter 0x0464;
+    words 2;
+    => value flags::JogTimeSelectionSource as flags();
+    read { count i64; }
+    write { count i64; }
+    impl runtime::uss::Parameter {}
+}
+
+point! {
+    /// Dc braking source.
+    ///
+    /// `P1230` at parameter 04CEh (1230), `u32`, raw `0..4294967295`, read and write.
+    #[doc(alias = "P1230")]
+    DcBrakingSource: u32 = "dc_braking_source", "P1230";
+    at Parameter 0x04CE;
+    words 2;
+    => value flags::DcBrakingSource as flags();
+    read { count i64; }
+    write { count i64; }
+    impl runtime::uss::Parameter {}
+}
+
+point! {
+    /// Output phase sequence.
+    ///
+    /// `P1820` at parameter 071Ch (1820), `u16`, raw `0..65535`, read and write.
+    #[doc(alias = "P1820")]
+    OutputPhaseSequence: u16 = "output_phase_sequence", "P1820";
+    at Parameter 0x071C;
+    => value enums::OutputPhaseSequence as named(u16);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::uss::Parameter {}
+}
+
+point! {
+    /// Reference frequency.
+    ///
+    /// `P2000` at parameter 07D0h (2000), `f32`, read and write.
+    #[doc(alias = "P2000")]
+    ReferenceFrequency: u32 = "reference_frequency", "P2000";
+    at Parameter 0x07D0;
+    words 2;
+    unit "Hz";
+    => value f64 as floating();
+    read {}
+    write {}
+    impl runtime::uss::Parameter {}
+}
+
+point! {
+    /// Uss normalisation rs485.
+    ///
+    /// `P2009` at parameter 07D9h (2009) index 0, `u16`, raw `0, 1`, read and write, for `interface=rs485`.
+    #[doc(alias = "P2009")]
+    UssNormalisationRs485: u16 = "uss_normalisation_rs485", "P2009";
+    at Parameter 0x07D9;
+    index 0;
+    raw 0..=1;
+    => value enums::UssNormalisation as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+    impl runtime::uss::Parameter {}
+}
+
+point! {
+    /// Uss normalisation rs232.
+    ///
+    /// `P2009` at parameter 07D9h (2009) index 1, `u16`, raw `0, 1`, read and write, for `interface=rs232`.
+    #[doc(alias = "P2009")]
+    UssNormalisationRs232: u16 = "uss_normalisation_rs232", "P2009";
+    at Parameter 0x07D9;
+    index 1;
+    raw 0..=1;
+    => value enums::UssNormalisation as named(u16);
+    read { count i32; }
+    write { count i32; closed true; }
+    impl runtime::uss::Parameter {}
+}
+
+point! {
+    /// Uss baud rate index 0.
+    ///
+    /// `P2010` at parameter 07DAh (2010) index 0, `u16`, raw `0..65535`, read and write.
+    #[doc(alias = "P2010")]
+    UssBaudRateIndex0: u16 = "uss_baud_rate_index_0", "P2010";
+    at Parameter 0x07DA;
+    index 0;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::uss::Parameter {}
+}
+
+point! {
+    /// Uss baud rate index 1.
+    ///
+    /// `P2010` at parameter 07DAh (2010) index 1, `u16`, raw `0..65535`, read and write.
+    #[doc(alias = "P2010")]
+    UssBaudRateIndex1: u16 = "uss_baud_rate_index_1", "P2010";
+    at Parameter 0x07DA;
+    index 1;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::uss::Parameter {}
+}
+
+point! {
+    /// Uss slave address index 0.
+    ///
+    /// `P2011` at parameter 07DBh (2011) index 0, `u16`, raw `0..65535`, read and write.
+    #[doc(alias = "P2011")]
+    UssSlaveAddressIndex0: u16 = "uss_slave_address_index_0", "P2011";
+    at Parameter 0x07DB;
+    index 0;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::uss::Parameter {}
+}
+
+point! {
+    /// Uss slave address index 1.
+    ///
+    /// `P2011` at parameter 07DBh (2011) index 1, `u16`, raw `0..65535`, read and write.
+    #[doc(alias = "P2011")]
+    UssSlaveAddressIndex1: u16 = "uss_slave_address_index_1", "P2011";
+    at Parameter 0x07DB;
+    index 1;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::uss::Parameter {}
+}
+
+point! {
+    /// Uss pzd length index 0 mm410.
+    ///
+    /// `P2012` at parameter 07DCh (2012) index 0, `u16`, raw `0..4`, read and write, for `model=mm410`.
+    #[doc(alias = "P2012")]
+    UssPzdLengthIndex0Mm410: u16 = "uss_pzd_length_index_0_mm410", "P2012";
+    at Parameter 0x07DC;
+    index 0;
+    raw 0..=4;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::uss::Parameter {}
+}
+
+point! {
+    /// Uss pzd length index 0 mm420.
+    ///
+    /// `P2012` at parameter 07DCh (2012) index 0, `u16`, raw `0..4`, read and write, for `model=mm420`.
+    #[doc(alias = "P2012")]
+    UssPzdLengthIndex0Mm420: u16 = "uss_pzd_length_index_0_mm420", "P2012";
+    at Parameter 0x07DC;
+    index 0;
+    raw 0..=4;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::uss::Parameter {}
+}
+
+point! {
+    /// Uss pzd length index 0 mm430.
+    ///
+    /// `P2012` at parameter 07DCh (2012) index 0, `u16`, raw `0..8`, read and write, for `model=mm430`.
+    #[doc(alias = "P2012")]
+    UssPzdLengthIndex0Mm430: u16 = "uss_pzd_length_index_0_mm430", "P2012";
+    at Parameter 0x07DC;
+    index 0;
+    raw 0..=8;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::uss::Parameter {}
+}
+
+point! {
+    /// Uss pzd length index 0 mm440.
+    ///
+    /// `P2012` at parameter 07DCh (2012) index 0, `u16`, raw `0..8`, read and write, for `model=mm440`.
+    #[doc(alias = "P2012")]
+    UssPzdLengthIndex0Mm440: u16 = "uss_pzd_length_index_0_mm440", "P2012";
+    at Parameter 0x07DC;
+    index 0;
+    raw 0..=8;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::uss::Parameter {}
+}
+
+point! {
+    /// Uss pzd length index 1 mm410.
+    ///
+    /// `P2012` at parameter 07DCh (2012) index 1, `u16`, raw `0..4`, read and write, for `model=mm410`.
+    #[doc(alias = "P2012")]
+    UssPzdLengthIndex1Mm410: u16 = "uss_pzd_length_index_1_mm410", "P2012";
+    at Parameter 0x07DC;
+    index 1;
+    raw 0..=4;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::uss::Parameter {}
+}
+
+point! {
+    /// Uss pzd length index 1 mm420.
+    ///
+    /// `P2012` at parameter 07DCh (2012) index 1, `u16`, raw `0..4`, read and write, for `model=mm420`.
+    #[doc(alias = "P2012")]
+    UssPzdLengthIndex1Mm420: u16 = "uss_pzd_length_index_1_mm420", "P2012";
+    at Parameter 0x07DC;
+    index 1;
+    raw 0..=4;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::uss::Parameter {}
+}
+
+point! {
+    /// Uss pzd length index 1 mm430.
+    ///
+    /// `P2012` at parameter 07DCh (2012) index 1, `u16`, raw `0..8`, read and write, for `model=mm430`.
+    #[doc(alias = "P2012")]
+    UssPzdLengthIndex1Mm430: u16 = "uss_pzd_length_index_1_mm430", "P2012";
+    at Parameter 0x07DC;
+    index 1;
+    raw 0..=8;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::uss::Parameter {}
+}
+
+point! {
+    /// Uss pzd length index 1 mm440.
+    ///
+    /// `P2012` at parameter 07DCh (2012) index 1, `u16`, raw `0..8`, read and write, for `model=mm440`.
+    #[doc(alias = "P2012")]
+    UssPzdLengthIndex1Mm440: u16 = "uss_pzd_length_index_1_mm440", "P2012";
+    at Parameter 0x07DC;
+    index 1;
+    raw 0..=8;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::uss::Parameter {}
+}
+
+point! {
+    /// Uss pkw length index 0.
+    ///
+    /// `P2013` at parameter 07DDh (2013) index 0, `u16`, raw `0, 3, 4, 127`, read and write.
+    #[doc(alias = "P2013")]
+    UssPkwLengthIndex0: u16 = "uss_pkw_length_index_0", "P2013";
+    at Parameter 0x07DD;
+    index 0;
+    raw 0..=127;
+    => value enums::UssPkwLength as named(u16);
+    read { count i32; }
+    write { count i32; closed true; in [0 | 3..=4 | 127]; }
+    impl runtime::uss::Parameter {}
+}
+
+point! {
+    /// Uss pkw length index 1.
+    ///
+    /// `P2013` at parameter 07DDh (2013) index 1, `u16`, raw `0, 3, 4, 127`, read and write.
+    #[doc(alias = "P2013")]
+    UssPkwLengthIndex1: u16 = "uss_pkw_length_index_1", "P2013";
+    at Parameter 0x07DD;
+    index 1;
+    raw 0..=127;
+    => value enums::UssPkwLength as named(u16);
+    read { count i32; }
+    write { count i32; closed true; in [0 | 3..=4 | 127]; }
+    impl runtime::uss::Parameter {}
+}
+
+point! {
+    /// Uss telegram off time index 0.
+    ///
+    /// `P2014` at parameter 07DEh (2014) index 0, `u16`, raw `1..65535`, read and write.
+    ///
+    /// Special code: `0` `monitoring_off` (may be written).
+    #[doc(alias = "P2014")]
+    UssTelegramOffTimeIndex0: u16 = "uss_telegram_off_time_index_0", "P2014";
+    at Parameter 0x07DE;
+    index 0;
+    unit "ms";
+    raw 1..=65_535;
+    => reading u16 as plain();
+    codes {
+        /// Monitoring off.
+        MONITORING_OFF = writable("monitoring_off", 0);
+    };
+    read { count i32; }
+    write { count i32; }
+    impl runtime::uss::Parameter {}
+}
+
+point! {
+    /// Uss telegram off time index 1.
+    ///
+    /// `P2014` at parameter 07DEh (2014) index 1, `u16`, raw `1..65535`, read and write.
+    ///
+    /// Special code: `0` `monitoring_off` (may be written).
+    #[doc(alias = "P2014")]
+    UssTelegramOffTimeIndex1: u16 = "uss_telegram_off_time_index_1", "P2014";
+    at Parameter 0x07DE;
+    index 1;
+    unit "ms";
+    raw 1..=65_535;
+    => reading u16 as plain();
+    codes {
+        /// Monitoring off.
+        MONITORING_OFF = writable("monitoring_off", 0);
+    };
+    read { count i32; }
+    write { count i32; }
+    impl runtime::uss::Parameter {}
+}
+
+point! {
+    /// Uss rs232 answer source index 0.
+    ///
+    /// `P2016` at parameter 07E0h (2016) index 0, `u32`, raw `0..4294967295`, read and write.
+    #[doc(alias = "P2016")]
+    UssRs232AnswerSourceIndex0: u32 = "uss_rs232_answer_source_index_0", "P2016";
+    at Parameter 0x07E0;
+    words 2;
+    index 0;
+    => value flags::UssRs232AnswerSourceIndex0 as flags();
+    read { count i64; }
+    write { count i64; }
+    impl runtime::uss::Parameter {}
+}
+
+point! {
+    /// Uss rs232 answer source index 1.
+    ///
+    /// `P2016` at parameter 07E0h (2016) index 1, `u32`, raw `0..4294967295`, read and write.
+    #[doc(alias = "P2016")]
+    UssRs232AnswerSourceIndex1: u32 = "uss_rs232_answer_source_index_1", "P2016";
+    at Parameter 0x07E0;
+    words 2;
+    index 1;
+    => value flags::UssRs232AnswerSourceIndex1 as flags();
+    read { count i64; }
+    write { count i64; }
+    impl runtime::uss::Parameter {}
+}
+
+point! {
+    /// Uss rs232 answer source index 2.
+    ///
+    /// `P2016` at parameter 07E0h (2016) index 2, `u32`, raw `0..4294967295`, read and write.
+    #[doc(alias = "P2016")]
+    UssRs232AnswerSourceIndex2: u32 = "uss_rs232_answer_source_index_2", "P2016";
+    at Parameter 0x07E0;
+    words 2;
+    index 2;
+    => value flags::UssRs232AnswerSourceIndex2 as flags();
+    read { count i64; }
+    write { count i64; }
+    impl runtime::uss::Parameter {}
+}
+
+point! {
+    /// Uss rs232 answer source index 3.
+    ///
+    /// `P2016` at parameter 07E0h (2016) index 3, `u32`, raw `0..4294967295`, read and write.
+    #[doc(alias = "P2016")]
+    UssRs232AnswerSourceIndex3: u32 = "uss_rs232_answer_source_index_3", "P2016";
+    at Parameter 0x07E0;
+    words 2;
+    index 3;
+    => value flags::UssRs232AnswerSourceIndex3 as flags();
+    read { count i64; }
+    write { count i64; }
+    impl runtime::uss::Parameter {}
+}
+
+point! {
+    /// Uss rs485 answer source index 0.
+    ///
+    /// `P2019` at parameter 07E3h (2019) index 0, `u32`, raw `0..4294967295`, read and write.
+    #[doc(alias = "P2019")]
+    UssRs485AnswerSourceIndex0: u32 = "uss_rs485_answer_source_index_0", "P2019";
+    at Parameter 0x07E3;
+    words 2;
+    index 0;
+    => value flags::UssRs485AnswerSourceIndex0 as flags();
+    read { count i64; }
+    write { count i64; }
+    impl runtime::uss::Parameter {}
+}
+
+point! {
+    /// Uss rs485 answer source index 1.
+    ///
+    /// `P2019` at parameter 07E3h (2019) index 1, `u32`, raw `0..4294967295`, read and write.
+    #[doc(alias = "P2019")]
+    UssRs485AnswerSourceIndex1: u32 = "uss_rs485_answer_source_index_1", "P2019";
+    at Parameter 0x07E3;
+    words 2;
+    index 1;
+    => value flags::UssRs485AnswerSourceIndex1 as flags();
+    read { count i64; }
+    write { count i64; }
+    impl runtime::uss::Parameter {}
+}
+
+point! {
+    /// Uss rs485 answer source index 2.
+    ///
+    /// `P2019` at parameter 07E3h (2019) index 2, `u32`, raw `0..4294967295`, read and write.
+    #[doc(alias = "P2019")]
+    UssRs485AnswerSourceIndex2: u32 = "uss_rs485_answer_source_index_2", "P2019";
+    at Parameter 0x07E3;
+    words 2;
+    index 2;
+    => value flags::UssRs485AnswerSourceIndex2 as flags();
+    read { count i64; }
+    write { count i64; }
+    impl runtime::uss::Parameter {}
+}
+
+point! {
+    /// Uss rs485 answer source index 3.
+    ///
+    /// `P2019` at parameter 07E3h (2019) index 3, `u32`, raw `0..4294967295`, read and write.
+    #[doc(alias = "P2019")]
+    UssRs485AnswerSourceIndex3: u32 = "uss_rs485_answer_source_index_3", "P2019";
+    at Parameter 0x07E3;
+    words 2;
+    index 3;
+    => value flags::UssRs485AnswerSourceIndex3 as flags();
+    read { count i64; }
+    write { count i64; }
+    impl runtime::uss::Parameter {}
+}
+
+point! {
+    /// Control word.
+    ///
+    /// `STW` at telegram `task` word 0000h (0), `u16`, raw `0..65535`, write only.
+    #[doc(alias = "STW")]
+    ControlWord: u16 = "control_word", "STW";
+    at Telegram 0x0000;
+    telegram "task";
+    fixed 0x0400 0x0400;
+    const PZD: u32 = 1;
+    => value flags::ControlWord as flags();
+    write { count i32; }
+    impl runtime::uss::Sent {}
+}
+
+point! {
+    /// Main setpoint.
+    ///
+    /// `HSW` at telegram `task` word 0001h (1), `u16`, raw `0..65535`, value `raw / 16384 x
+    /// reference_frequency.raw Hz when uss_normalisation.raw is 0; raw x 0.01 Hz when uss_normalisation.raw is
+    /// 1`, one count is `0.00001 Hz`, write only.
+    #[doc(alias = "HSW")]
+    MainSetpoint: u16 = "main_setpoint", "HSW";
+    at Telegram 0x0001;
+    telegram "task";
+    const PZD: u32 = 2;
+    unit "Hz";
+    decimals 5;
+    => value_or_error f64 as ruled(|with: with::MainSetpoint|
+        match () {
+            () if matches!(runtime::Raw::to_i64(with.uss_normalisation), 0) => {
+                runtime::Rule::new(16_384, 1).over_f32(with.reference_frequency)
+            }
+            () if matches!(runtime::Raw::to_i64(with.uss_normalisation), 1) => {
+                Ok(runtime::Rule::new(100, 1))
+            }
+            () => Err(runtime::Error::NoCase),
+        });
+    write { count i64; with with::MainSetpoint; }
+    impl runtime::uss::Sent {}
+}
+
+point! {
+    /// Second control word.
+    ///
+    /// `STW2` at telegram `task` word 0003h (3), `u16`, raw `0..65535`, write only.
+    #[doc(alias = "STW2")]
+    SecondControlWord: u16 = "second_control_word", "STW2";
+    at Telegram 0x0003;
+    telegram "task";
+    const PZD: u32 = 4;
+    => value flags::SecondControlWord as flags();
+    write { count i32; }
+    impl runtime::uss::Sent {}
+}
+
+point! {
+    /// Status word.
+    ///
+    /// `ZSW` at telegram `answer` word 0000h (0), `u16`, raw `0..65535`, read only.
+    #[doc(alias = "ZSW")]
+    StatusWord: u16 = "status_word", "ZSW";
+    at Telegram 0x0000;
+    telegram "answer";
+    const PZD: u32 = 1;
+    => value flags::StatusWord as flags();
+    read { count i32; }
+    impl runtime::uss::Received {}
+}
+
+point! {
+    /// Main actual value.
+    ///
+    /// `HIW` at telegram `answer` word 0001h (1), `u16`, raw `0..65535`, value `raw / 16384 x
+    /// reference_frequency.raw Hz when uss_normalisation.raw is 0; raw x 0.01 Hz when uss_normalisation.raw is
+    /// 1`, one count is `0.00001 Hz`, read only.
+    #[doc(alias = "HIW")]
+    MainActualValue: u16 = "main_actual_value", "HIW";
+    at Telegram 0x0001;
+    telegram "answer";
+    const PZD: u32 = 2;
+    unit "Hz";
+    decimals 5;
+    => value_or_error f64 as ruled(|with: with::MainActualValue|
+        match () {
+            () if matches!(runtime::Raw::to_i64(with.uss_normalisation), 0) => {
+                runtime::Rule::new(16_384, 1).over_f32(with.reference_frequency)
+            }
+            () if matches!(runtime::Raw::to_i64(with.uss_normalisation), 1) => {
+                Ok(runtime::Rule::new(100, 1))
+            }
+            () => Err(runtime::Error::NoCase),
+        });
+    read { count i64; with with::MainActualValue; }
+    impl runtime::uss::Received {}
+}
+
+point! {
+    /// Second status word.
+    ///
+    /// `ZSW2` at telegram `answer` word 0003h (3), `u16`, raw `0..65535`, read only.
+    ///
+    /// Erratum: `zsw2_position`.
+    #[doc(alias = "ZSW2")]
+    SecondStatusWord: u16 = "second_status_word", "ZSW2";
+    at Telegram 0x0003;
+    telegram "answer";
+    const PZD: u32 = 4;
+    => value u16 as plain();
+    read { count i32; }
+    impl runtime::uss::Received {}
 }

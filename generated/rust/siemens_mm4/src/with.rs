@@ -7,7 +7,8 @@
 /// Raw numbers that `main_setpoint` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct MainSetpoint {
-    /// The raw number of [`UssNormalisationRs485`](crate::points::UssNormalisationRs485) or [`UssNormalisationRs232`](crate::points::UssNormalisationRs232).
+    /// The raw number of [`UssNormalisationRs485`](crate::points::UssNormalisationRs485) or
+    /// [`UssNormalisationRs232`](crate::points::UssNormalisationRs232).
     pub uss_normalisation: u16,
     /// The raw number of [`ReferenceFrequency`](crate::points::ReferenceFrequency).
     pub reference_frequency: u32,
@@ -16,7 +17,8 @@ pub struct MainSetpoint {
 /// Raw numbers that `main_actual_value` needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct MainActualValue {
-    /// The raw number of [`UssNormalisationRs485`](crate::points::UssNormalisationRs485) or [`UssNormalisationRs232`](crate::points::UssNormalisationRs232).
+    /// The raw number of [`UssNormalisationRs485`](crate::points::UssNormalisationRs485) or
+    /// [`UssNormalisationRs232`](crate::points::UssNormalisationRs232).
     pub uss_normalisation: u16,
     /// The raw number of [`ReferenceFrequency`](crate::points::ReferenceFrequency).
     pub reference_frequency: u32,

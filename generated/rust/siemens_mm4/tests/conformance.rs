@@ -4,27 +4,28 @@
 
 //! Runs the conformance vectors of the device: `cargo test`, or with `FIELDSCRIBE_VECTORS` the vectors of that file.
 
+use fieldscribe_conformance::uss as frames;
+use fieldscribe_conformance::{self as runner, table};
+
 use siemens_mm4 as device;
 
-#[macro_use]
-mod runner;
-
-use runner::frames;
-
 table! { decode decode {
-    "main_actual_value" MainActualValue (MainActualValue: uss_normalisation "uss_normalisation" reference_frequency "reference_frequency");
+    "main_actual_value" MainActualValue (MainActualValue: uss_normalisation "uss_normalisation"
+        reference_frequency "reference_frequency");
     "maximum_frequency" MaximumFrequency ();
     "reference_frequency" ReferenceFrequency ();
 } }
 
 table! { encode encode {
-    "main_setpoint" MainSetpoint (MainSetpoint: uss_normalisation "uss_normalisation" reference_frequency "reference_frequency");
+    "main_setpoint" MainSetpoint (MainSetpoint: uss_normalisation "uss_normalisation" reference_frequency
+        "reference_frequency");
     "maximum_frequency" MaximumFrequency ();
     "reference_frequency" ReferenceFrequency ();
 } }
 
 table! { decode_count decode_count {
-    "main_actual_value" MainActualValue (MainActualValue: uss_normalisation "uss_normalisation" reference_frequency "reference_frequency");
+    "main_actual_value" MainActualValue (MainActualValue: uss_normalisation "uss_normalisation"
+        reference_frequency "reference_frequency");
 } }
 
 table! { decode_plain decode_plain {
@@ -73,7 +74,8 @@ table! { decode_mixed decode_count {
 } }
 
 table! { encode_count encode_count {
-    "main_setpoint" MainSetpoint (MainSetpoint: uss_normalisation "uss_normalisation" reference_frequency "reference_frequency");
+    "main_setpoint" MainSetpoint (MainSetpoint: uss_normalisation "uss_normalisation" reference_frequency
+        "reference_frequency");
 } }
 
 table! { encode_plain encode_plain {
@@ -121,7 +123,8 @@ table! { encode_mixed encode_count {
 } }
 
 table! { check check {
-    "main_setpoint" MainSetpoint (MainSetpoint: uss_normalisation "uss_normalisation" reference_frequency "reference_frequency");
+    "main_setpoint" MainSetpoint (MainSetpoint: uss_normalisation "uss_normalisation" reference_frequency
+        "reference_frequency");
     "user_access_level" UserAccessLevel ();
     "command_source" CommandSource ();
     "p0731_source" P0731Source ();
@@ -183,65 +186,99 @@ table! { special_name special_name {
 } }
 
 table! { flag flag {
-    "inverter_status_word ready_to_switch_on" InverterStatusWord (flag u16 ready_to_switch_on with_ready_to_switch_on);
+    "inverter_status_word ready_to_switch_on" InverterStatusWord (flag u16 ready_to_switch_on
+        with_ready_to_switch_on);
     "inverter_status_word ready_to_run" InverterStatusWord (flag u16 ready_to_run with_ready_to_run);
-    "inverter_status_word operation_enabled" InverterStatusWord (flag u16 operation_enabled with_operation_enabled);
+    "inverter_status_word operation_enabled" InverterStatusWord (flag u16 operation_enabled
+        with_operation_enabled);
     "inverter_status_word fault" InverterStatusWord (flag u16 fault with_fault);
     "inverter_status_word off2_pending" InverterStatusWord (flag u16 off2_pending with_off2_pending);
     "inverter_status_word off3_pending" InverterStatusWord (flag u16 off3_pending with_off3_pending);
-    "inverter_status_word switch_on_inhibit" InverterStatusWord (flag u16 switch_on_inhibit with_switch_on_inhibit);
+    "inverter_status_word switch_on_inhibit" InverterStatusWord (flag u16 switch_on_inhibit
+        with_switch_on_inhibit);
     "inverter_status_word warning" InverterStatusWord (flag u16 warning with_warning);
     "inverter_status_word deviation" InverterStatusWord (flag u16 deviation with_deviation);
-    "inverter_status_word control_requested" InverterStatusWord (flag u16 control_requested with_control_requested);
-    "inverter_status_word frequency_reached" InverterStatusWord (flag u16 frequency_reached with_frequency_reached);
-    "inverter_status_word current_limit_warning" InverterStatusWord (flag u16 current_limit_warning with_current_limit_warning);
-    "inverter_status_word holding_brake_active" InverterStatusWord (flag u16 holding_brake_active with_holding_brake_active);
+    "inverter_status_word control_requested" InverterStatusWord (flag u16 control_requested
+        with_control_requested);
+    "inverter_status_word frequency_reached" InverterStatusWord (flag u16 frequency_reached
+        with_frequency_reached);
+    "inverter_status_word current_limit_warning" InverterStatusWord (flag u16 current_limit_warning
+        with_current_limit_warning);
+    "inverter_status_word holding_brake_active" InverterStatusWord (flag u16 holding_brake_active
+        with_holding_brake_active);
     "inverter_status_word motor_overload" InverterStatusWord (flag u16 motor_overload with_motor_overload);
     "inverter_status_word clockwise" InverterStatusWord (flag u16 clockwise with_clockwise);
-    "inverter_status_word inverter_overload" InverterStatusWord (flag u16 inverter_overload with_inverter_overload);
+    "inverter_status_word inverter_overload" InverterStatusWord (flag u16 inverter_overload
+        with_inverter_overload);
     "p0731_source source_parameter" P0731Source (flag u32 source_parameter with_source_parameter);
     "p0731_source source_bit" P0731Source (flag u32 source_bit with_source_bit);
-    "jog_time_selection_source source_parameter" JogTimeSelectionSource (flag u32 source_parameter with_source_parameter);
+    "jog_time_selection_source source_parameter" JogTimeSelectionSource (flag u32 source_parameter
+        with_source_parameter);
     "jog_time_selection_source source_bit" JogTimeSelectionSource (flag u32 source_bit with_source_bit);
     "dc_braking_source source_parameter" DcBrakingSource (flag u32 source_parameter with_source_parameter);
     "dc_braking_source source_bit" DcBrakingSource (flag u32 source_bit with_source_bit);
-    "uss_rs232_answer_source_index_0 source_parameter" UssRs232AnswerSourceIndex0 (flag u32 source_parameter with_source_parameter);
-    "uss_rs232_answer_source_index_0 source_bit" UssRs232AnswerSourceIndex0 (flag u32 source_bit with_source_bit);
-    "uss_rs232_answer_source_index_1 source_parameter" UssRs232AnswerSourceIndex1 (flag u32 source_parameter with_source_parameter);
-    "uss_rs232_answer_source_index_1 source_bit" UssRs232AnswerSourceIndex1 (flag u32 source_bit with_source_bit);
-    "uss_rs232_answer_source_index_2 source_parameter" UssRs232AnswerSourceIndex2 (flag u32 source_parameter with_source_parameter);
-    "uss_rs232_answer_source_index_2 source_bit" UssRs232AnswerSourceIndex2 (flag u32 source_bit with_source_bit);
-    "uss_rs232_answer_source_index_3 source_parameter" UssRs232AnswerSourceIndex3 (flag u32 source_parameter with_source_parameter);
-    "uss_rs232_answer_source_index_3 source_bit" UssRs232AnswerSourceIndex3 (flag u32 source_bit with_source_bit);
-    "uss_rs485_answer_source_index_0 source_parameter" UssRs485AnswerSourceIndex0 (flag u32 source_parameter with_source_parameter);
-    "uss_rs485_answer_source_index_0 source_bit" UssRs485AnswerSourceIndex0 (flag u32 source_bit with_source_bit);
-    "uss_rs485_answer_source_index_1 source_parameter" UssRs485AnswerSourceIndex1 (flag u32 source_parameter with_source_parameter);
-    "uss_rs485_answer_source_index_1 source_bit" UssRs485AnswerSourceIndex1 (flag u32 source_bit with_source_bit);
-    "uss_rs485_answer_source_index_2 source_parameter" UssRs485AnswerSourceIndex2 (flag u32 source_parameter with_source_parameter);
-    "uss_rs485_answer_source_index_2 source_bit" UssRs485AnswerSourceIndex2 (flag u32 source_bit with_source_bit);
-    "uss_rs485_answer_source_index_3 source_parameter" UssRs485AnswerSourceIndex3 (flag u32 source_parameter with_source_parameter);
-    "uss_rs485_answer_source_index_3 source_bit" UssRs485AnswerSourceIndex3 (flag u32 source_bit with_source_bit);
+    "uss_rs232_answer_source_index_0 source_parameter" UssRs232AnswerSourceIndex0 (flag u32
+        source_parameter with_source_parameter);
+    "uss_rs232_answer_source_index_0 source_bit" UssRs232AnswerSourceIndex0 (flag u32 source_bit
+        with_source_bit);
+    "uss_rs232_answer_source_index_1 source_parameter" UssRs232AnswerSourceIndex1 (flag u32
+        source_parameter with_source_parameter);
+    "uss_rs232_answer_source_index_1 source_bit" UssRs232AnswerSourceIndex1 (flag u32 source_bit
+        with_source_bit);
+    "uss_rs232_answer_source_index_2 source_parameter" UssRs232AnswerSourceIndex2 (flag u32
+        source_parameter with_source_parameter);
+    "uss_rs232_answer_source_index_2 source_bit" UssRs232AnswerSourceIndex2 (flag u32 source_bit
+        with_source_bit);
+    "uss_rs232_answer_source_index_3 source_parameter" UssRs232AnswerSourceIndex3 (flag u32
+        source_parameter with_source_parameter);
+    "uss_rs232_answer_source_index_3 source_bit" UssRs232AnswerSourceIndex3 (flag u32 source_bit
+        with_source_bit);
+    "uss_rs485_answer_source_index_0 source_parameter" UssRs485AnswerSourceIndex0 (flag u32
+        source_parameter with_source_parameter);
+    "uss_rs485_answer_source_index_0 source_bit" UssRs485AnswerSourceIndex0 (flag u32 source_bit
+        with_source_bit);
+    "uss_rs485_answer_source_index_1 source_parameter" UssRs485AnswerSourceIndex1 (flag u32
+        source_parameter with_source_parameter);
+    "uss_rs485_answer_source_index_1 source_bit" UssRs485AnswerSourceIndex1 (flag u32 source_bit
+        with_source_bit);
+    "uss_rs485_answer_source_index_2 source_parameter" UssRs485AnswerSourceIndex2 (flag u32
+        source_parameter with_source_parameter);
+    "uss_rs485_answer_source_index_2 source_bit" UssRs485AnswerSourceIndex2 (flag u32 source_bit
+        with_source_bit);
+    "uss_rs485_answer_source_index_3 source_parameter" UssRs485AnswerSourceIndex3 (flag u32
+        source_parameter with_source_parameter);
+    "uss_rs485_answer_source_index_3 source_bit" UssRs485AnswerSourceIndex3 (flag u32 source_bit
+        with_source_bit);
     "control_word on" ControlWord (flag u16 on with_on);
     "control_word off2" ControlWord (flag u16 off2 with_off2);
     "control_word off3" ControlWord (flag u16 off3 with_off3);
     "control_word enable_operation" ControlWord (flag u16 enable_operation with_enable_operation);
-    "control_word ramp_generator_operating" ControlWord (flag u16 ramp_generator_operating with_ramp_generator_operating);
-    "control_word enable_ramp_generator" ControlWord (flag u16 enable_ramp_generator with_enable_ramp_generator);
+    "control_word ramp_generator_operating" ControlWord (flag u16 ramp_generator_operating
+        with_ramp_generator_operating);
+    "control_word enable_ramp_generator" ControlWord (flag u16 enable_ramp_generator
+        with_enable_ramp_generator);
     "control_word enable_setpoint" ControlWord (flag u16 enable_setpoint with_enable_setpoint);
     "control_word acknowledge_fault" ControlWord (flag u16 acknowledge_fault with_acknowledge_fault);
     "control_word jog_clockwise" ControlWord (flag u16 jog_clockwise with_jog_clockwise);
-    "control_word jog_counter_clockwise" ControlWord (flag u16 jog_counter_clockwise with_jog_counter_clockwise);
+    "control_word jog_counter_clockwise" ControlWord (flag u16 jog_counter_clockwise
+        with_jog_counter_clockwise);
     "control_word setpoints_valid" ControlWord (flag u16 setpoints_valid with_setpoints_valid);
     "control_word invert_setpoint" ControlWord (flag u16 invert_setpoint with_invert_setpoint);
     "control_word free" ControlWord (flag u16 free with_free);
-    "control_word motor_potentiometer_up" ControlWord (flag u16 motor_potentiometer_up with_motor_potentiometer_up);
-    "control_word motor_potentiometer_down" ControlWord (flag u16 motor_potentiometer_down with_motor_potentiometer_down);
+    "control_word motor_potentiometer_up" ControlWord (flag u16 motor_potentiometer_up
+        with_motor_potentiometer_up);
+    "control_word motor_potentiometer_down" ControlWord (flag u16 motor_potentiometer_down
+        with_motor_potentiometer_down);
     "control_word local_control" ControlWord (flag u16 local_control with_local_control);
-    "second_control_word fixed_frequency_bit_0" SecondControlWord (flag u16 fixed_frequency_bit_0 with_fixed_frequency_bit_0);
-    "second_control_word fixed_frequency_bit_1" SecondControlWord (flag u16 fixed_frequency_bit_1 with_fixed_frequency_bit_1);
-    "second_control_word fixed_frequency_bit_2" SecondControlWord (flag u16 fixed_frequency_bit_2 with_fixed_frequency_bit_2);
+    "second_control_word fixed_frequency_bit_0" SecondControlWord (flag u16 fixed_frequency_bit_0
+        with_fixed_frequency_bit_0);
+    "second_control_word fixed_frequency_bit_1" SecondControlWord (flag u16 fixed_frequency_bit_1
+        with_fixed_frequency_bit_1);
+    "second_control_word fixed_frequency_bit_2" SecondControlWord (flag u16 fixed_frequency_bit_2
+        with_fixed_frequency_bit_2);
     "second_control_word pid_enable" SecondControlWord (flag u16 pid_enable with_pid_enable);
-    "second_control_word dc_braking_enable" SecondControlWord (flag u16 dc_braking_enable with_dc_braking_enable);
+    "second_control_word dc_braking_enable" SecondControlWord (flag u16 dc_braking_enable
+        with_dc_braking_enable);
     "second_control_word external_fault" SecondControlWord (flag u16 external_fault with_external_fault);
     "status_word ready_to_switch_on" StatusWord (flag u16 ready_to_switch_on with_ready_to_switch_on);
     "status_word ready_to_run" StatusWord (flag u16 ready_to_run with_ready_to_run);
@@ -254,7 +291,8 @@ table! { flag flag {
     "status_word deviation" StatusWord (flag u16 deviation with_deviation);
     "status_word control_requested" StatusWord (flag u16 control_requested with_control_requested);
     "status_word frequency_reached" StatusWord (flag u16 frequency_reached with_frequency_reached);
-    "status_word current_limit_warning" StatusWord (flag u16 current_limit_warning with_current_limit_warning);
+    "status_word current_limit_warning" StatusWord (flag u16 current_limit_warning
+        with_current_limit_warning);
     "status_word holding_brake_active" StatusWord (flag u16 holding_brake_active with_holding_brake_active);
     "status_word motor_overload" StatusWord (flag u16 motor_overload with_motor_overload);
     "status_word clockwise" StatusWord (flag u16 clockwise with_clockwise);
@@ -499,7 +537,8 @@ table! { write_by_send_only send_only {
 
 table! { read_by_receive receive {
     "status_word" StatusWord (wire ());
-    "main_actual_value" MainActualValue (wire (MainActualValue: uss_normalisation "uss_normalisation" reference_frequency "reference_frequency"));
+    "main_actual_value" MainActualValue (wire (MainActualValue: uss_normalisation "uss_normalisation"
+        reference_frequency "reference_frequency"));
     "second_status_word" SecondStatusWord (wire ());
 } }
 
@@ -617,5 +656,5 @@ fn main() -> std::process::ExitCode {
     let folder = env!("CARGO_MANIFEST_DIR");
     let default = format!("{folder}/../../vectors/{}.txt", device::DEVICE);
     let device = [device::DEVICE, device::VERSION, device::DIGEST];
-    runner::main(&default, device, run)
+    runner::main(&default, device, run, frames::check)
 }

@@ -5,8 +5,35 @@
 //! `Woodward MPU2-S`.
 //!
 //! Each point is a type of [`points`]; what may be done with it is a trait: [`Readable`], [`Writable`], [`Encodable`].
-//! [`Client`](runtime::can::Client) and [`AsyncClient`](runtime::can::AsyncClient) do it over a transport that you bring.
+//! [`Client`] and [`AsyncClient`] do it over a [`Transport`] or an [`AsyncTransport`] that you bring.
 //! No warranty, no affiliation with the maker; a write may move a machine.
+//!
+//! ```
+//! use woodward_mpu2s::runtime::can::Frame;
+//! use woodward_mpu2s::{points, Client, ClientError, Transport, PROFILE};
+//!
+//! struct Line; // your port
+//!
+//! impl Transport for Line {
+//!     type Error = std::io::Error;
+//!
+//!     fn send(&mut self, _frame: &Frame) -> Result<(), Self::Error> {
+//!         Ok(()) // give the frame to the controller
+//!     }
+//!
+//!     fn receive(&mut self) -> Result<Frame, Self::Error> {
+//!         Err(std::io::ErrorKind::TimedOut.into()) // wait for the next frame
+//!     }
+//!
+//!     fn pending(&mut self) -> Result<Option<Frame>, Self::Error> {
+//!         Ok(None) // a frame that has come already
+//!     }
+//! }
+//!
+//! let mut client = Client::new(Line, &PROFILE, 0);
+//! let found = client.read::<points::PasswordLevel2>();
+//! assert!(matches!(found, Err(ClientError::Transport(_)))); // nothing answered
+//! ```
 
 #![no_std]
 #![forbid(unsafe_code)]
@@ -17,6 +44,7 @@ pub mod points;
 pub mod with;
 
 pub use fieldscribe_runtime as runtime;
+pub use fieldscribe_runtime::can::{AsyncClient, AsyncTransport, Client, ClientError, Transport};
 pub use fieldscribe_runtime::{BitGroup, Coded, CountReadable, CountWritable, Encodable, Error};
 pub use fieldscribe_runtime::{Point, Readable, Reading, Scaled, Space, Special, Whole, Writable};
 

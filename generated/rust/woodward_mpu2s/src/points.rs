@@ -34,19224 +34,4376 @@ pub mod documented {
     use fieldscribe_runtime as runtime;
 
     /// The words of `generator_reactive_power`.
-    pub const GENERATOR_REACTIVE_POWER: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Telegram,
-        address: 0x0018,
-        words: 1,
-        index: None,
-    };
+    pub const GENERATOR_REACTIVE_POWER: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Telegram, 0x0018, 1, None);
 
     /// The words of `analog_input_1`.
-    pub const ANALOG_INPUT_1: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Telegram,
-        address: 0x003C,
-        words: 1,
-        index: None,
-    };
+    pub const ANALOG_INPUT_1: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Telegram, 0x003C, 1, None);
 
     /// The words of `analog_input_2`.
-    pub const ANALOG_INPUT_2: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Telegram,
-        address: 0x003D,
-        words: 1,
-        index: None,
-    };
+    pub const ANALOG_INPUT_2: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Telegram, 0x003D, 1, None);
 
     /// The words of `analog_input_3`.
-    pub const ANALOG_INPUT_3: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Telegram,
-        address: 0x003E,
-        words: 1,
-        index: None,
-    };
+    pub const ANALOG_INPUT_3: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Telegram, 0x003E, 1, None);
 
     /// The words of `analog_input_4`.
-    pub const ANALOG_INPUT_4: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Telegram,
-        address: 0x003F,
-        words: 1,
-        index: None,
-    };
+    pub const ANALOG_INPUT_4: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Telegram, 0x003F, 1, None);
 
     /// The words of `analog_input_5`.
-    pub const ANALOG_INPUT_5: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Telegram,
-        address: 0x0040,
-        words: 1,
-        index: None,
-    };
+    pub const ANALOG_INPUT_5: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Telegram, 0x0040, 1, None);
 
     /// The words of `analog_input_6`.
-    pub const ANALOG_INPUT_6: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Telegram,
-        address: 0x0041,
-        words: 1,
-        index: None,
-    };
+    pub const ANALOG_INPUT_6: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Telegram, 0x0041, 1, None);
 
     /// The words of `analog_input_7`.
-    pub const ANALOG_INPUT_7: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Telegram,
-        address: 0x0042,
-        words: 1,
-        index: None,
-    };
+    pub const ANALOG_INPUT_7: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Telegram, 0x0042, 1, None);
 
     /// The words of `analog_input_8`.
-    pub const ANALOG_INPUT_8: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Telegram,
-        address: 0x0043,
-        words: 1,
-        index: None,
-    };
+    pub const ANALOG_INPUT_8: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Telegram, 0x0043, 1, None);
 
     /// The words of `frequency_controller_ramp`.
-    pub const FREQUENCY_CONTROLLER_RAMP: runtime::Documented = runtime::Documented {
-        space: runtime::Space::Parameter,
-        address: 0x0044,
-        words: 1,
-        index: None,
-    };
+    pub const FREQUENCY_CONTROLLER_RAMP: runtime::Documented =
+        runtime::Documented::new(runtime::Space::Parameter, 0x0044, 1, None);
 }
 
-use fieldscribe_runtime as runtime;
-use fieldscribe_runtime::arithmetic;
+use fieldscribe_runtime::{self as runtime, point};
 
 use crate::enums;
 use crate::flags;
 use crate::with;
 
-/// Telegram identification.
-///
-/// At telegram `visualisation` word 0000h (0), `u16`, raw `0..65535`, read only.
-///
-/// Errata: `telegram_identification_base`.
-#[derive(Clone, Copy, Debug)]
-pub struct TelegramIdentification;
-
-impl runtime::Point for TelegramIdentification {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "telegram_identification";
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x0000;
-    const TELEGRAM: Option<&'static str> = Some("visualisation");
-}
-
-impl runtime::Whole for TelegramIdentification {}
-
-impl runtime::can::Received for TelegramIdentification {
-    type Telegram = crate::telegrams::Visualisation;
-}
-
-impl runtime::Readable for TelegramIdentification {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for TelegramIdentification {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl TelegramIdentification {
-    /// The number in the numbering mux.
-    pub const MUX: u32 = 0;
-    /// The number in the numbering word.
-    pub const WORD: u32 = 1;
-    /// The number in the numbering nr.
-    pub const NR: u32 = 1;
-}
-
-/// Generator frequency.
-///
-/// At telegram `visualisation` word 0001h (1), `u16`, raw `0..65535`, steps of `0.01 Hz`, read only.
-///
-/// Errata: `telegram_frequency_phases`.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorFrequency;
-
-impl runtime::Point for GeneratorFrequency {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "generator_frequency";
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x0001;
-    const TELEGRAM: Option<&'static str> = Some("visualisation");
-    const DECIMALS: u32 = 2;
-    const UNIT: &'static str = "Hz";
-}
-
-impl runtime::Whole for GeneratorFrequency {}
-
-impl runtime::can::Received for GeneratorFrequency {
-    type Telegram = crate::telegrams::Visualisation;
-}
-
-impl runtime::Readable for GeneratorFrequency {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 100.0
-    }
-}
-
-impl runtime::CountReadable for GeneratorFrequency {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl GeneratorFrequency {
-    /// The number in the numbering mux.
-    pub const MUX: u32 = 0;
-    /// The number in the numbering word.
-    pub const WORD: u32 = 2;
-    /// The number in the numbering nr.
-    pub const NR: u32 = 2;
-}
-
-/// Generator active power.
-///
-/// At telegram `visualisation` word 0002h (2), `s16`, raw `-32768..32767`, value `raw x 10^generator_power_exponent.raw W`, read only.
-///
-/// Errata: `telegram_signed_power`, `telegram_power_exponent_use`.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorActivePower;
-
-impl runtime::Point for GeneratorActivePower {
-    type Raw = i16;
-    type Value = f64;
-    const NAME: &'static str = "generator_active_power";
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x0002;
-    const TELEGRAM: Option<&'static str> = Some("visualisation");
-    const UNIT: &'static str = "W";
-}
-
-impl runtime::Whole for GeneratorActivePower {}
-
-impl runtime::can::Received for GeneratorActivePower {
-    type Telegram = crate::telegrams::Visualisation;
-}
-
-impl runtime::Scaled for GeneratorActivePower {
-    type Factors = with::GeneratorActivePower;
-
-    #[inline]
-    fn rule(with: Self::Factors) -> Result<runtime::Rule, runtime::Error> {
-        let rule = runtime::Rule::new(1, 1);
-        let factor = with.generator_power_exponent;
-        let factor = runtime::Raw::to_i64(factor);
-        let factor = arithmetic::exponent(factor, 0, 5)?;
-        let rule = rule.over_ten_to(factor)?;
-        Ok(rule)
-    }
-}
-
-impl runtime::Readable for GeneratorActivePower {
-    type Factors = with::GeneratorActivePower;
-    type Output<V> = Result<V, runtime::Error>;
-
-    #[inline]
-    fn decode_with(raw: i16, with: Self::Factors) -> Self::Output<Self::Value> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::CountReadable for GeneratorActivePower {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: i16, with: Self::Factors) -> Self::Output<Self::Count> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode_count::<1>(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl GeneratorActivePower {
-    /// The number in the numbering mux.
-    pub const MUX: u32 = 0;
-    /// The number in the numbering word.
-    pub const WORD: u32 = 3;
-    /// The number in the numbering nr.
-    pub const NR: u32 = 3;
-}
-
-/// Generator power exponent.
-///
-/// `PGNEXPO` at telegram `visualisation` word 0003h (3) bits 15 to 8, `s8`, raw `0..5`, read only.
-///
-/// Errata: `telegram_exponent_sign`, `telegram_exponent_range`.
-#[doc(alias = "PGNEXPO")]
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorPowerExponent;
-
-impl runtime::Point for GeneratorPowerExponent {
-    type Raw = i8;
-    type Value = i8;
-    const NAME: &'static str = "generator_power_exponent";
-    const CODE: Option<&'static str> = Some("PGNEXPO");
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x0003;
-    const TELEGRAM: Option<&'static str> = Some("visualisation");
-    const RAW_MIN: i8 = 0;
-    const RAW_MAX: i8 = 5;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> i8 {
-        runtime::Raw::from_words([runtime::signed_group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for GeneratorPowerExponent {
-    const SHIFT: u32 = 8;
-    const MASK: u16 = 0xFF00;
-}
-
-impl runtime::can::Received for GeneratorPowerExponent {
-    type Telegram = crate::telegrams::Visualisation;
-}
-
-impl runtime::Readable for GeneratorPowerExponent {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: i8, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for GeneratorPowerExponent {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: i8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl GeneratorPowerExponent {
-    /// The number in the numbering mux.
-    pub const MUX: u32 = 1;
-    /// The number in the numbering word.
-    pub const WORD: u32 = 1;
-    /// The number in the numbering nr.
-    pub const NR: u32 = 4;
-}
-
-/// Generator voltage exponent.
-///
-/// `UGNEXPO` at telegram `visualisation` word 0003h (3) bits 7 to 0, `s8`, raw `-4..4`, read only.
-///
-/// Errata: `telegram_exponent_sign`, `telegram_exponent_range`.
-#[doc(alias = "UGNEXPO")]
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorVoltageExponent;
-
-impl runtime::Point for GeneratorVoltageExponent {
-    type Raw = i8;
-    type Value = i8;
-    const NAME: &'static str = "generator_voltage_exponent";
-    const CODE: Option<&'static str> = Some("UGNEXPO");
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x0003;
-    const TELEGRAM: Option<&'static str> = Some("visualisation");
-    const RAW_MIN: i8 = -4;
-    const RAW_MAX: i8 = 4;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> i8 {
-        runtime::Raw::from_words([runtime::signed_group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for GeneratorVoltageExponent {
-    const SHIFT: u32 = 0;
-    const MASK: u16 = 0x00FF;
-}
-
-impl runtime::can::Received for GeneratorVoltageExponent {
-    type Telegram = crate::telegrams::Visualisation;
-}
-
-impl runtime::Readable for GeneratorVoltageExponent {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: i8, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for GeneratorVoltageExponent {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: i8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl GeneratorVoltageExponent {
-    /// The number in the numbering mux.
-    pub const MUX: u32 = 1;
-    /// The number in the numbering word.
-    pub const WORD: u32 = 1;
-    /// The number in the numbering nr.
-    pub const NR: u32 = 4;
-}
-
-/// Present active power setpoint.
-///
-/// At telegram `visualisation` word 0004h (4), `s16`, raw `-32768..32767`, value `raw / 2800 x active_power_setpoint_factor.raw x 10^generator_power_exponent.raw W`, read only.
-///
-/// Errata: `telegram_signed_power`.
-#[derive(Clone, Copy, Debug)]
-pub struct PresentActivePowerSetpoint;
-
-impl runtime::Point for PresentActivePowerSetpoint {
-    type Raw = i16;
-    type Value = f64;
-    const NAME: &'static str = "present_active_power_setpoint";
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x0004;
-    const TELEGRAM: Option<&'static str> = Some("visualisation");
-    const DECIMALS: u32 = 4;
-    const UNIT: &'static str = "W";
-}
-
-impl runtime::Whole for PresentActivePowerSetpoint {}
-
-impl runtime::can::Received for PresentActivePowerSetpoint {
-    type Telegram = crate::telegrams::Visualisation;
-}
-
-impl runtime::Scaled for PresentActivePowerSetpoint {
-    type Factors = with::PresentActivePowerSetpoint;
-
-    #[inline]
-    fn rule(with: Self::Factors) -> Result<runtime::Rule, runtime::Error> {
-        let rule = runtime::Rule::new(2800, 1);
-        let factor = with.active_power_setpoint_factor;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.over(factor)?;
-        let factor = with.generator_power_exponent;
-        let factor = runtime::Raw::to_i64(factor);
-        let factor = arithmetic::exponent(factor, 0, 5)?;
-        let rule = rule.over_ten_to(factor)?;
-        Ok(rule)
-    }
-}
-
-impl runtime::Readable for PresentActivePowerSetpoint {
-    type Factors = with::PresentActivePowerSetpoint;
-    type Output<V> = Result<V, runtime::Error>;
-
-    #[inline]
-    fn decode_with(raw: i16, with: Self::Factors) -> Self::Output<Self::Value> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::CountReadable for PresentActivePowerSetpoint {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: i16, with: Self::Factors) -> Self::Output<Self::Count> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode_count::<10_000>(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl PresentActivePowerSetpoint {
-    /// The number in the numbering mux.
-    pub const MUX: u32 = 1;
-    /// The number in the numbering word.
-    pub const WORD: u32 = 2;
-    /// The number in the numbering nr.
-    pub const NR: u32 = 5;
-}
-
-/// Active power setpoint factor.
-///
-/// `PGNWWD` at telegram `visualisation` word 0005h (5), `u16`, raw `0..65535`, read only.
-#[doc(alias = "PGNWWD")]
-#[derive(Clone, Copy, Debug)]
-pub struct ActivePowerSetpointFactor;
-
-impl runtime::Point for ActivePowerSetpointFactor {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "active_power_setpoint_factor";
-    const CODE: Option<&'static str> = Some("PGNWWD");
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x0005;
-    const TELEGRAM: Option<&'static str> = Some("visualisation");
-}
-
-impl runtime::Whole for ActivePowerSetpointFactor {}
-
-impl runtime::can::Received for ActivePowerSetpointFactor {
-    type Telegram = crate::telegrams::Visualisation;
-}
-
-impl runtime::Readable for ActivePowerSetpointFactor {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for ActivePowerSetpointFactor {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl ActivePowerSetpointFactor {
-    /// The number in the numbering mux.
-    pub const MUX: u32 = 1;
-    /// The number in the numbering word.
-    pub const WORD: u32 = 3;
-    /// The number in the numbering nr.
-    pub const NR: u32 = 6;
-}
-
-/// Busbar voltage l1 l2.
-///
-/// At telegram `visualisation` word 0006h (6), `u16`, raw `0..65535`, value `raw x 10^busbar_voltage_exponent.raw V`, read only.
-///
-/// Errata: `telegram_busbar_voltage_title`.
-#[derive(Clone, Copy, Debug)]
-pub struct BusbarVoltageL1L2;
-
-impl runtime::Point for BusbarVoltageL1L2 {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "busbar_voltage_l1_l2";
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x0006;
-    const TELEGRAM: Option<&'static str> = Some("visualisation");
-    const DECIMALS: u32 = 4;
-    const UNIT: &'static str = "V";
-}
-
-impl runtime::Whole for BusbarVoltageL1L2 {}
-
-impl runtime::can::Received for BusbarVoltageL1L2 {
-    type Telegram = crate::telegrams::Visualisation;
-}
-
-impl runtime::Scaled for BusbarVoltageL1L2 {
-    type Factors = with::BusbarVoltageL1L2;
-
-    #[inline]
-    fn rule(with: Self::Factors) -> Result<runtime::Rule, runtime::Error> {
-        let rule = runtime::Rule::new(1, 1);
-        let factor = with.busbar_voltage_exponent;
-        let factor = runtime::Raw::to_i64(factor);
-        let factor = arithmetic::exponent(factor, -4, 4)?;
-        let rule = rule.over_ten_to(factor)?;
-        Ok(rule)
-    }
-}
-
-impl runtime::Readable for BusbarVoltageL1L2 {
-    type Factors = with::BusbarVoltageL1L2;
-    type Output<V> = Result<V, runtime::Error>;
-
-    #[inline]
-    fn decode_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Value> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::CountReadable for BusbarVoltageL1L2 {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Count> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode_count::<10_000>(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl BusbarVoltageL1L2 {
-    /// The number in the numbering mux.
-    pub const MUX: u32 = 2;
-    /// The number in the numbering word.
-    pub const WORD: u32 = 1;
-    /// The number in the numbering nr.
-    pub const NR: u32 = 7;
-}
-
-/// Mains voltage l1 l2.
-///
-/// At telegram `visualisation` word 0007h (7), `u16`, raw `0..65535`, value `raw x 10^mains_voltage_exponent.raw V`, read only.
-#[derive(Clone, Copy, Debug)]
-pub struct MainsVoltageL1L2;
-
-impl runtime::Point for MainsVoltageL1L2 {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "mains_voltage_l1_l2";
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x0007;
-    const TELEGRAM: Option<&'static str> = Some("visualisation");
-    const DECIMALS: u32 = 4;
-    const UNIT: &'static str = "V";
-}
-
-impl runtime::Whole for MainsVoltageL1L2 {}
-
-impl runtime::can::Received for MainsVoltageL1L2 {
-    type Telegram = crate::telegrams::Visualisation;
-}
-
-impl runtime::Scaled for MainsVoltageL1L2 {
-    type Factors = with::MainsVoltageL1L2;
-
-    #[inline]
-    fn rule(with: Self::Factors) -> Result<runtime::Rule, runtime::Error> {
-        let rule = runtime::Rule::new(1, 1);
-        let factor = with.mains_voltage_exponent;
-        let factor = runtime::Raw::to_i64(factor);
-        let factor = arithmetic::exponent(factor, -4, 4)?;
-        let rule = rule.over_ten_to(factor)?;
-        Ok(rule)
-    }
-}
-
-impl runtime::Readable for MainsVoltageL1L2 {
-    type Factors = with::MainsVoltageL1L2;
-    type Output<V> = Result<V, runtime::Error>;
-
-    #[inline]
-    fn decode_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Value> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::CountReadable for MainsVoltageL1L2 {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Count> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode_count::<10_000>(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl MainsVoltageL1L2 {
-    /// The number in the numbering mux.
-    pub const MUX: u32 = 2;
-    /// The number in the numbering word.
-    pub const WORD: u32 = 2;
-    /// The number in the numbering nr.
-    pub const NR: u32 = 8;
-}
-
-/// Present fault classes.
-///
-/// At telegram `visualisation` word 0008h (8), `u16`, raw `0..65535`, read only.
-///
-/// Errata: `telegram_pairs_of_bits`.
-#[derive(Clone, Copy, Debug)]
-pub struct PresentFaultClasses;
-
-impl runtime::Point for PresentFaultClasses {
-    type Raw = u16;
-    type Value = flags::PresentFaultClasses;
-    const NAME: &'static str = "present_fault_classes";
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x0008;
-    const TELEGRAM: Option<&'static str> = Some("visualisation");
-}
-
-impl runtime::Whole for PresentFaultClasses {}
-
-impl runtime::can::Received for PresentFaultClasses {
-    type Telegram = crate::telegrams::Visualisation;
-}
-
-impl runtime::Readable for PresentFaultClasses {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        flags::PresentFaultClasses::from(raw)
-    }
-}
-
-impl runtime::CountReadable for PresentFaultClasses {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl PresentFaultClasses {
-    /// The number in the numbering mux.
-    pub const MUX: u32 = 2;
-    /// The number in the numbering word.
-    pub const WORD: u32 = 3;
-    /// The number in the numbering nr.
-    pub const NR: u32 = 9;
-}
-
-/// Control register 2.
-///
-/// At telegram `visualisation` word 0009h (9), `u16`, raw `0..65535`, read only.
-///
-/// Errata: `telegram_pairs_of_bits`, `telegram_terminal_4_breaker`.
-#[derive(Clone, Copy, Debug)]
-pub struct ControlRegister2;
-
-impl runtime::Point for ControlRegister2 {
-    type Raw = u16;
-    type Value = flags::ControlRegister2;
-    const NAME: &'static str = "control_register_2";
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x0009;
-    const TELEGRAM: Option<&'static str> = Some("visualisation");
-}
-
-impl runtime::Whole for ControlRegister2 {}
-
-impl runtime::can::Received for ControlRegister2 {
-    type Telegram = crate::telegrams::Visualisation;
-}
-
-impl runtime::Readable for ControlRegister2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        flags::ControlRegister2::from(raw)
-    }
-}
-
-impl runtime::CountReadable for ControlRegister2 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl ControlRegister2 {
-    /// The number in the numbering mux.
-    pub const MUX: u32 = 3;
-    /// The number in the numbering word.
-    pub const WORD: u32 = 1;
-    /// The number in the numbering nr.
-    pub const NR: u32 = 10;
-}
-
-/// Control register 1.
-///
-/// At telegram `visualisation` word 000Bh (11), `u16`, raw `0..65535`, read only.
-///
-/// Errata: `telegram_pairs_of_bits`.
-#[derive(Clone, Copy, Debug)]
-pub struct ControlRegister1;
-
-impl runtime::Point for ControlRegister1 {
-    type Raw = u16;
-    type Value = flags::ControlRegister1;
-    const NAME: &'static str = "control_register_1";
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x000B;
-    const TELEGRAM: Option<&'static str> = Some("visualisation");
-}
-
-impl runtime::Whole for ControlRegister1 {}
-
-impl runtime::can::Received for ControlRegister1 {
-    type Telegram = crate::telegrams::Visualisation;
-}
-
-impl runtime::Readable for ControlRegister1 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        flags::ControlRegister1::from(raw)
-    }
-}
-
-impl runtime::CountReadable for ControlRegister1 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl ControlRegister1 {
-    /// The number in the numbering mux.
-    pub const MUX: u32 = 3;
-    /// The number in the numbering word.
-    pub const WORD: u32 = 3;
-    /// The number in the numbering nr.
-    pub const NR: u32 = 12;
-}
-
-/// Internal faults 8.
-///
-/// At telegram `visualisation` word 000Ch (12), `u16`, raw `0..65535`, read only.
-///
-/// Errata: `telegram_single_bits`.
-#[derive(Clone, Copy, Debug)]
-pub struct InternalFaults8;
-
-impl runtime::Point for InternalFaults8 {
-    type Raw = u16;
-    type Value = flags::InternalFaults8;
-    const NAME: &'static str = "internal_faults_8";
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x000C;
-    const TELEGRAM: Option<&'static str> = Some("visualisation");
-}
-
-impl runtime::Whole for InternalFaults8 {}
-
-impl runtime::can::Received for InternalFaults8 {
-    type Telegram = crate::telegrams::Visualisation;
-}
-
-impl runtime::Readable for InternalFaults8 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        flags::InternalFaults8::from(raw)
-    }
-}
-
-impl runtime::CountReadable for InternalFaults8 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl InternalFaults8 {
-    /// The number in the numbering mux.
-    pub const MUX: u32 = 4;
-    /// The number in the numbering word.
-    pub const WORD: u32 = 1;
-    /// The number in the numbering nr.
-    pub const NR: u32 = 13;
-}
-
-/// Internal faults 6.
-///
-/// At telegram `visualisation` word 000Dh (13), `u16`, raw `0..65535`, read only.
-///
-/// Errata: `telegram_single_bits`.
-#[derive(Clone, Copy, Debug)]
-pub struct InternalFaults6;
-
-impl runtime::Point for InternalFaults6 {
-    type Raw = u16;
-    type Value = flags::InternalFaults6;
-    const NAME: &'static str = "internal_faults_6";
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x000D;
-    const TELEGRAM: Option<&'static str> = Some("visualisation");
-}
-
-impl runtime::Whole for InternalFaults6 {}
-
-impl runtime::can::Received for InternalFaults6 {
-    type Telegram = crate::telegrams::Visualisation;
-}
-
-impl runtime::Readable for InternalFaults6 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        flags::InternalFaults6::from(raw)
-    }
-}
-
-impl runtime::CountReadable for InternalFaults6 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl InternalFaults6 {
-    /// The number in the numbering mux.
-    pub const MUX: u32 = 4;
-    /// The number in the numbering word.
-    pub const WORD: u32 = 2;
-    /// The number in the numbering nr.
-    pub const NR: u32 = 14;
-}
-
-/// Generator voltage l2 l3.
-///
-/// At telegram `visualisation` word 000Eh (14), `u16`, raw `0..65535`, value `raw x 10^generator_voltage_exponent.raw V`, read only.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorVoltageL2L3;
-
-impl runtime::Point for GeneratorVoltageL2L3 {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "generator_voltage_l2_l3";
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x000E;
-    const TELEGRAM: Option<&'static str> = Some("visualisation");
-    const DECIMALS: u32 = 4;
-    const UNIT: &'static str = "V";
-}
-
-impl runtime::Whole for GeneratorVoltageL2L3 {}
-
-impl runtime::can::Received for GeneratorVoltageL2L3 {
-    type Telegram = crate::telegrams::Visualisation;
-}
-
-impl runtime::Scaled for GeneratorVoltageL2L3 {
-    type Factors = with::GeneratorVoltageL2L3;
-
-    #[inline]
-    fn rule(with: Self::Factors) -> Result<runtime::Rule, runtime::Error> {
-        let rule = runtime::Rule::new(1, 1);
-        let factor = with.generator_voltage_exponent;
-        let factor = runtime::Raw::to_i64(factor);
-        let factor = arithmetic::exponent(factor, -4, 4)?;
-        let rule = rule.over_ten_to(factor)?;
-        Ok(rule)
-    }
-}
-
-impl runtime::Readable for GeneratorVoltageL2L3 {
-    type Factors = with::GeneratorVoltageL2L3;
-    type Output<V> = Result<V, runtime::Error>;
-
-    #[inline]
-    fn decode_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Value> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::CountReadable for GeneratorVoltageL2L3 {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Count> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode_count::<10_000>(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl GeneratorVoltageL2L3 {
-    /// The number in the numbering mux.
-    pub const MUX: u32 = 4;
-    /// The number in the numbering word.
-    pub const WORD: u32 = 3;
-    /// The number in the numbering nr.
-    pub const NR: u32 = 15;
-}
-
-/// Generator voltage l3 l1.
-///
-/// At telegram `visualisation` word 000Fh (15), `u16`, raw `0..65535`, value `raw x 10^generator_voltage_exponent.raw V`, read only.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorVoltageL3L1;
-
-impl runtime::Point for GeneratorVoltageL3L1 {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "generator_voltage_l3_l1";
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x000F;
-    const TELEGRAM: Option<&'static str> = Some("visualisation");
-    const DECIMALS: u32 = 4;
-    const UNIT: &'static str = "V";
-}
-
-impl runtime::Whole for GeneratorVoltageL3L1 {}
-
-impl runtime::can::Received for GeneratorVoltageL3L1 {
-    type Telegram = crate::telegrams::Visualisation;
-}
-
-impl runtime::Scaled for GeneratorVoltageL3L1 {
-    type Factors = with::GeneratorVoltageL3L1;
-
-    #[inline]
-    fn rule(with: Self::Factors) -> Result<runtime::Rule, runtime::Error> {
-        let rule = runtime::Rule::new(1, 1);
-        let factor = with.generator_voltage_exponent;
-        let factor = runtime::Raw::to_i64(factor);
-        let factor = arithmetic::exponent(factor, -4, 4)?;
-        let rule = rule.over_ten_to(factor)?;
-        Ok(rule)
-    }
-}
-
-impl runtime::Readable for GeneratorVoltageL3L1 {
-    type Factors = with::GeneratorVoltageL3L1;
-    type Output<V> = Result<V, runtime::Error>;
-
-    #[inline]
-    fn decode_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Value> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::CountReadable for GeneratorVoltageL3L1 {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Count> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode_count::<10_000>(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl GeneratorVoltageL3L1 {
-    /// The number in the numbering mux.
-    pub const MUX: u32 = 5;
-    /// The number in the numbering word.
-    pub const WORD: u32 = 1;
-    /// The number in the numbering nr.
-    pub const NR: u32 = 16;
-}
-
-/// Generator voltage l1 n.
-///
-/// At telegram `visualisation` word 0010h (16), `u16`, raw `0..65535`, value `raw x 10^generator_voltage_exponent.raw V`, read only.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorVoltageL1N;
-
-impl runtime::Point for GeneratorVoltageL1N {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "generator_voltage_l1_n";
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x0010;
-    const TELEGRAM: Option<&'static str> = Some("visualisation");
-    const DECIMALS: u32 = 4;
-    const UNIT: &'static str = "V";
-}
-
-impl runtime::Whole for GeneratorVoltageL1N {}
-
-impl runtime::can::Received for GeneratorVoltageL1N {
-    type Telegram = crate::telegrams::Visualisation;
-}
-
-impl runtime::Scaled for GeneratorVoltageL1N {
-    type Factors = with::GeneratorVoltageL1N;
-
-    #[inline]
-    fn rule(with: Self::Factors) -> Result<runtime::Rule, runtime::Error> {
-        let rule = runtime::Rule::new(1, 1);
-        let factor = with.generator_voltage_exponent;
-        let factor = runtime::Raw::to_i64(factor);
-        let factor = arithmetic::exponent(factor, -4, 4)?;
-        let rule = rule.over_ten_to(factor)?;
-        Ok(rule)
-    }
-}
-
-impl runtime::Readable for GeneratorVoltageL1N {
-    type Factors = with::GeneratorVoltageL1N;
-    type Output<V> = Result<V, runtime::Error>;
-
-    #[inline]
-    fn decode_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Value> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::CountReadable for GeneratorVoltageL1N {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Count> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode_count::<10_000>(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl GeneratorVoltageL1N {
-    /// The number in the numbering mux.
-    pub const MUX: u32 = 5;
-    /// The number in the numbering word.
-    pub const WORD: u32 = 2;
-    /// The number in the numbering nr.
-    pub const NR: u32 = 17;
-}
-
-/// Generator voltage l2 n.
-///
-/// At telegram `visualisation` word 0011h (17), `u16`, raw `0..65535`, value `raw x 10^generator_voltage_exponent.raw V`, read only.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorVoltageL2N;
-
-impl runtime::Point for GeneratorVoltageL2N {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "generator_voltage_l2_n";
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x0011;
-    const TELEGRAM: Option<&'static str> = Some("visualisation");
-    const DECIMALS: u32 = 4;
-    const UNIT: &'static str = "V";
-}
-
-impl runtime::Whole for GeneratorVoltageL2N {}
-
-impl runtime::can::Received for GeneratorVoltageL2N {
-    type Telegram = crate::telegrams::Visualisation;
-}
-
-impl runtime::Scaled for GeneratorVoltageL2N {
-    type Factors = with::GeneratorVoltageL2N;
-
-    #[inline]
-    fn rule(with: Self::Factors) -> Result<runtime::Rule, runtime::Error> {
-        let rule = runtime::Rule::new(1, 1);
-        let factor = with.generator_voltage_exponent;
-        let factor = runtime::Raw::to_i64(factor);
-        let factor = arithmetic::exponent(factor, -4, 4)?;
-        let rule = rule.over_ten_to(factor)?;
-        Ok(rule)
-    }
-}
-
-impl runtime::Readable for GeneratorVoltageL2N {
-    type Factors = with::GeneratorVoltageL2N;
-    type Output<V> = Result<V, runtime::Error>;
-
-    #[inline]
-    fn decode_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Value> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::CountReadable for GeneratorVoltageL2N {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Count> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode_count::<10_000>(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl GeneratorVoltageL2N {
-    /// The number in the numbering mux.
-    pub const MUX: u32 = 5;
-    /// The number in the numbering word.
-    pub const WORD: u32 = 3;
-    /// The number in the numbering nr.
-    pub const NR: u32 = 18;
-}
-
-/// Generator voltage l3 n.
-///
-/// At telegram `visualisation` word 0012h (18), `u16`, raw `0..65535`, value `raw x 10^generator_voltage_exponent.raw V`, read only.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorVoltageL3N;
-
-impl runtime::Point for GeneratorVoltageL3N {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "generator_voltage_l3_n";
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x0012;
-    const TELEGRAM: Option<&'static str> = Some("visualisation");
-    const DECIMALS: u32 = 4;
-    const UNIT: &'static str = "V";
-}
-
-impl runtime::Whole for GeneratorVoltageL3N {}
-
-impl runtime::can::Received for GeneratorVoltageL3N {
-    type Telegram = crate::telegrams::Visualisation;
-}
-
-impl runtime::Scaled for GeneratorVoltageL3N {
-    type Factors = with::GeneratorVoltageL3N;
-
-    #[inline]
-    fn rule(with: Self::Factors) -> Result<runtime::Rule, runtime::Error> {
-        let rule = runtime::Rule::new(1, 1);
-        let factor = with.generator_voltage_exponent;
-        let factor = runtime::Raw::to_i64(factor);
-        let factor = arithmetic::exponent(factor, -4, 4)?;
-        let rule = rule.over_ten_to(factor)?;
-        Ok(rule)
-    }
-}
-
-impl runtime::Readable for GeneratorVoltageL3N {
-    type Factors = with::GeneratorVoltageL3N;
-    type Output<V> = Result<V, runtime::Error>;
-
-    #[inline]
-    fn decode_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Value> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::CountReadable for GeneratorVoltageL3N {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Count> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode_count::<10_000>(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl GeneratorVoltageL3N {
-    /// The number in the numbering mux.
-    pub const MUX: u32 = 6;
-    /// The number in the numbering word.
-    pub const WORD: u32 = 1;
-    /// The number in the numbering nr.
-    pub const NR: u32 = 19;
-}
-
-/// Generator voltage l1 l2.
-///
-/// At telegram `visualisation` word 0013h (19), `u16`, raw `0..65535`, value `raw x 10^generator_voltage_exponent.raw V`, read only.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorVoltageL1L2;
-
-impl runtime::Point for GeneratorVoltageL1L2 {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "generator_voltage_l1_l2";
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x0013;
-    const TELEGRAM: Option<&'static str> = Some("visualisation");
-    const DECIMALS: u32 = 4;
-    const UNIT: &'static str = "V";
-}
-
-impl runtime::Whole for GeneratorVoltageL1L2 {}
-
-impl runtime::can::Received for GeneratorVoltageL1L2 {
-    type Telegram = crate::telegrams::Visualisation;
-}
-
-impl runtime::Scaled for GeneratorVoltageL1L2 {
-    type Factors = with::GeneratorVoltageL1L2;
-
-    #[inline]
-    fn rule(with: Self::Factors) -> Result<runtime::Rule, runtime::Error> {
-        let rule = runtime::Rule::new(1, 1);
-        let factor = with.generator_voltage_exponent;
-        let factor = runtime::Raw::to_i64(factor);
-        let factor = arithmetic::exponent(factor, -4, 4)?;
-        let rule = rule.over_ten_to(factor)?;
-        Ok(rule)
-    }
-}
-
-impl runtime::Readable for GeneratorVoltageL1L2 {
-    type Factors = with::GeneratorVoltageL1L2;
-    type Output<V> = Result<V, runtime::Error>;
-
-    #[inline]
-    fn decode_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Value> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::CountReadable for GeneratorVoltageL1L2 {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Count> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode_count::<10_000>(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl GeneratorVoltageL1L2 {
-    /// The number in the numbering mux.
-    pub const MUX: u32 = 6;
-    /// The number in the numbering word.
-    pub const WORD: u32 = 2;
-    /// The number in the numbering nr.
-    pub const NR: u32 = 20;
-}
-
-/// Generator current l1.
-///
-/// At telegram `visualisation` word 0015h (21), `u16`, raw `0..65535`, value `raw x 10^generator_current_exponent.raw A`, read only.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorCurrentL1;
-
-impl runtime::Point for GeneratorCurrentL1 {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "generator_current_l1";
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x0015;
-    const TELEGRAM: Option<&'static str> = Some("visualisation");
-    const DECIMALS: u32 = 3;
-    const UNIT: &'static str = "A";
-}
-
-impl runtime::Whole for GeneratorCurrentL1 {}
-
-impl runtime::can::Received for GeneratorCurrentL1 {
-    type Telegram = crate::telegrams::Visualisation;
-}
-
-impl runtime::Scaled for GeneratorCurrentL1 {
-    type Factors = with::GeneratorCurrentL1;
-
-    #[inline]
-    fn rule(with: Self::Factors) -> Result<runtime::Rule, runtime::Error> {
-        let rule = runtime::Rule::new(1, 1);
-        let factor = with.generator_current_exponent;
-        let factor = runtime::Raw::to_i64(factor);
-        let factor = arithmetic::exponent(factor, -3, 3)?;
-        let rule = rule.over_ten_to(factor)?;
-        Ok(rule)
-    }
-}
-
-impl runtime::Readable for GeneratorCurrentL1 {
-    type Factors = with::GeneratorCurrentL1;
-    type Output<V> = Result<V, runtime::Error>;
-
-    #[inline]
-    fn decode_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Value> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::CountReadable for GeneratorCurrentL1 {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Count> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode_count::<1000>(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl GeneratorCurrentL1 {
-    /// The number in the numbering mux.
-    pub const MUX: u32 = 7;
-    /// The number in the numbering word.
-    pub const WORD: u32 = 1;
-    /// The number in the numbering nr.
-    pub const NR: u32 = 22;
-}
-
-/// Generator current l2.
-///
-/// At telegram `visualisation` word 0016h (22), `u16`, raw `0..65535`, value `raw x 10^generator_current_exponent.raw A`, read only.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorCurrentL2;
-
-impl runtime::Point for GeneratorCurrentL2 {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "generator_current_l2";
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x0016;
-    const TELEGRAM: Option<&'static str> = Some("visualisation");
-    const DECIMALS: u32 = 3;
-    const UNIT: &'static str = "A";
-}
-
-impl runtime::Whole for GeneratorCurrentL2 {}
-
-impl runtime::can::Received for GeneratorCurrentL2 {
-    type Telegram = crate::telegrams::Visualisation;
-}
-
-impl runtime::Scaled for GeneratorCurrentL2 {
-    type Factors = with::GeneratorCurrentL2;
-
-    #[inline]
-    fn rule(with: Self::Factors) -> Result<runtime::Rule, runtime::Error> {
-        let rule = runtime::Rule::new(1, 1);
-        let factor = with.generator_current_exponent;
-        let factor = runtime::Raw::to_i64(factor);
-        let factor = arithmetic::exponent(factor, -3, 3)?;
-        let rule = rule.over_ten_to(factor)?;
-        Ok(rule)
-    }
-}
-
-impl runtime::Readable for GeneratorCurrentL2 {
-    type Factors = with::GeneratorCurrentL2;
-    type Output<V> = Result<V, runtime::Error>;
-
-    #[inline]
-    fn decode_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Value> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::CountReadable for GeneratorCurrentL2 {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Count> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode_count::<1000>(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl GeneratorCurrentL2 {
-    /// The number in the numbering mux.
-    pub const MUX: u32 = 7;
-    /// The number in the numbering word.
-    pub const WORD: u32 = 2;
-    /// The number in the numbering nr.
-    pub const NR: u32 = 23;
-}
-
-/// Generator current l3.
-///
-/// At telegram `visualisation` word 0017h (23), `u16`, raw `0..65535`, value `raw x 10^generator_current_exponent.raw A`, read only.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorCurrentL3;
-
-impl runtime::Point for GeneratorCurrentL3 {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "generator_current_l3";
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x0017;
-    const TELEGRAM: Option<&'static str> = Some("visualisation");
-    const DECIMALS: u32 = 3;
-    const UNIT: &'static str = "A";
-}
-
-impl runtime::Whole for GeneratorCurrentL3 {}
-
-impl runtime::can::Received for GeneratorCurrentL3 {
-    type Telegram = crate::telegrams::Visualisation;
-}
-
-impl runtime::Scaled for GeneratorCurrentL3 {
-    type Factors = with::GeneratorCurrentL3;
-
-    #[inline]
-    fn rule(with: Self::Factors) -> Result<runtime::Rule, runtime::Error> {
-        let rule = runtime::Rule::new(1, 1);
-        let factor = with.generator_current_exponent;
-        let factor = runtime::Raw::to_i64(factor);
-        let factor = arithmetic::exponent(factor, -3, 3)?;
-        let rule = rule.over_ten_to(factor)?;
-        Ok(rule)
-    }
-}
-
-impl runtime::Readable for GeneratorCurrentL3 {
-    type Factors = with::GeneratorCurrentL3;
-    type Output<V> = Result<V, runtime::Error>;
-
-    #[inline]
-    fn decode_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Value> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::CountReadable for GeneratorCurrentL3 {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Count> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode_count::<1000>(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl GeneratorCurrentL3 {
-    /// The number in the numbering mux.
-    pub const MUX: u32 = 7;
-    /// The number in the numbering word.
-    pub const WORD: u32 = 3;
-    /// The number in the numbering nr.
-    pub const NR: u32 = 24;
-}
-
-/// Generator cos phi.
-///
-/// At telegram `visualisation` word 0019h (25), `s16`, raw `-32768..32767`, steps of `0.01`, read only.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorCosPhi;
-
-impl runtime::Point for GeneratorCosPhi {
-    type Raw = i16;
-    type Value = f64;
-    const NAME: &'static str = "generator_cos_phi";
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x0019;
-    const TELEGRAM: Option<&'static str> = Some("visualisation");
-    const DECIMALS: u32 = 2;
-}
-
-impl runtime::Whole for GeneratorCosPhi {}
-
-impl runtime::can::Received for GeneratorCosPhi {
-    type Telegram = crate::telegrams::Visualisation;
-}
-
-impl runtime::Readable for GeneratorCosPhi {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: i16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 100.0
-    }
-}
-
-impl runtime::CountReadable for GeneratorCosPhi {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: i16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl GeneratorCosPhi {
-    /// The number in the numbering mux.
-    pub const MUX: u32 = 8;
-    /// The number in the numbering word.
-    pub const WORD: u32 = 2;
-    /// The number in the numbering nr.
-    pub const NR: u32 = 26;
-}
-
-/// Load sharing participants.
-///
-/// At telegram `visualisation` word 001Ch (28), `u16`, raw `0..65535`, read only.
-#[derive(Clone, Copy, Debug)]
-pub struct LoadSharingParticipants;
-
-impl runtime::Point for LoadSharingParticipants {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "load_sharing_participants";
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x001C;
-    const TELEGRAM: Option<&'static str> = Some("visualisation");
-}
-
-impl runtime::Whole for LoadSharingParticipants {}
-
-impl runtime::can::Received for LoadSharingParticipants {
-    type Telegram = crate::telegrams::Visualisation;
-}
-
-impl runtime::Readable for LoadSharingParticipants {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for LoadSharingParticipants {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl LoadSharingParticipants {
-    /// The number in the numbering mux.
-    pub const MUX: u32 = 9;
-    /// The number in the numbering word.
-    pub const WORD: u32 = 2;
-    /// The number in the numbering nr.
-    pub const NR: u32 = 29;
-}
-
-/// Mains state.
-///
-/// At telegram `visualisation` word 001Dh (29) bits 15 to 8, `u8`, raw `0, 255`, read only.
-///
-/// Errata: `telegram_state_other_values`.
-#[derive(Clone, Copy, Debug)]
-pub struct MainsState;
-
-impl runtime::Point for MainsState {
-    type Raw = u8;
-    type Value = enums::SupplyPresence;
-    const NAME: &'static str = "mains_state";
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x001D;
-    const TELEGRAM: Option<&'static str> = Some("visualisation");
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for MainsState {
-    const SHIFT: u32 = 8;
-    const MASK: u16 = 0xFF00;
-}
-
-impl runtime::can::Received for MainsState {
-    type Telegram = crate::telegrams::Visualisation;
-}
-
-impl runtime::Readable for MainsState {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::SupplyPresence::from(raw)
-    }
-}
-
-impl runtime::CountReadable for MainsState {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl MainsState {
-    /// The number in the numbering mux.
-    pub const MUX: u32 = 9;
-    /// The number in the numbering word.
-    pub const WORD: u32 = 3;
-    /// The number in the numbering nr.
-    pub const NR: u32 = 30;
-}
-
-/// Generator state.
-///
-/// At telegram `visualisation` word 001Dh (29) bits 7 to 0, `u8`, raw `0, 255`, read only.
-///
-/// Errata: `telegram_state_other_values`.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorState;
-
-impl runtime::Point for GeneratorState {
-    type Raw = u8;
-    type Value = enums::SupplyPresence;
-    const NAME: &'static str = "generator_state";
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x001D;
-    const TELEGRAM: Option<&'static str> = Some("visualisation");
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for GeneratorState {
-    const SHIFT: u32 = 0;
-    const MASK: u16 = 0x00FF;
-}
-
-impl runtime::can::Received for GeneratorState {
-    type Telegram = crate::telegrams::Visualisation;
-}
-
-impl runtime::Readable for GeneratorState {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::SupplyPresence::from(raw)
-    }
-}
-
-impl runtime::CountReadable for GeneratorState {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl GeneratorState {
-    /// The number in the numbering mux.
-    pub const MUX: u32 = 9;
-    /// The number in the numbering word.
-    pub const WORD: u32 = 3;
-    /// The number in the numbering nr.
-    pub const NR: u32 = 30;
-}
-
-/// Generator current exponent.
-///
-/// `IGNEXPO` at telegram `visualisation` word 001Eh (30) bits 15 to 8, `s8`, raw `-3..3`, read only.
-///
-/// Errata: `telegram_exponent_sign`, `telegram_exponent_range`, `telegram_current_exponent_name`.
-#[doc(alias = "IGNEXPO")]
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorCurrentExponent;
-
-impl runtime::Point for GeneratorCurrentExponent {
-    type Raw = i8;
-    type Value = i8;
-    const NAME: &'static str = "generator_current_exponent";
-    const CODE: Option<&'static str> = Some("IGNEXPO");
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x001E;
-    const TELEGRAM: Option<&'static str> = Some("visualisation");
-    const RAW_MIN: i8 = -3;
-    const RAW_MAX: i8 = 3;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> i8 {
-        runtime::Raw::from_words([runtime::signed_group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for GeneratorCurrentExponent {
-    const SHIFT: u32 = 8;
-    const MASK: u16 = 0xFF00;
-}
-
-impl runtime::can::Received for GeneratorCurrentExponent {
-    type Telegram = crate::telegrams::Visualisation;
-}
-
-impl runtime::Readable for GeneratorCurrentExponent {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: i8, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for GeneratorCurrentExponent {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: i8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl GeneratorCurrentExponent {
-    /// The number in the numbering mux.
-    pub const MUX: u32 = 10;
-    /// The number in the numbering word.
-    pub const WORD: u32 = 1;
-    /// The number in the numbering nr.
-    pub const NR: u32 = 31;
-}
-
-/// Busbar frequency.
-///
-/// At telegram `visualisation` word 001Fh (31), `u16`, raw `0..65535`, steps of `0.01 Hz`, read only.
-///
-/// Errata: `telegram_frequency_phases`.
-#[derive(Clone, Copy, Debug)]
-pub struct BusbarFrequency;
-
-impl runtime::Point for BusbarFrequency {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "busbar_frequency";
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x001F;
-    const TELEGRAM: Option<&'static str> = Some("visualisation");
-    const DECIMALS: u32 = 2;
-    const UNIT: &'static str = "Hz";
-}
-
-impl runtime::Whole for BusbarFrequency {}
-
-impl runtime::can::Received for BusbarFrequency {
-    type Telegram = crate::telegrams::Visualisation;
-}
-
-impl runtime::Readable for BusbarFrequency {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 100.0
-    }
-}
-
-impl runtime::CountReadable for BusbarFrequency {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl BusbarFrequency {
-    /// The number in the numbering mux.
-    pub const MUX: u32 = 10;
-    /// The number in the numbering word.
-    pub const WORD: u32 = 2;
-    /// The number in the numbering nr.
-    pub const NR: u32 = 32;
-}
-
-/// Busbar state.
-///
-/// At telegram `visualisation` word 0020h (32) bits 15 to 8, `u8`, raw `0, 255`, read only.
-///
-/// Errata: `telegram_busbar_state_unit`, `telegram_state_other_values`.
-#[derive(Clone, Copy, Debug)]
-pub struct BusbarState;
-
-impl runtime::Point for BusbarState {
-    type Raw = u8;
-    type Value = enums::SupplyPresence;
-    const NAME: &'static str = "busbar_state";
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x0020;
-    const TELEGRAM: Option<&'static str> = Some("visualisation");
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for BusbarState {
-    const SHIFT: u32 = 8;
-    const MASK: u16 = 0xFF00;
-}
-
-impl runtime::can::Received for BusbarState {
-    type Telegram = crate::telegrams::Visualisation;
-}
-
-impl runtime::Readable for BusbarState {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::SupplyPresence::from(raw)
-    }
-}
-
-impl runtime::CountReadable for BusbarState {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl BusbarState {
-    /// The number in the numbering mux.
-    pub const MUX: u32 = 10;
-    /// The number in the numbering word.
-    pub const WORD: u32 = 3;
-    /// The number in the numbering nr.
-    pub const NR: u32 = 33;
-}
-
-/// Mains voltage l2 l3.
-///
-/// At telegram `visualisation` word 0021h (33), `u16`, raw `0..65535`, value `raw x 10^mains_voltage_exponent.raw V`, read only.
-#[derive(Clone, Copy, Debug)]
-pub struct MainsVoltageL2L3;
-
-impl runtime::Point for MainsVoltageL2L3 {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "mains_voltage_l2_l3";
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x0021;
-    const TELEGRAM: Option<&'static str> = Some("visualisation");
-    const DECIMALS: u32 = 4;
-    const UNIT: &'static str = "V";
-}
-
-impl runtime::Whole for MainsVoltageL2L3 {}
-
-impl runtime::can::Received for MainsVoltageL2L3 {
-    type Telegram = crate::telegrams::Visualisation;
-}
-
-impl runtime::Scaled for MainsVoltageL2L3 {
-    type Factors = with::MainsVoltageL2L3;
-
-    #[inline]
-    fn rule(with: Self::Factors) -> Result<runtime::Rule, runtime::Error> {
-        let rule = runtime::Rule::new(1, 1);
-        let factor = with.mains_voltage_exponent;
-        let factor = runtime::Raw::to_i64(factor);
-        let factor = arithmetic::exponent(factor, -4, 4)?;
-        let rule = rule.over_ten_to(factor)?;
-        Ok(rule)
-    }
-}
-
-impl runtime::Readable for MainsVoltageL2L3 {
-    type Factors = with::MainsVoltageL2L3;
-    type Output<V> = Result<V, runtime::Error>;
-
-    #[inline]
-    fn decode_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Value> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::CountReadable for MainsVoltageL2L3 {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Count> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode_count::<10_000>(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl MainsVoltageL2L3 {
-    /// The number in the numbering mux.
-    pub const MUX: u32 = 11;
-    /// The number in the numbering word.
-    pub const WORD: u32 = 1;
-    /// The number in the numbering nr.
-    pub const NR: u32 = 34;
-}
-
-/// Mains voltage l3 l1.
-///
-/// At telegram `visualisation` word 0022h (34), `u16`, raw `0..65535`, value `raw x 10^mains_voltage_exponent.raw V`, read only.
-#[derive(Clone, Copy, Debug)]
-pub struct MainsVoltageL3L1;
-
-impl runtime::Point for MainsVoltageL3L1 {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "mains_voltage_l3_l1";
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x0022;
-    const TELEGRAM: Option<&'static str> = Some("visualisation");
-    const DECIMALS: u32 = 4;
-    const UNIT: &'static str = "V";
-}
-
-impl runtime::Whole for MainsVoltageL3L1 {}
-
-impl runtime::can::Received for MainsVoltageL3L1 {
-    type Telegram = crate::telegrams::Visualisation;
-}
-
-impl runtime::Scaled for MainsVoltageL3L1 {
-    type Factors = with::MainsVoltageL3L1;
-
-    #[inline]
-    fn rule(with: Self::Factors) -> Result<runtime::Rule, runtime::Error> {
-        let rule = runtime::Rule::new(1, 1);
-        let factor = with.mains_voltage_exponent;
-        let factor = runtime::Raw::to_i64(factor);
-        let factor = arithmetic::exponent(factor, -4, 4)?;
-        let rule = rule.over_ten_to(factor)?;
-        Ok(rule)
-    }
-}
-
-impl runtime::Readable for MainsVoltageL3L1 {
-    type Factors = with::MainsVoltageL3L1;
-    type Output<V> = Result<V, runtime::Error>;
-
-    #[inline]
-    fn decode_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Value> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::CountReadable for MainsVoltageL3L1 {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Count> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode_count::<10_000>(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl MainsVoltageL3L1 {
-    /// The number in the numbering mux.
-    pub const MUX: u32 = 11;
-    /// The number in the numbering word.
-    pub const WORD: u32 = 2;
-    /// The number in the numbering nr.
-    pub const NR: u32 = 35;
-}
-
-/// Mains voltage l1 n.
-///
-/// At telegram `visualisation` word 0023h (35), `u16`, raw `0..65535`, value `raw x 10^mains_voltage_exponent.raw V`, read only.
-#[derive(Clone, Copy, Debug)]
-pub struct MainsVoltageL1N;
-
-impl runtime::Point for MainsVoltageL1N {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "mains_voltage_l1_n";
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x0023;
-    const TELEGRAM: Option<&'static str> = Some("visualisation");
-    const DECIMALS: u32 = 4;
-    const UNIT: &'static str = "V";
-}
-
-impl runtime::Whole for MainsVoltageL1N {}
-
-impl runtime::can::Received for MainsVoltageL1N {
-    type Telegram = crate::telegrams::Visualisation;
-}
-
-impl runtime::Scaled for MainsVoltageL1N {
-    type Factors = with::MainsVoltageL1N;
-
-    #[inline]
-    fn rule(with: Self::Factors) -> Result<runtime::Rule, runtime::Error> {
-        let rule = runtime::Rule::new(1, 1);
-        let factor = with.mains_voltage_exponent;
-        let factor = runtime::Raw::to_i64(factor);
-        let factor = arithmetic::exponent(factor, -4, 4)?;
-        let rule = rule.over_ten_to(factor)?;
-        Ok(rule)
-    }
-}
-
-impl runtime::Readable for MainsVoltageL1N {
-    type Factors = with::MainsVoltageL1N;
-    type Output<V> = Result<V, runtime::Error>;
-
-    #[inline]
-    fn decode_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Value> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::CountReadable for MainsVoltageL1N {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Count> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode_count::<10_000>(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl MainsVoltageL1N {
-    /// The number in the numbering mux.
-    pub const MUX: u32 = 11;
-    /// The number in the numbering word.
-    pub const WORD: u32 = 3;
-    /// The number in the numbering nr.
-    pub const NR: u32 = 36;
-}
-
-/// Mains voltage l2 n.
-///
-/// At telegram `visualisation` word 0024h (36), `u16`, raw `0..65535`, value `raw x 10^mains_voltage_exponent.raw V`, read only.
-#[derive(Clone, Copy, Debug)]
-pub struct MainsVoltageL2N;
-
-impl runtime::Point for MainsVoltageL2N {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "mains_voltage_l2_n";
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x0024;
-    const TELEGRAM: Option<&'static str> = Some("visualisation");
-    const DECIMALS: u32 = 4;
-    const UNIT: &'static str = "V";
-}
-
-impl runtime::Whole for MainsVoltageL2N {}
-
-impl runtime::can::Received for MainsVoltageL2N {
-    type Telegram = crate::telegrams::Visualisation;
-}
-
-impl runtime::Scaled for MainsVoltageL2N {
-    type Factors = with::MainsVoltageL2N;
-
-    #[inline]
-    fn rule(with: Self::Factors) -> Result<runtime::Rule, runtime::Error> {
-        let rule = runtime::Rule::new(1, 1);
-        let factor = with.mains_voltage_exponent;
-        let factor = runtime::Raw::to_i64(factor);
-        let factor = arithmetic::exponent(factor, -4, 4)?;
-        let rule = rule.over_ten_to(factor)?;
-        Ok(rule)
-    }
-}
-
-impl runtime::Readable for MainsVoltageL2N {
-    type Factors = with::MainsVoltageL2N;
-    type Output<V> = Result<V, runtime::Error>;
-
-    #[inline]
-    fn decode_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Value> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::CountReadable for MainsVoltageL2N {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Count> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode_count::<10_000>(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl MainsVoltageL2N {
-    /// The number in the numbering mux.
-    pub const MUX: u32 = 12;
-    /// The number in the numbering word.
-    pub const WORD: u32 = 1;
-    /// The number in the numbering nr.
-    pub const NR: u32 = 37;
-}
-
-/// Mains voltage l3 n.
-///
-/// At telegram `visualisation` word 0025h (37), `u16`, raw `0..65535`, value `raw x 10^mains_voltage_exponent.raw V`, read only.
-#[derive(Clone, Copy, Debug)]
-pub struct MainsVoltageL3N;
-
-impl runtime::Point for MainsVoltageL3N {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "mains_voltage_l3_n";
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x0025;
-    const TELEGRAM: Option<&'static str> = Some("visualisation");
-    const DECIMALS: u32 = 4;
-    const UNIT: &'static str = "V";
-}
-
-impl runtime::Whole for MainsVoltageL3N {}
-
-impl runtime::can::Received for MainsVoltageL3N {
-    type Telegram = crate::telegrams::Visualisation;
-}
-
-impl runtime::Scaled for MainsVoltageL3N {
-    type Factors = with::MainsVoltageL3N;
-
-    #[inline]
-    fn rule(with: Self::Factors) -> Result<runtime::Rule, runtime::Error> {
-        let rule = runtime::Rule::new(1, 1);
-        let factor = with.mains_voltage_exponent;
-        let factor = runtime::Raw::to_i64(factor);
-        let factor = arithmetic::exponent(factor, -4, 4)?;
-        let rule = rule.over_ten_to(factor)?;
-        Ok(rule)
-    }
-}
-
-impl runtime::Readable for MainsVoltageL3N {
-    type Factors = with::MainsVoltageL3N;
-    type Output<V> = Result<V, runtime::Error>;
-
-    #[inline]
-    fn decode_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Value> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::CountReadable for MainsVoltageL3N {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Count> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode_count::<10_000>(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl MainsVoltageL3N {
-    /// The number in the numbering mux.
-    pub const MUX: u32 = 12;
-    /// The number in the numbering word.
-    pub const WORD: u32 = 2;
-    /// The number in the numbering nr.
-    pub const NR: u32 = 38;
-}
-
-/// Mains frequency.
-///
-/// At telegram `visualisation` word 0026h (38), `u16`, raw `0..65535`, steps of `0.01 Hz`, read only.
-///
-/// Errata: `telegram_frequency_phases`.
-#[derive(Clone, Copy, Debug)]
-pub struct MainsFrequency;
-
-impl runtime::Point for MainsFrequency {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "mains_frequency";
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x0026;
-    const TELEGRAM: Option<&'static str> = Some("visualisation");
-    const DECIMALS: u32 = 2;
-    const UNIT: &'static str = "Hz";
-}
-
-impl runtime::Whole for MainsFrequency {}
-
-impl runtime::can::Received for MainsFrequency {
-    type Telegram = crate::telegrams::Visualisation;
-}
-
-impl runtime::Readable for MainsFrequency {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 100.0
-    }
-}
-
-impl runtime::CountReadable for MainsFrequency {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl MainsFrequency {
-    /// The number in the numbering mux.
-    pub const MUX: u32 = 12;
-    /// The number in the numbering word.
-    pub const WORD: u32 = 3;
-    /// The number in the numbering nr.
-    pub const NR: u32 = 39;
-}
-
-/// Mains voltage exponent.
-///
-/// `UNTEXPO` at telegram `visualisation` word 002Ah (42) bits 7 to 0, `s8`, raw `-4..4`, read only.
-///
-/// Errata: `telegram_exponent_sign`, `telegram_exponent_range`.
-#[doc(alias = "UNTEXPO")]
-#[derive(Clone, Copy, Debug)]
-pub struct MainsVoltageExponent;
-
-impl runtime::Point for MainsVoltageExponent {
-    type Raw = i8;
-    type Value = i8;
-    const NAME: &'static str = "mains_voltage_exponent";
-    const CODE: Option<&'static str> = Some("UNTEXPO");
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x002A;
-    const TELEGRAM: Option<&'static str> = Some("visualisation");
-    const RAW_MIN: i8 = -4;
-    const RAW_MAX: i8 = 4;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> i8 {
-        runtime::Raw::from_words([runtime::signed_group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for MainsVoltageExponent {
-    const SHIFT: u32 = 0;
-    const MASK: u16 = 0x00FF;
-}
-
-impl runtime::can::Received for MainsVoltageExponent {
-    type Telegram = crate::telegrams::Visualisation;
-}
-
-impl runtime::Readable for MainsVoltageExponent {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: i8, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for MainsVoltageExponent {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: i8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl MainsVoltageExponent {
-    /// The number in the numbering mux.
-    pub const MUX: u32 = 14;
-    /// The number in the numbering word.
-    pub const WORD: u32 = 1;
-    /// The number in the numbering nr.
-    pub const NR: u32 = 43;
-}
-
-/// Busbar voltage exponent.
-///
-/// `USSEXPO` at telegram `visualisation` word 002Bh (43) bits 7 to 0, `s8`, raw `-4..4`, read only.
-///
-/// Errata: `telegram_exponent_sign`, `telegram_exponent_range`.
-#[doc(alias = "USSEXPO")]
-#[derive(Clone, Copy, Debug)]
-pub struct BusbarVoltageExponent;
-
-impl runtime::Point for BusbarVoltageExponent {
-    type Raw = i8;
-    type Value = i8;
-    const NAME: &'static str = "busbar_voltage_exponent";
-    const CODE: Option<&'static str> = Some("USSEXPO");
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x002B;
-    const TELEGRAM: Option<&'static str> = Some("visualisation");
-    const RAW_MIN: i8 = -4;
-    const RAW_MAX: i8 = 4;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> i8 {
-        runtime::Raw::from_words([runtime::signed_group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for BusbarVoltageExponent {
-    const SHIFT: u32 = 0;
-    const MASK: u16 = 0x00FF;
-}
-
-impl runtime::can::Received for BusbarVoltageExponent {
-    type Telegram = crate::telegrams::Visualisation;
-}
-
-impl runtime::Readable for BusbarVoltageExponent {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: i8, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for BusbarVoltageExponent {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: i8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl BusbarVoltageExponent {
-    /// The number in the numbering mux.
-    pub const MUX: u32 = 14;
-    /// The number in the numbering word.
-    pub const WORD: u32 = 2;
-    /// The number in the numbering nr.
-    pub const NR: u32 = 44;
-}
-
-/// Operating hours.
-///
-/// At telegram `visualisation` word 002Ch (44), `u32`, raw `0..4294967295`, read only.
-#[derive(Clone, Copy, Debug)]
-pub struct OperatingHours;
-
-impl runtime::Point for OperatingHours {
-    type Raw = u32;
-    type Value = u32;
-    const NAME: &'static str = "operating_hours";
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x002C;
-    const ADDRESSES: &'static [u16] = &[0x002C, 0x002D];
-    const TELEGRAM: Option<&'static str> = Some("visualisation");
-    const WORDS: u16 = 2;
-    const UNIT: &'static str = "h";
-}
-
-impl runtime::Whole for OperatingHours {}
-
-impl runtime::can::Received for OperatingHours {
-    type Telegram = crate::telegrams::Visualisation;
-}
-
-impl runtime::Readable for OperatingHours {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u32, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for OperatingHours {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u32, (): ()) -> Self::Output<Self::Count> {
-        i64::from(raw)
-    }
-}
-
-impl OperatingHours {
-    /// The number in the numbering mux.
-    pub const MUX: u32 = 14;
-    /// The number in the numbering word.
-    pub const WORD: u32 = 3;
-    /// The number in the numbering nr.
-    pub const NR: u32 = 45;
-}
-
-/// Hours until maintenance.
-///
-/// At telegram `visualisation` word 002Eh (46), `u16`, raw `0..65535`, read only.
-#[derive(Clone, Copy, Debug)]
-pub struct HoursUntilMaintenance;
-
-impl runtime::Point for HoursUntilMaintenance {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "hours_until_maintenance";
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x002E;
-    const TELEGRAM: Option<&'static str> = Some("visualisation");
-    const UNIT: &'static str = "h";
-}
-
-impl runtime::Whole for HoursUntilMaintenance {}
-
-impl runtime::can::Received for HoursUntilMaintenance {
-    type Telegram = crate::telegrams::Visualisation;
-}
-
-impl runtime::Readable for HoursUntilMaintenance {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for HoursUntilMaintenance {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl HoursUntilMaintenance {
-    /// The number in the numbering mux.
-    pub const MUX: u32 = 15;
-    /// The number in the numbering word.
-    pub const WORD: u32 = 2;
-    /// The number in the numbering nr.
-    pub const NR: u32 = 47;
-}
-
-/// Engine start counter.
-///
-/// At telegram `visualisation` word 002Fh (47), `u16`, raw `0..65535`, read only.
-#[derive(Clone, Copy, Debug)]
-pub struct EngineStartCounter;
-
-impl runtime::Point for EngineStartCounter {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "engine_start_counter";
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x002F;
-    const TELEGRAM: Option<&'static str> = Some("visualisation");
-}
-
-impl runtime::Whole for EngineStartCounter {}
-
-impl runtime::can::Received for EngineStartCounter {
-    type Telegram = crate::telegrams::Visualisation;
-}
-
-impl runtime::Readable for EngineStartCounter {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for EngineStartCounter {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl EngineStartCounter {
-    /// The number in the numbering mux.
-    pub const MUX: u32 = 15;
-    /// The number in the numbering word.
-    pub const WORD: u32 = 3;
-    /// The number in the numbering nr.
-    pub const NR: u32 = 48;
-}
-
-/// Generator active energy.
-///
-/// At telegram `visualisation` word 0031h (49), `u32`, raw `0..4294967295`, read only.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorActiveEnergy;
-
-impl runtime::Point for GeneratorActiveEnergy {
-    type Raw = u32;
-    type Value = u32;
-    const NAME: &'static str = "generator_active_energy";
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x0031;
-    const ADDRESSES: &'static [u16] = &[0x0031, 0x0032];
-    const TELEGRAM: Option<&'static str> = Some("visualisation");
-    const WORDS: u16 = 2;
-    const UNIT: &'static str = "kWh";
-}
-
-impl runtime::Whole for GeneratorActiveEnergy {}
-
-impl runtime::can::Received for GeneratorActiveEnergy {
-    type Telegram = crate::telegrams::Visualisation;
-}
-
-impl runtime::Readable for GeneratorActiveEnergy {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u32, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for GeneratorActiveEnergy {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u32, (): ()) -> Self::Output<Self::Count> {
-        i64::from(raw)
-    }
-}
-
-impl GeneratorActiveEnergy {
-    /// The number in the numbering mux.
-    pub const MUX: u32 = 16;
-    /// The number in the numbering word.
-    pub const WORD: u32 = 2;
-    /// The number in the numbering nr.
-    pub const NR: u32 = 50;
-}
-
-/// Battery voltage.
-///
-/// At telegram `visualisation` word 0033h (51), `u16`, raw `0..65535`, steps of `0.1 V`, read only.
-#[derive(Clone, Copy, Debug)]
-pub struct BatteryVoltage;
-
-impl runtime::Point for BatteryVoltage {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "battery_voltage";
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x0033;
-    const TELEGRAM: Option<&'static str> = Some("visualisation");
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "V";
-}
-
-impl runtime::Whole for BatteryVoltage {}
-
-impl runtime::can::Received for BatteryVoltage {
-    type Telegram = crate::telegrams::Visualisation;
-}
-
-impl runtime::Readable for BatteryVoltage {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for BatteryVoltage {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl BatteryVoltage {
-    /// The number in the numbering mux.
-    pub const MUX: u32 = 17;
-    /// The number in the numbering word.
-    pub const WORD: u32 = 1;
-    /// The number in the numbering nr.
-    pub const NR: u32 = 52;
-}
-
-/// Internal faults 1.
-///
-/// At telegram `visualisation` word 0034h (52), `u16`, raw `0..65535`, read only.
-///
-/// Errata: `telegram_pairs_of_bits`.
-#[derive(Clone, Copy, Debug)]
-pub struct InternalFaults1;
-
-impl runtime::Point for InternalFaults1 {
-    type Raw = u16;
-    type Value = flags::InternalFaults1;
-    const NAME: &'static str = "internal_faults_1";
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x0034;
-    const TELEGRAM: Option<&'static str> = Some("visualisation");
-}
-
-impl runtime::Whole for InternalFaults1 {}
-
-impl runtime::can::Received for InternalFaults1 {
-    type Telegram = crate::telegrams::Visualisation;
-}
-
-impl runtime::Readable for InternalFaults1 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        flags::InternalFaults1::from(raw)
-    }
-}
-
-impl runtime::CountReadable for InternalFaults1 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl InternalFaults1 {
-    /// The number in the numbering mux.
-    pub const MUX: u32 = 17;
-    /// The number in the numbering word.
-    pub const WORD: u32 = 2;
-    /// The number in the numbering nr.
-    pub const NR: u32 = 53;
-}
-
-/// Internal faults 2.
-///
-/// At telegram `visualisation` word 0035h (53), `u16`, raw `0..65535`, read only.
-///
-/// Errata: `telegram_pairs_of_bits`, `telegram_mains_fault_titles`.
-#[derive(Clone, Copy, Debug)]
-pub struct InternalFaults2;
-
-impl runtime::Point for InternalFaults2 {
-    type Raw = u16;
-    type Value = flags::InternalFaults2;
-    const NAME: &'static str = "internal_faults_2";
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x0035;
-    const TELEGRAM: Option<&'static str> = Some("visualisation");
-}
-
-impl runtime::Whole for InternalFaults2 {}
-
-impl runtime::can::Received for InternalFaults2 {
-    type Telegram = crate::telegrams::Visualisation;
-}
-
-impl runtime::Readable for InternalFaults2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        flags::InternalFaults2::from(raw)
-    }
-}
-
-impl runtime::CountReadable for InternalFaults2 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl InternalFaults2 {
-    /// The number in the numbering mux.
-    pub const MUX: u32 = 17;
-    /// The number in the numbering word.
-    pub const WORD: u32 = 3;
-    /// The number in the numbering nr.
-    pub const NR: u32 = 54;
-}
-
-/// Internal faults 3.
-///
-/// At telegram `visualisation` word 0036h (54), `u16`, raw `0..65535`, read only.
-///
-/// Errata: `telegram_pairs_of_bits`, `telegram_unbalanced_load_title`.
-#[derive(Clone, Copy, Debug)]
-pub struct InternalFaults3;
-
-impl runtime::Point for InternalFaults3 {
-    type Raw = u16;
-    type Value = flags::InternalFaults3;
-    const NAME: &'static str = "internal_faults_3";
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x0036;
-    const TELEGRAM: Option<&'static str> = Some("visualisation");
-}
-
-impl runtime::Whole for InternalFaults3 {}
-
-impl runtime::can::Received for InternalFaults3 {
-    type Telegram = crate::telegrams::Visualisation;
-}
-
-impl runtime::Readable for InternalFaults3 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        flags::InternalFaults3::from(raw)
-    }
-}
-
-impl runtime::CountReadable for InternalFaults3 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl InternalFaults3 {
-    /// The number in the numbering mux.
-    pub const MUX: u32 = 18;
-    /// The number in the numbering word.
-    pub const WORD: u32 = 1;
-    /// The number in the numbering nr.
-    pub const NR: u32 = 55;
-}
-
-/// Internal faults 4.
-///
-/// At telegram `visualisation` word 0037h (55), `u16`, raw `0..65535`, read only.
-///
-/// Errata: `telegram_pairs_of_bits`.
-#[derive(Clone, Copy, Debug)]
-pub struct InternalFaults4;
-
-impl runtime::Point for InternalFaults4 {
-    type Raw = u16;
-    type Value = flags::InternalFaults4;
-    const NAME: &'static str = "internal_faults_4";
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x0037;
-    const TELEGRAM: Option<&'static str> = Some("visualisation");
-}
-
-impl runtime::Whole for InternalFaults4 {}
-
-impl runtime::can::Received for InternalFaults4 {
-    type Telegram = crate::telegrams::Visualisation;
-}
-
-impl runtime::Readable for InternalFaults4 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        flags::InternalFaults4::from(raw)
-    }
-}
-
-impl runtime::CountReadable for InternalFaults4 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl InternalFaults4 {
-    /// The number in the numbering mux.
-    pub const MUX: u32 = 18;
-    /// The number in the numbering word.
-    pub const WORD: u32 = 2;
-    /// The number in the numbering nr.
-    pub const NR: u32 = 56;
-}
-
-/// Internal faults 5.
-///
-/// At telegram `visualisation` word 0038h (56), `u16`, raw `0..65535`, read only.
-///
-/// Errata: `telegram_pairs_of_bits`.
-#[derive(Clone, Copy, Debug)]
-pub struct InternalFaults5;
-
-impl runtime::Point for InternalFaults5 {
-    type Raw = u16;
-    type Value = flags::InternalFaults5;
-    const NAME: &'static str = "internal_faults_5";
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x0038;
-    const TELEGRAM: Option<&'static str> = Some("visualisation");
-}
-
-impl runtime::Whole for InternalFaults5 {}
-
-impl runtime::can::Received for InternalFaults5 {
-    type Telegram = crate::telegrams::Visualisation;
-}
-
-impl runtime::Readable for InternalFaults5 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        flags::InternalFaults5::from(raw)
-    }
-}
-
-impl runtime::CountReadable for InternalFaults5 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl InternalFaults5 {
-    /// The number in the numbering mux.
-    pub const MUX: u32 = 18;
-    /// The number in the numbering word.
-    pub const WORD: u32 = 3;
-    /// The number in the numbering nr.
-    pub const NR: u32 = 57;
-}
-
-/// Digital input faults 1 to 8.
-///
-/// At telegram `visualisation` word 0039h (57), `u16`, raw `0..65535`, read only.
-///
-/// Errata: `telegram_pairs_of_bits`, `telegram_digital_input_count`.
-#[derive(Clone, Copy, Debug)]
-pub struct DigitalInputFaults1To8;
-
-impl runtime::Point for DigitalInputFaults1To8 {
-    type Raw = u16;
-    type Value = flags::DigitalInputFaults1To8;
-    const NAME: &'static str = "digital_input_faults_1_to_8";
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x0039;
-    const TELEGRAM: Option<&'static str> = Some("visualisation");
-}
-
-impl runtime::Whole for DigitalInputFaults1To8 {}
-
-impl runtime::can::Received for DigitalInputFaults1To8 {
-    type Telegram = crate::telegrams::Visualisation;
-}
-
-impl runtime::Readable for DigitalInputFaults1To8 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        flags::DigitalInputFaults1To8::from(raw)
-    }
-}
-
-impl runtime::CountReadable for DigitalInputFaults1To8 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl DigitalInputFaults1To8 {
-    /// The number in the numbering mux.
-    pub const MUX: u32 = 19;
-    /// The number in the numbering word.
-    pub const WORD: u32 = 1;
-    /// The number in the numbering nr.
-    pub const NR: u32 = 58;
-}
-
-/// Digital input faults 9 to 16.
-///
-/// At telegram `visualisation` word 003Ah (58), `u16`, raw `0..65535`, read only.
-///
-/// Errata: `telegram_pairs_of_bits`, `telegram_digital_input_count`.
-#[derive(Clone, Copy, Debug)]
-pub struct DigitalInputFaults9To16;
-
-impl runtime::Point for DigitalInputFaults9To16 {
-    type Raw = u16;
-    type Value = flags::DigitalInputFaults9To16;
-    const NAME: &'static str = "digital_input_faults_9_to_16";
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x003A;
-    const TELEGRAM: Option<&'static str> = Some("visualisation");
-}
-
-impl runtime::Whole for DigitalInputFaults9To16 {}
-
-impl runtime::can::Received for DigitalInputFaults9To16 {
-    type Telegram = crate::telegrams::Visualisation;
-}
-
-impl runtime::Readable for DigitalInputFaults9To16 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        flags::DigitalInputFaults9To16::from(raw)
-    }
-}
-
-impl runtime::CountReadable for DigitalInputFaults9To16 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl DigitalInputFaults9To16 {
-    /// The number in the numbering mux.
-    pub const MUX: u32 = 19;
-    /// The number in the numbering word.
-    pub const WORD: u32 = 2;
-    /// The number in the numbering nr.
-    pub const NR: u32 = 59;
-}
-
-/// Internal faults 7.
-///
-/// At telegram `visualisation` word 003Bh (59), `u16`, raw `0..65535`, read only.
-///
-/// Errata: `telegram_single_bits`.
-#[derive(Clone, Copy, Debug)]
-pub struct InternalFaults7;
-
-impl runtime::Point for InternalFaults7 {
-    type Raw = u16;
-    type Value = flags::InternalFaults7;
-    const NAME: &'static str = "internal_faults_7";
-    const SPACE: runtime::Space = runtime::Space::Telegram;
-    const ADDRESS: u16 = 0x003B;
-    const TELEGRAM: Option<&'static str> = Some("visualisation");
-}
-
-impl runtime::Whole for InternalFaults7 {}
-
-impl runtime::can::Received for InternalFaults7 {
-    type Telegram = crate::telegrams::Visualisation;
-}
-
-impl runtime::Readable for InternalFaults7 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        flags::InternalFaults7::from(raw)
-    }
-}
-
-impl runtime::CountReadable for InternalFaults7 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl InternalFaults7 {
-    /// The number in the numbering mux.
-    pub const MUX: u32 = 19;
-    /// The number in the numbering word.
-    pub const WORD: u32 = 3;
-    /// The number in the numbering nr.
-    pub const NR: u32 = 60;
-}
-
-/// Password level 2.
-///
-/// At parameter 01F4h (500), `u16`, raw `0..9999`, read and write.
-///
-/// Errata: `password_use`.
-#[derive(Clone, Copy, Debug)]
-pub struct PasswordLevel2;
-
-impl runtime::Point for PasswordLevel2 {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "password_level_2";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x01F4;
-    const RAW_MAX: u16 = 9999;
-}
-
-impl runtime::Whole for PasswordLevel2 {}
-
-impl runtime::can::Parameter for PasswordLevel2 {}
-
-impl runtime::Readable for PasswordLevel2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for PasswordLevel2 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for PasswordLevel2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=9999);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for PasswordLevel2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for PasswordLevel2 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Generator frequency setpoint.
-///
-/// At parameter 000Bh (11), `u16`, raw `10240..17920`, steps of `0.00390625 Hz`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorFrequencySetpoint;
-
-impl runtime::Point for GeneratorFrequencySetpoint {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "generator_frequency_setpoint";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x000B;
-    const DECIMALS: u32 = 3;
-    const UNIT: &'static str = "Hz";
-    const RAW_MIN: u16 = 10_240;
-    const RAW_MAX: u16 = 17_920;
-}
-
-impl runtime::Whole for GeneratorFrequencySetpoint {}
-
-impl runtime::can::Parameter for GeneratorFrequencySetpoint {}
-
-impl runtime::Readable for GeneratorFrequencySetpoint {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 256.0
-    }
-}
-
-impl runtime::CountReadable for GeneratorFrequencySetpoint {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        let scaled = i32::from(raw) * 125;
-        arithmetic::div_round_i32::<32>(scaled)
-    }
-}
-
-impl runtime::Writable for GeneratorFrequencySetpoint {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 10_240..=17_920);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for GeneratorFrequencySetpoint {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 256.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for GeneratorFrequencySetpoint {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 39_999, 70_001)?;
-        let scaled = count * 32;
-        let raw = arithmetic::div_round_i32::<125>(scaled);
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Generator rated frequency.
-///
-/// At parameter 000Ch (12), `u16`, raw `12800..15360`, steps of `0.00390625 Hz`, read and write.
-///
-/// Errata: `generator_rated_frequency_title`.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorRatedFrequency;
-
-impl runtime::Point for GeneratorRatedFrequency {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "generator_rated_frequency";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x000C;
-    const DECIMALS: u32 = 3;
-    const UNIT: &'static str = "Hz";
-    const RAW_MIN: u16 = 12_800;
-    const RAW_MAX: u16 = 15_360;
-}
-
-impl runtime::Whole for GeneratorRatedFrequency {}
-
-impl runtime::can::Parameter for GeneratorRatedFrequency {}
-
-impl runtime::Readable for GeneratorRatedFrequency {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 256.0
-    }
-}
-
-impl runtime::CountReadable for GeneratorRatedFrequency {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        let scaled = i32::from(raw) * 125;
-        arithmetic::div_round_i32::<32>(scaled)
-    }
-}
-
-impl runtime::Writable for GeneratorRatedFrequency {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 12_800..=15_360);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for GeneratorRatedFrequency {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 256.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for GeneratorRatedFrequency {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 49_999, 60_001)?;
-        let scaled = count * 32;
-        let raw = arithmetic::div_round_i32::<125>(scaled);
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Generator voltage transformer secondary 100v.
-///
-/// At parameter 0009h (9), `u16`, raw `50..125`, read and write, for `voltage=100V`.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorVoltageTransformerSecondary100v;
-
-impl runtime::Point for GeneratorVoltageTransformerSecondary100v {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "generator_voltage_transformer_secondary_100v";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0009;
-    const UNIT: &'static str = "V";
-    const RAW_MIN: u16 = 50;
-    const RAW_MAX: u16 = 125;
-}
-
-impl runtime::Whole for GeneratorVoltageTransformerSecondary100v {}
-
-impl runtime::can::Parameter for GeneratorVoltageTransformerSecondary100v {}
-
-impl runtime::Readable for GeneratorVoltageTransformerSecondary100v {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for GeneratorVoltageTransformerSecondary100v {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for GeneratorVoltageTransformerSecondary100v {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 50..=125);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for GeneratorVoltageTransformerSecondary100v {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for GeneratorVoltageTransformerSecondary100v {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Generator voltage transformer secondary 400v.
-///
-/// At parameter 0009h (9), `u16`, raw `50..480`, read and write, for `voltage=400V`.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorVoltageTransformerSecondary400v;
-
-impl runtime::Point for GeneratorVoltageTransformerSecondary400v {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "generator_voltage_transformer_secondary_400v";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0009;
-    const UNIT: &'static str = "V";
-    const RAW_MIN: u16 = 50;
-    const RAW_MAX: u16 = 480;
-}
-
-impl runtime::Whole for GeneratorVoltageTransformerSecondary400v {}
-
-impl runtime::can::Parameter for GeneratorVoltageTransformerSecondary400v {}
-
-impl runtime::Readable for GeneratorVoltageTransformerSecondary400v {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for GeneratorVoltageTransformerSecondary400v {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for GeneratorVoltageTransformerSecondary400v {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 50..=480);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for GeneratorVoltageTransformerSecondary400v {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for GeneratorVoltageTransformerSecondary400v {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Generator voltage transformer primary.
-///
-/// At parameter 0001h (1), `u16`, raw `5..65000`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorVoltageTransformerPrimary;
-
-impl runtime::Point for GeneratorVoltageTransformerPrimary {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "generator_voltage_transformer_primary";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0001;
-    const UNIT: &'static str = "V";
-    const RAW_MIN: u16 = 5;
-    const RAW_MAX: u16 = 65_000;
-}
-
-impl runtime::Whole for GeneratorVoltageTransformerPrimary {}
-
-impl runtime::can::Parameter for GeneratorVoltageTransformerPrimary {}
-
-impl runtime::Readable for GeneratorVoltageTransformerPrimary {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for GeneratorVoltageTransformerPrimary {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for GeneratorVoltageTransformerPrimary {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 5..=65_000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for GeneratorVoltageTransformerPrimary {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for GeneratorVoltageTransformerPrimary {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Busbar voltage transformer secondary 100v.
-///
-/// At parameter 01F2h (498), `u16`, raw `50..125`, read and write, for `voltage=100V`.
-#[derive(Clone, Copy, Debug)]
-pub struct BusbarVoltageTransformerSecondary100v;
-
-impl runtime::Point for BusbarVoltageTransformerSecondary100v {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "busbar_voltage_transformer_secondary_100v";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x01F2;
-    const UNIT: &'static str = "V";
-    const RAW_MIN: u16 = 50;
-    const RAW_MAX: u16 = 125;
-}
-
-impl runtime::Whole for BusbarVoltageTransformerSecondary100v {}
-
-impl runtime::can::Parameter for BusbarVoltageTransformerSecondary100v {}
-
-impl runtime::Readable for BusbarVoltageTransformerSecondary100v {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for BusbarVoltageTransformerSecondary100v {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for BusbarVoltageTransformerSecondary100v {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 50..=125);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for BusbarVoltageTransformerSecondary100v {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for BusbarVoltageTransformerSecondary100v {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Busbar voltage transformer secondary 400v.
-///
-/// At parameter 01F2h (498), `u16`, raw `50..480`, read and write, for `voltage=400V`.
-#[derive(Clone, Copy, Debug)]
-pub struct BusbarVoltageTransformerSecondary400v;
-
-impl runtime::Point for BusbarVoltageTransformerSecondary400v {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "busbar_voltage_transformer_secondary_400v";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x01F2;
-    const UNIT: &'static str = "V";
-    const RAW_MIN: u16 = 50;
-    const RAW_MAX: u16 = 480;
-}
-
-impl runtime::Whole for BusbarVoltageTransformerSecondary400v {}
-
-impl runtime::can::Parameter for BusbarVoltageTransformerSecondary400v {}
-
-impl runtime::Readable for BusbarVoltageTransformerSecondary400v {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for BusbarVoltageTransformerSecondary400v {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for BusbarVoltageTransformerSecondary400v {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 50..=480);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for BusbarVoltageTransformerSecondary400v {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for BusbarVoltageTransformerSecondary400v {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Busbar voltage transformer primary.
-///
-/// At parameter 01F3h (499), `u16`, raw `5..65000`, read and write.
-///
-/// Errata: `busbar_transformer_title`.
-#[derive(Clone, Copy, Debug)]
-pub struct BusbarVoltageTransformerPrimary;
-
-impl runtime::Point for BusbarVoltageTransformerPrimary {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "busbar_voltage_transformer_primary";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x01F3;
-    const UNIT: &'static str = "V";
-    const RAW_MIN: u16 = 5;
-    const RAW_MAX: u16 = 65_000;
-}
-
-impl runtime::Whole for BusbarVoltageTransformerPrimary {}
-
-impl runtime::can::Parameter for BusbarVoltageTransformerPrimary {}
-
-impl runtime::Readable for BusbarVoltageTransformerPrimary {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for BusbarVoltageTransformerPrimary {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for BusbarVoltageTransformerPrimary {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 5..=65_000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for BusbarVoltageTransformerPrimary {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for BusbarVoltageTransformerPrimary {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Mains voltage transformer secondary 100v.
-///
-/// At parameter 011Ah (282), `u16`, raw `50..125`, read and write, for `voltage=100V`.
-#[derive(Clone, Copy, Debug)]
-pub struct MainsVoltageTransformerSecondary100v;
-
-impl runtime::Point for MainsVoltageTransformerSecondary100v {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "mains_voltage_transformer_secondary_100v";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x011A;
-    const UNIT: &'static str = "V";
-    const RAW_MIN: u16 = 50;
-    const RAW_MAX: u16 = 125;
-}
-
-impl runtime::Whole for MainsVoltageTransformerSecondary100v {}
-
-impl runtime::can::Parameter for MainsVoltageTransformerSecondary100v {}
-
-impl runtime::Readable for MainsVoltageTransformerSecondary100v {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for MainsVoltageTransformerSecondary100v {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for MainsVoltageTransformerSecondary100v {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 50..=125);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for MainsVoltageTransformerSecondary100v {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for MainsVoltageTransformerSecondary100v {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Mains voltage transformer secondary 400v.
-///
-/// At parameter 011Ah (282), `u16`, raw `50..480`, read and write, for `voltage=400V`.
-#[derive(Clone, Copy, Debug)]
-pub struct MainsVoltageTransformerSecondary400v;
-
-impl runtime::Point for MainsVoltageTransformerSecondary400v {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "mains_voltage_transformer_secondary_400v";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x011A;
-    const UNIT: &'static str = "V";
-    const RAW_MIN: u16 = 50;
-    const RAW_MAX: u16 = 480;
-}
-
-impl runtime::Whole for MainsVoltageTransformerSecondary400v {}
-
-impl runtime::can::Parameter for MainsVoltageTransformerSecondary400v {}
-
-impl runtime::Readable for MainsVoltageTransformerSecondary400v {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for MainsVoltageTransformerSecondary400v {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for MainsVoltageTransformerSecondary400v {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 50..=480);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for MainsVoltageTransformerSecondary400v {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for MainsVoltageTransformerSecondary400v {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Mains voltage transformer primary.
-///
-/// At parameter 0003h (3), `u16`, raw `5..65000`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct MainsVoltageTransformerPrimary;
-
-impl runtime::Point for MainsVoltageTransformerPrimary {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "mains_voltage_transformer_primary";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0003;
-    const UNIT: &'static str = "V";
-    const RAW_MIN: u16 = 5;
-    const RAW_MAX: u16 = 65_000;
-}
-
-impl runtime::Whole for MainsVoltageTransformerPrimary {}
-
-impl runtime::can::Parameter for MainsVoltageTransformerPrimary {}
-
-impl runtime::Readable for MainsVoltageTransformerPrimary {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for MainsVoltageTransformerPrimary {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for MainsVoltageTransformerPrimary {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 5..=65_000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for MainsVoltageTransformerPrimary {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for MainsVoltageTransformerPrimary {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Generator voltage factor.
-///
-/// `KWUGNSEK` at parameter 01FBh (507), `u16`, raw `0..65535`, read only.
-///
-/// Errata: `voltage_factors`.
-#[doc(alias = "KWUGNSEK")]
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorVoltageFactor;
-
-impl runtime::Point for GeneratorVoltageFactor {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "generator_voltage_factor";
-    const CODE: Option<&'static str> = Some("KWUGNSEK");
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x01FB;
-}
-
-impl runtime::Whole for GeneratorVoltageFactor {}
-
-impl runtime::can::Parameter for GeneratorVoltageFactor {}
-
-impl runtime::Readable for GeneratorVoltageFactor {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for GeneratorVoltageFactor {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-/// Generator voltage setpoint 100v.
-///
-/// At parameter 000Ah (10), `u16`, raw `generator_voltage_factor.raw x 0.0625..min(20480, generator_voltage_factor.raw x 0.3125)`, value `raw x 400 / generator_voltage_factor.raw V`, read and write, for `voltage=100V`.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorVoltageSetpoint100v;
-
-impl runtime::Point for GeneratorVoltageSetpoint100v {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "generator_voltage_setpoint_100v";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x000A;
-    const DECIMALS: u32 = 3;
-    const UNIT: &'static str = "V";
-    const RAW_MAX: u16 = 20_480;
-}
-
-impl runtime::Whole for GeneratorVoltageSetpoint100v {}
-
-impl runtime::can::Parameter for GeneratorVoltageSetpoint100v {}
-
-impl runtime::Scaled for GeneratorVoltageSetpoint100v {
-    type Factors = with::GeneratorVoltageSetpoint100v;
-
-    #[inline]
-    fn rule(with: Self::Factors) -> Result<runtime::Rule, runtime::Error> {
-        let rule = runtime::Rule::new(1, 400);
-        let factor = with.generator_voltage_factor;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.times(factor)?;
-        Ok(rule)
-    }
-}
-
-impl runtime::Readable for GeneratorVoltageSetpoint100v {
-    type Factors = with::GeneratorVoltageSetpoint100v;
-    type Output<V> = Result<V, runtime::Error>;
-
-    #[inline]
-    fn decode_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Value> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::CountReadable for GeneratorVoltageSetpoint100v {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Count> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode_count::<1000>(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::Writable for GeneratorVoltageSetpoint100v {
-    type With = with::GeneratorVoltageSetpoint100v;
-
-    #[inline]
-    fn check_with(raw: u16, with: Self::With) -> Result<(), runtime::Error> {
-        let rule = runtime::Rule::new(1, 16);
-        let factor = with.generator_voltage_factor;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.limited_by(factor)?;
-        let low_1 = rule.limit()?.max(0);
-        let rule = runtime::Rule::new(5, 16);
-        let factor = with.generator_voltage_factor;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.limited_by(factor)?;
-        let high_1 = rule.limit()?.min(20_480);
-        let number = runtime::Raw::to_i64(raw);
-        let holds = (low_1..=high_1).contains(&number);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for GeneratorVoltageSetpoint100v {
-    #[inline]
-    fn encode_with(value: Self::Value, with: Self::With) -> Result<u16, runtime::Error> {
-        let value = arithmetic::number(value)?;
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        arithmetic::nearest::<Self>(rule.encode(value), with)
-    }
-}
-
-impl runtime::CountWritable for GeneratorVoltageSetpoint100v {
-    type Count = i64;
-
-    #[inline]
-    fn encode_count_with(count: i64, with: Self::With) -> Result<u16, runtime::Error> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        let raw = rule.encode_count::<1000>(count)?;
-        arithmetic::store::<Self>(raw, with)
-    }
-}
-
-/// Generator voltage setpoint 400v.
-///
-/// At parameter 000Ah (10), `u16`, raw `generator_voltage_factor.raw x 0.125..generator_voltage_factor.raw x 1.2`, value `raw x 400 / generator_voltage_factor.raw V`, read and write, for `voltage=400V`.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorVoltageSetpoint400v;
-
-impl runtime::Point for GeneratorVoltageSetpoint400v {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "generator_voltage_setpoint_400v";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x000A;
-    const DECIMALS: u32 = 3;
-    const UNIT: &'static str = "V";
-}
-
-impl runtime::Whole for GeneratorVoltageSetpoint400v {}
-
-impl runtime::can::Parameter for GeneratorVoltageSetpoint400v {}
-
-impl runtime::Scaled for GeneratorVoltageSetpoint400v {
-    type Factors = with::GeneratorVoltageSetpoint400v;
-
-    #[inline]
-    fn rule(with: Self::Factors) -> Result<runtime::Rule, runtime::Error> {
-        let rule = runtime::Rule::new(1, 400);
-        let factor = with.generator_voltage_factor;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.times(factor)?;
-        Ok(rule)
-    }
-}
-
-impl runtime::Readable for GeneratorVoltageSetpoint400v {
-    type Factors = with::GeneratorVoltageSetpoint400v;
-    type Output<V> = Result<V, runtime::Error>;
-
-    #[inline]
-    fn decode_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Value> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::CountReadable for GeneratorVoltageSetpoint400v {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Count> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode_count::<1000>(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::Writable for GeneratorVoltageSetpoint400v {
-    type With = with::GeneratorVoltageSetpoint400v;
-
-    #[inline]
-    fn check_with(raw: u16, with: Self::With) -> Result<(), runtime::Error> {
-        let rule = runtime::Rule::new(1, 8);
-        let factor = with.generator_voltage_factor;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.limited_by(factor)?;
-        let low_1 = rule.limit()?.max(0);
-        let rule = runtime::Rule::new(6, 5);
-        let factor = with.generator_voltage_factor;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.limited_by(factor)?;
-        let high_1 = rule.limit()?.min(65_535);
-        let number = runtime::Raw::to_i64(raw);
-        let holds = (low_1..=high_1).contains(&number);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for GeneratorVoltageSetpoint400v {
-    #[inline]
-    fn encode_with(value: Self::Value, with: Self::With) -> Result<u16, runtime::Error> {
-        let value = arithmetic::number(value)?;
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        arithmetic::nearest::<Self>(rule.encode(value), with)
-    }
-}
-
-impl runtime::CountWritable for GeneratorVoltageSetpoint400v {
-    type Count = i64;
-
-    #[inline]
-    fn encode_count_with(count: i64, with: Self::With) -> Result<u16, runtime::Error> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        let raw = rule.encode_count::<1000>(count)?;
-        arithmetic::store::<Self>(raw, with)
-    }
-}
-
-/// Generator rated voltage 100v.
-///
-/// At parameter 0128h (296), `u16`, raw `generator_voltage_factor.raw x 0.0625..min(20480, generator_voltage_factor.raw x 0.3125)`, value `raw x 400 / generator_voltage_factor.raw V`, read and write, for `voltage=100V`.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorRatedVoltage100v;
-
-impl runtime::Point for GeneratorRatedVoltage100v {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "generator_rated_voltage_100v";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0128;
-    const DECIMALS: u32 = 3;
-    const UNIT: &'static str = "V";
-    const RAW_MAX: u16 = 20_480;
-}
-
-impl runtime::Whole for GeneratorRatedVoltage100v {}
-
-impl runtime::can::Parameter for GeneratorRatedVoltage100v {}
-
-impl runtime::Scaled for GeneratorRatedVoltage100v {
-    type Factors = with::GeneratorRatedVoltage100v;
-
-    #[inline]
-    fn rule(with: Self::Factors) -> Result<runtime::Rule, runtime::Error> {
-        let rule = runtime::Rule::new(1, 400);
-        let factor = with.generator_voltage_factor;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.times(factor)?;
-        Ok(rule)
-    }
-}
-
-impl runtime::Readable for GeneratorRatedVoltage100v {
-    type Factors = with::GeneratorRatedVoltage100v;
-    type Output<V> = Result<V, runtime::Error>;
-
-    #[inline]
-    fn decode_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Value> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::CountReadable for GeneratorRatedVoltage100v {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Count> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode_count::<1000>(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::Writable for GeneratorRatedVoltage100v {
-    type With = with::GeneratorRatedVoltage100v;
-
-    #[inline]
-    fn check_with(raw: u16, with: Self::With) -> Result<(), runtime::Error> {
-        let rule = runtime::Rule::new(1, 16);
-        let factor = with.generator_voltage_factor;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.limited_by(factor)?;
-        let low_1 = rule.limit()?.max(0);
-        let rule = runtime::Rule::new(5, 16);
-        let factor = with.generator_voltage_factor;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.limited_by(factor)?;
-        let high_1 = rule.limit()?.min(20_480);
-        let number = runtime::Raw::to_i64(raw);
-        let holds = (low_1..=high_1).contains(&number);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for GeneratorRatedVoltage100v {
-    #[inline]
-    fn encode_with(value: Self::Value, with: Self::With) -> Result<u16, runtime::Error> {
-        let value = arithmetic::number(value)?;
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        arithmetic::nearest::<Self>(rule.encode(value), with)
-    }
-}
-
-impl runtime::CountWritable for GeneratorRatedVoltage100v {
-    type Count = i64;
-
-    #[inline]
-    fn encode_count_with(count: i64, with: Self::With) -> Result<u16, runtime::Error> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        let raw = rule.encode_count::<1000>(count)?;
-        arithmetic::store::<Self>(raw, with)
-    }
-}
-
-/// Generator rated voltage 400v.
-///
-/// At parameter 0128h (296), `u16`, raw `generator_voltage_factor.raw x 0.125..generator_voltage_factor.raw x 1.2`, value `raw x 400 / generator_voltage_factor.raw V`, read and write, for `voltage=400V`.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorRatedVoltage400v;
-
-impl runtime::Point for GeneratorRatedVoltage400v {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "generator_rated_voltage_400v";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0128;
-    const DECIMALS: u32 = 3;
-    const UNIT: &'static str = "V";
-}
-
-impl runtime::Whole for GeneratorRatedVoltage400v {}
-
-impl runtime::can::Parameter for GeneratorRatedVoltage400v {}
-
-impl runtime::Scaled for GeneratorRatedVoltage400v {
-    type Factors = with::GeneratorRatedVoltage400v;
-
-    #[inline]
-    fn rule(with: Self::Factors) -> Result<runtime::Rule, runtime::Error> {
-        let rule = runtime::Rule::new(1, 400);
-        let factor = with.generator_voltage_factor;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.times(factor)?;
-        Ok(rule)
-    }
-}
-
-impl runtime::Readable for GeneratorRatedVoltage400v {
-    type Factors = with::GeneratorRatedVoltage400v;
-    type Output<V> = Result<V, runtime::Error>;
-
-    #[inline]
-    fn decode_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Value> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::CountReadable for GeneratorRatedVoltage400v {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Count> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode_count::<1000>(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::Writable for GeneratorRatedVoltage400v {
-    type With = with::GeneratorRatedVoltage400v;
-
-    #[inline]
-    fn check_with(raw: u16, with: Self::With) -> Result<(), runtime::Error> {
-        let rule = runtime::Rule::new(1, 8);
-        let factor = with.generator_voltage_factor;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.limited_by(factor)?;
-        let low_1 = rule.limit()?.max(0);
-        let rule = runtime::Rule::new(6, 5);
-        let factor = with.generator_voltage_factor;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.limited_by(factor)?;
-        let high_1 = rule.limit()?.min(65_535);
-        let number = runtime::Raw::to_i64(raw);
-        let holds = (low_1..=high_1).contains(&number);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for GeneratorRatedVoltage400v {
-    #[inline]
-    fn encode_with(value: Self::Value, with: Self::With) -> Result<u16, runtime::Error> {
-        let value = arithmetic::number(value)?;
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        arithmetic::nearest::<Self>(rule.encode(value), with)
-    }
-}
-
-impl runtime::CountWritable for GeneratorRatedVoltage400v {
-    type Count = i64;
-
-    #[inline]
-    fn encode_count_with(count: i64, with: Self::With) -> Result<u16, runtime::Error> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        let raw = rule.encode_count::<1000>(count)?;
-        arithmetic::store::<Self>(raw, with)
-    }
-}
-
-/// Generator current transformer ratio.
-///
-/// At parameter 0002h (2), `u16`, raw `10..7000`, read and write.
-///
-/// Errata: `current_transformer_unit`.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorCurrentTransformerRatio;
-
-impl runtime::Point for GeneratorCurrentTransformerRatio {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "generator_current_transformer_ratio";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0002;
-    const UNIT: &'static str = "A";
-    const RAW_MIN: u16 = 10;
-    const RAW_MAX: u16 = 7000;
-}
-
-impl runtime::Whole for GeneratorCurrentTransformerRatio {}
-
-impl runtime::can::Parameter for GeneratorCurrentTransformerRatio {}
-
-impl runtime::Readable for GeneratorCurrentTransformerRatio {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for GeneratorCurrentTransformerRatio {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for GeneratorCurrentTransformerRatio {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 10..=7000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for GeneratorCurrentTransformerRatio {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for GeneratorCurrentTransformerRatio {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Power measurement phases.
-///
-/// At parameter 0015h (21) bits 11 to 11, `bit`, raw `0, 1`, read and write.
-///
-/// Errata: `power_measurement_bit_row`.
-#[derive(Clone, Copy, Debug)]
-pub struct PowerMeasurementPhases;
-
-impl runtime::Point for PowerMeasurementPhases {
-    type Raw = u8;
-    type Value = enums::PowerMeasurementPhases;
-    const NAME: &'static str = "power_measurement_phases";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0015;
-    const RAW_MAX: u8 = 1;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for PowerMeasurementPhases {
-    const SHIFT: u32 = 11;
-    const MASK: u16 = 0x0800;
-}
-
-impl runtime::can::Parameter for PowerMeasurementPhases {}
-
-impl runtime::Readable for PowerMeasurementPhases {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::PowerMeasurementPhases::from(raw)
-    }
-}
-
-impl runtime::CountReadable for PowerMeasurementPhases {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for PowerMeasurementPhases {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for PowerMeasurementPhases {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for PowerMeasurementPhases {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Generator rated power.
-///
-/// At parameter 0007h (7), `u16`, raw `5..9999`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorRatedPower;
-
-impl runtime::Point for GeneratorRatedPower {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "generator_rated_power";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0007;
-    const UNIT: &'static str = "kW";
-    const RAW_MIN: u16 = 5;
-    const RAW_MAX: u16 = 9999;
-}
-
-impl runtime::Whole for GeneratorRatedPower {}
-
-impl runtime::can::Parameter for GeneratorRatedPower {}
-
-impl runtime::Readable for GeneratorRatedPower {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for GeneratorRatedPower {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for GeneratorRatedPower {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 5..=9999);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for GeneratorRatedPower {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for GeneratorRatedPower {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Generator rated current.
-///
-/// At parameter 0047h (71), `u16`, raw `0..7000`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorRatedCurrent;
-
-impl runtime::Point for GeneratorRatedCurrent {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "generator_rated_current";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0047;
-    const UNIT: &'static str = "A";
-    const RAW_MAX: u16 = 7000;
-}
-
-impl runtime::Whole for GeneratorRatedCurrent {}
-
-impl runtime::can::Parameter for GeneratorRatedCurrent {}
-
-impl runtime::Readable for GeneratorRatedCurrent {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for GeneratorRatedCurrent {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for GeneratorRatedCurrent {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=7000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for GeneratorRatedCurrent {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for GeneratorRatedCurrent {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Generator power setpoint 1.
-///
-/// At parameter 0045h (69), `s16`, raw `-9999..9999`, read and write.
-///
-/// Errata: `parameter_sign`.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorPowerSetpoint1;
-
-impl runtime::Point for GeneratorPowerSetpoint1 {
-    type Raw = i16;
-    type Value = i16;
-    const NAME: &'static str = "generator_power_setpoint_1";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0045;
-    const UNIT: &'static str = "kW";
-    const RAW_MIN: i16 = -9999;
-    const RAW_MAX: i16 = 9999;
-}
-
-impl runtime::Whole for GeneratorPowerSetpoint1 {}
-
-impl runtime::can::Parameter for GeneratorPowerSetpoint1 {}
-
-impl runtime::Readable for GeneratorPowerSetpoint1 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: i16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for GeneratorPowerSetpoint1 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: i16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for GeneratorPowerSetpoint1 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: i16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, -9999..=9999);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for GeneratorPowerSetpoint1 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<i16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for GeneratorPowerSetpoint1 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<i16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Generator power setpoint 2.
-///
-/// At parameter 0046h (70), `s16`, raw `-9999..9999`, read and write.
-///
-/// Errata: `parameter_sign`.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorPowerSetpoint2;
-
-impl runtime::Point for GeneratorPowerSetpoint2 {
-    type Raw = i16;
-    type Value = i16;
-    const NAME: &'static str = "generator_power_setpoint_2";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0046;
-    const UNIT: &'static str = "kW";
-    const RAW_MIN: i16 = -9999;
-    const RAW_MAX: i16 = 9999;
-}
-
-impl runtime::Whole for GeneratorPowerSetpoint2 {}
-
-impl runtime::can::Parameter for GeneratorPowerSetpoint2 {}
-
-impl runtime::Readable for GeneratorPowerSetpoint2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: i16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for GeneratorPowerSetpoint2 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: i16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for GeneratorPowerSetpoint2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: i16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, -9999..=9999);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for GeneratorPowerSetpoint2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<i16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for GeneratorPowerSetpoint2 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<i16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Frequency controller.
-///
-/// At parameter 0013h (19) bits 15 to 14, `u8`, raw `0, 3`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct FrequencyController;
-
-impl runtime::Point for FrequencyController {
-    type Raw = u8;
-    type Value = enums::Switch2;
-    const NAME: &'static str = "frequency_controller";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0013;
-    const RAW_MAX: u8 = 3;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for FrequencyController {
-    const SHIFT: u32 = 14;
-    const MASK: u16 = 0xC000;
-}
-
-impl runtime::can::Parameter for FrequencyController {}
-
-impl runtime::Readable for FrequencyController {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::Switch2::from(raw)
-    }
-}
-
-impl runtime::CountReadable for FrequencyController {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for FrequencyController {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0 | 3);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for FrequencyController {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for FrequencyController {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Frequency controller start frequency.
-///
-/// At parameter 0039h (57), `u16`, raw `0..17920`, steps of `0.00390625 Hz`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct FrequencyControllerStartFrequency;
-
-impl runtime::Point for FrequencyControllerStartFrequency {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "frequency_controller_start_frequency";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0039;
-    const DECIMALS: u32 = 3;
-    const UNIT: &'static str = "Hz";
-    const RAW_MAX: u16 = 17_920;
-}
-
-impl runtime::Whole for FrequencyControllerStartFrequency {}
-
-impl runtime::can::Parameter for FrequencyControllerStartFrequency {}
-
-impl runtime::Readable for FrequencyControllerStartFrequency {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 256.0
-    }
-}
-
-impl runtime::CountReadable for FrequencyControllerStartFrequency {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        let scaled = i32::from(raw) * 125;
-        arithmetic::div_round_i32::<32>(scaled)
-    }
-}
-
-impl runtime::Writable for FrequencyControllerStartFrequency {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=17_920);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for FrequencyControllerStartFrequency {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 256.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for FrequencyControllerStartFrequency {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, -1, 70_001)?;
-        let scaled = count * 32;
-        let raw = arithmetic::div_round_i32::<125>(scaled);
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Frequency controller start delay.
-///
-/// At parameter 01F1h (497), `u16`, raw `0..49950`, steps of `0.02 s`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct FrequencyControllerStartDelay;
-
-impl runtime::Point for FrequencyControllerStartDelay {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "frequency_controller_start_delay";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x01F1;
-    const DECIMALS: u32 = 2;
-    const UNIT: &'static str = "s";
-    const RAW_MAX: u16 = 49_950;
-}
-
-impl runtime::Whole for FrequencyControllerStartDelay {}
-
-impl runtime::can::Parameter for FrequencyControllerStartDelay {}
-
-impl runtime::Readable for FrequencyControllerStartDelay {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 50.0
-    }
-}
-
-impl runtime::CountReadable for FrequencyControllerStartDelay {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw) * 2
-    }
-}
-
-impl runtime::Writable for FrequencyControllerStartDelay {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=49_950);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for FrequencyControllerStartDelay {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 50.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for FrequencyControllerStartDelay {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 99_900)?;
-        let scaled = count;
-        let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Frequency controller dead band.
-///
-/// At parameter 002Ch (44), `u16`, raw `5..256`, steps of `0.00390625 Hz`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct FrequencyControllerDeadBand;
-
-impl runtime::Point for FrequencyControllerDeadBand {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "frequency_controller_dead_band";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x002C;
-    const DECIMALS: u32 = 3;
-    const UNIT: &'static str = "Hz";
-    const RAW_MIN: u16 = 5;
-    const RAW_MAX: u16 = 256;
-}
-
-impl runtime::Whole for FrequencyControllerDeadBand {}
-
-impl runtime::can::Parameter for FrequencyControllerDeadBand {}
-
-impl runtime::Readable for FrequencyControllerDeadBand {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 256.0
-    }
-}
-
-impl runtime::CountReadable for FrequencyControllerDeadBand {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        let scaled = i32::from(raw) * 125;
-        arithmetic::div_round_i32::<32>(scaled)
-    }
-}
-
-impl runtime::Writable for FrequencyControllerDeadBand {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 5..=256);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for FrequencyControllerDeadBand {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 256.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for FrequencyControllerDeadBand {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 18, 1001)?;
-        let scaled = count * 32;
-        let raw = arithmetic::div_round_i32::<125>(scaled);
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Frequency controller pulse time.
-///
-/// At parameter 002Dh (45), `u16`, raw `5..125`, steps of `2 ms`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct FrequencyControllerPulseTime;
-
-impl runtime::Point for FrequencyControllerPulseTime {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "frequency_controller_pulse_time";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x002D;
-    const UNIT: &'static str = "ms";
-    const RAW_MIN: u16 = 5;
-    const RAW_MAX: u16 = 125;
-}
-
-impl runtime::Whole for FrequencyControllerPulseTime {}
-
-impl runtime::can::Parameter for FrequencyControllerPulseTime {}
-
-impl runtime::Readable for FrequencyControllerPulseTime {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(i32::from(raw) * 2)
-    }
-}
-
-impl runtime::CountReadable for FrequencyControllerPulseTime {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw) * 2
-    }
-}
-
-impl runtime::Writable for FrequencyControllerPulseTime {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 5..=125);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for FrequencyControllerPulseTime {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value / 2.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for FrequencyControllerPulseTime {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 9, 250)?;
-        let scaled = count;
-        let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Frequency controller proportional gain.
-///
-/// At parameter 002Eh (46), `u16`, raw `1..999`, steps of `0.1`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct FrequencyControllerProportionalGain;
-
-impl runtime::Point for FrequencyControllerProportionalGain {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "frequency_controller_proportional_gain";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x002E;
-    const DECIMALS: u32 = 1;
-    const RAW_MIN: u16 = 1;
-    const RAW_MAX: u16 = 999;
-}
-
-impl runtime::Whole for FrequencyControllerProportionalGain {}
-
-impl runtime::can::Parameter for FrequencyControllerProportionalGain {}
-
-impl runtime::Readable for FrequencyControllerProportionalGain {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for FrequencyControllerProportionalGain {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for FrequencyControllerProportionalGain {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=999);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for FrequencyControllerProportionalGain {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for FrequencyControllerProportionalGain {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 1, 999)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Voltage controller.
-///
-/// At parameter 0013h (19) bits 11 to 10, `u8`, raw `0, 3`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct VoltageController;
-
-impl runtime::Point for VoltageController {
-    type Raw = u8;
-    type Value = enums::Switch2;
-    const NAME: &'static str = "voltage_controller";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0013;
-    const RAW_MAX: u8 = 3;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for VoltageController {
-    const SHIFT: u32 = 10;
-    const MASK: u16 = 0x0C00;
-}
-
-impl runtime::can::Parameter for VoltageController {}
-
-impl runtime::Readable for VoltageController {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::Switch2::from(raw)
-    }
-}
-
-impl runtime::CountReadable for VoltageController {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for VoltageController {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0 | 3);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for VoltageController {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for VoltageController {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Voltage controller dead band.
-///
-/// At parameter 0025h (37), `u16`, raw `4..600`, steps of `0.025 %`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct VoltageControllerDeadBand;
-
-impl runtime::Point for VoltageControllerDeadBand {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "voltage_controller_dead_band";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0025;
-    const DECIMALS: u32 = 2;
-    const UNIT: &'static str = "%";
-    const RAW_MIN: u16 = 4;
-    const RAW_MAX: u16 = 600;
-}
-
-impl runtime::Whole for VoltageControllerDeadBand {}
-
-impl runtime::can::Parameter for VoltageControllerDeadBand {}
-
-impl runtime::Readable for VoltageControllerDeadBand {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 40.0
-    }
-}
-
-impl runtime::CountReadable for VoltageControllerDeadBand {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        let scaled = i32::from(raw) * 5;
-        arithmetic::div_round_i32::<2>(scaled)
-    }
-}
-
-impl runtime::Writable for VoltageControllerDeadBand {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 4..=600);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for VoltageControllerDeadBand {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 40.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for VoltageControllerDeadBand {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 9, 1501)?;
-        let scaled = count * 2;
-        let raw = arithmetic::div_round_i32::<5>(scaled);
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Voltage controller pulse time.
-///
-/// At parameter 0026h (38), `u16`, raw `10..125`, steps of `2 ms`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct VoltageControllerPulseTime;
-
-impl runtime::Point for VoltageControllerPulseTime {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "voltage_controller_pulse_time";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0026;
-    const UNIT: &'static str = "ms";
-    const RAW_MIN: u16 = 10;
-    const RAW_MAX: u16 = 125;
-}
-
-impl runtime::Whole for VoltageControllerPulseTime {}
-
-impl runtime::can::Parameter for VoltageControllerPulseTime {}
-
-impl runtime::Readable for VoltageControllerPulseTime {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(i32::from(raw) * 2)
-    }
-}
-
-impl runtime::CountReadable for VoltageControllerPulseTime {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw) * 2
-    }
-}
-
-impl runtime::Writable for VoltageControllerPulseTime {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 10..=125);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for VoltageControllerPulseTime {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value / 2.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for VoltageControllerPulseTime {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 19, 250)?;
-        let scaled = count;
-        let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Voltage controller proportional gain.
-///
-/// At parameter 0027h (39), `u16`, raw `1..999`, steps of `0.1`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct VoltageControllerProportionalGain;
-
-impl runtime::Point for VoltageControllerProportionalGain {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "voltage_controller_proportional_gain";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0027;
-    const DECIMALS: u32 = 1;
-    const RAW_MIN: u16 = 1;
-    const RAW_MAX: u16 = 999;
-}
-
-impl runtime::Whole for VoltageControllerProportionalGain {}
-
-impl runtime::can::Parameter for VoltageControllerProportionalGain {}
-
-impl runtime::Readable for VoltageControllerProportionalGain {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for VoltageControllerProportionalGain {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for VoltageControllerProportionalGain {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=999);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for VoltageControllerProportionalGain {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for VoltageControllerProportionalGain {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 1, 999)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Cos phi controller.
-///
-/// At parameter 0013h (19) bits 9 to 8, `u8`, raw `0, 3`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct CosPhiController;
-
-impl runtime::Point for CosPhiController {
-    type Raw = u8;
-    type Value = enums::Switch2;
-    const NAME: &'static str = "cos_phi_controller";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0013;
-    const RAW_MAX: u8 = 3;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for CosPhiController {
-    const SHIFT: u32 = 8;
-    const MASK: u16 = 0x0300;
-}
-
-impl runtime::can::Parameter for CosPhiController {}
-
-impl runtime::Readable for CosPhiController {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::Switch2::from(raw)
-    }
-}
-
-impl runtime::CountReadable for CosPhiController {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for CosPhiController {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0 | 3);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for CosPhiController {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for CosPhiController {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Cos phi controller setpoint.
-///
-/// At parameter 000Dh (13), `s16`, raw `-99..-70 or 70..100`, steps of `0.01`, read and write.
-///
-/// Errata: `parameter_sign`, `cos_phi_range_order`.
-#[derive(Clone, Copy, Debug)]
-pub struct CosPhiControllerSetpoint;
-
-impl runtime::Point for CosPhiControllerSetpoint {
-    type Raw = i16;
-    type Value = f64;
-    const NAME: &'static str = "cos_phi_controller_setpoint";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x000D;
-    const DECIMALS: u32 = 2;
-    const RAW_MIN: i16 = -99;
-    const RAW_MAX: i16 = 100;
-}
-
-impl runtime::Whole for CosPhiControllerSetpoint {}
-
-impl runtime::can::Parameter for CosPhiControllerSetpoint {}
-
-impl runtime::Readable for CosPhiControllerSetpoint {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: i16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 100.0
-    }
-}
-
-impl runtime::CountReadable for CosPhiControllerSetpoint {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: i16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for CosPhiControllerSetpoint {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: i16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, -99..=-70 | 70..=100);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for CosPhiControllerSetpoint {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<i16, runtime::Error> {
-        let scaled = value * 100.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for CosPhiControllerSetpoint {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<i16, runtime::Error> {
-        let count = arithmetic::within(count, -99, 100)?;
-        let raw = count;
-        arithmetic::store::<Self>(raw, ())
-    }
-}
-
-/// Cos phi controller dead band.
-///
-/// At parameter 0028h (40), `u16`, raw `5..250`, steps of `0.1 %`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct CosPhiControllerDeadBand;
-
-impl runtime::Point for CosPhiControllerDeadBand {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "cos_phi_controller_dead_band";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0028;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "%";
-    const RAW_MIN: u16 = 5;
-    const RAW_MAX: u16 = 250;
-}
-
-impl runtime::Whole for CosPhiControllerDeadBand {}
-
-impl runtime::can::Parameter for CosPhiControllerDeadBand {}
-
-impl runtime::Readable for CosPhiControllerDeadBand {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for CosPhiControllerDeadBand {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for CosPhiControllerDeadBand {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 5..=250);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for CosPhiControllerDeadBand {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for CosPhiControllerDeadBand {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 5, 250)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Cos phi controller proportional gain.
-///
-/// At parameter 002Ah (42), `u16`, raw `1..999`, steps of `0.1`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct CosPhiControllerProportionalGain;
-
-impl runtime::Point for CosPhiControllerProportionalGain {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "cos_phi_controller_proportional_gain";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x002A;
-    const DECIMALS: u32 = 1;
-    const RAW_MIN: u16 = 1;
-    const RAW_MAX: u16 = 999;
-}
-
-impl runtime::Whole for CosPhiControllerProportionalGain {}
-
-impl runtime::can::Parameter for CosPhiControllerProportionalGain {}
-
-impl runtime::Readable for CosPhiControllerProportionalGain {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for CosPhiControllerProportionalGain {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for CosPhiControllerProportionalGain {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=999);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for CosPhiControllerProportionalGain {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for CosPhiControllerProportionalGain {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 1, 999)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Active power controller.
-///
-/// At parameter 0013h (19) bits 13 to 12, `u8`, raw `0, 3`, read and write.
-///
-/// Errata: `active_power_controller_text`.
-#[derive(Clone, Copy, Debug)]
-pub struct ActivePowerController;
-
-impl runtime::Point for ActivePowerController {
-    type Raw = u8;
-    type Value = enums::Switch2;
-    const NAME: &'static str = "active_power_controller";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0013;
-    const RAW_MAX: u8 = 3;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for ActivePowerController {
-    const SHIFT: u32 = 12;
-    const MASK: u16 = 0x3000;
-}
-
-impl runtime::can::Parameter for ActivePowerController {}
-
-impl runtime::Readable for ActivePowerController {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::Switch2::from(raw)
-    }
-}
-
-impl runtime::CountReadable for ActivePowerController {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for ActivePowerController {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0 | 3);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for ActivePowerController {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for ActivePowerController {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Active power controller ramp.
-///
-/// At parameter 0043h (67), `u16`, raw `0..100`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct ActivePowerControllerRamp;
-
-impl runtime::Point for ActivePowerControllerRamp {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "active_power_controller_ramp";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0043;
-    const UNIT: &'static str = "%/s";
-    const RAW_MAX: u16 = 100;
-}
-
-impl runtime::Whole for ActivePowerControllerRamp {}
-
-impl runtime::can::Parameter for ActivePowerControllerRamp {}
-
-impl runtime::Readable for ActivePowerControllerRamp {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for ActivePowerControllerRamp {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for ActivePowerControllerRamp {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=100);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for ActivePowerControllerRamp {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for ActivePowerControllerRamp {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Active power controller maximum.
-///
-/// At parameter 0049h (73), `u16`, raw `100..1200`, steps of `0.1 %`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct ActivePowerControllerMaximum;
-
-impl runtime::Point for ActivePowerControllerMaximum {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "active_power_controller_maximum";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0049;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "%";
-    const RAW_MIN: u16 = 100;
-    const RAW_MAX: u16 = 1200;
-}
-
-impl runtime::Whole for ActivePowerControllerMaximum {}
-
-impl runtime::can::Parameter for ActivePowerControllerMaximum {}
-
-impl runtime::Readable for ActivePowerControllerMaximum {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for ActivePowerControllerMaximum {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for ActivePowerControllerMaximum {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 100..=1200);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for ActivePowerControllerMaximum {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for ActivePowerControllerMaximum {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 100, 1200)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Active power controller minimum.
-///
-/// At parameter 004Ah (74), `u16`, raw `0..500`, steps of `0.1 %`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct ActivePowerControllerMinimum;
-
-impl runtime::Point for ActivePowerControllerMinimum {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "active_power_controller_minimum";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x004A;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "%";
-    const RAW_MAX: u16 = 500;
-}
-
-impl runtime::Whole for ActivePowerControllerMinimum {}
-
-impl runtime::can::Parameter for ActivePowerControllerMinimum {}
-
-impl runtime::Readable for ActivePowerControllerMinimum {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for ActivePowerControllerMinimum {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for ActivePowerControllerMinimum {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=500);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for ActivePowerControllerMinimum {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for ActivePowerControllerMinimum {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 500)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Active power controller dead band.
-///
-/// At parameter 002Fh (47), `u16`, raw `1..250`, steps of `0.1 %`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct ActivePowerControllerDeadBand;
-
-impl runtime::Point for ActivePowerControllerDeadBand {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "active_power_controller_dead_band";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x002F;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "%";
-    const RAW_MIN: u16 = 1;
-    const RAW_MAX: u16 = 250;
-}
-
-impl runtime::Whole for ActivePowerControllerDeadBand {}
-
-impl runtime::can::Parameter for ActivePowerControllerDeadBand {}
-
-impl runtime::Readable for ActivePowerControllerDeadBand {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for ActivePowerControllerDeadBand {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for ActivePowerControllerDeadBand {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=250);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for ActivePowerControllerDeadBand {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for ActivePowerControllerDeadBand {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 1, 250)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Active power controller proportional gain.
-///
-/// At parameter 0031h (49), `u16`, raw `1..999`, steps of `0.1`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct ActivePowerControllerProportionalGain;
-
-impl runtime::Point for ActivePowerControllerProportionalGain {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "active_power_controller_proportional_gain";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0031;
-    const DECIMALS: u32 = 1;
-    const RAW_MIN: u16 = 1;
-    const RAW_MAX: u16 = 999;
-}
-
-impl runtime::Whole for ActivePowerControllerProportionalGain {}
-
-impl runtime::can::Parameter for ActivePowerControllerProportionalGain {}
-
-impl runtime::Readable for ActivePowerControllerProportionalGain {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for ActivePowerControllerProportionalGain {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for ActivePowerControllerProportionalGain {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=999);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for ActivePowerControllerProportionalGain {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for ActivePowerControllerProportionalGain {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 1, 999)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Active power controller sensitivity reduction.
-///
-/// At parameter 0032h (50), `u16`, raw `10..99`, steps of `0.1`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct ActivePowerControllerSensitivityReduction;
-
-impl runtime::Point for ActivePowerControllerSensitivityReduction {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "active_power_controller_sensitivity_reduction";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0032;
-    const DECIMALS: u32 = 1;
-    const RAW_MIN: u16 = 10;
-    const RAW_MAX: u16 = 99;
-}
-
-impl runtime::Whole for ActivePowerControllerSensitivityReduction {}
-
-impl runtime::can::Parameter for ActivePowerControllerSensitivityReduction {}
-
-impl runtime::Readable for ActivePowerControllerSensitivityReduction {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for ActivePowerControllerSensitivityReduction {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for ActivePowerControllerSensitivityReduction {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 10..=99);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for ActivePowerControllerSensitivityReduction {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for ActivePowerControllerSensitivityReduction {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 10, 99)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Part load lead setpoint.
-///
-/// At parameter 004Ch (76), `u16`, raw `50..1100`, steps of `0.1 %`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct PartLoadLeadSetpoint;
-
-impl runtime::Point for PartLoadLeadSetpoint {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "part_load_lead_setpoint";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x004C;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "%";
-    const RAW_MIN: u16 = 50;
-    const RAW_MAX: u16 = 1100;
-}
-
-impl runtime::Whole for PartLoadLeadSetpoint {}
-
-impl runtime::can::Parameter for PartLoadLeadSetpoint {}
-
-impl runtime::Readable for PartLoadLeadSetpoint {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for PartLoadLeadSetpoint {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for PartLoadLeadSetpoint {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 50..=1100);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for PartLoadLeadSetpoint {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for PartLoadLeadSetpoint {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 50, 1100)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Part load lead time.
-///
-/// At parameter 004Bh (75), `u16`, raw `0..30000`, steps of `0.02 s`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct PartLoadLeadTime;
-
-impl runtime::Point for PartLoadLeadTime {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "part_load_lead_time";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x004B;
-    const DECIMALS: u32 = 2;
-    const UNIT: &'static str = "s";
-    const RAW_MAX: u16 = 30_000;
-}
-
-impl runtime::Whole for PartLoadLeadTime {}
-
-impl runtime::can::Parameter for PartLoadLeadTime {}
-
-impl runtime::Readable for PartLoadLeadTime {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 50.0
-    }
-}
-
-impl runtime::CountReadable for PartLoadLeadTime {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw) * 2
-    }
-}
-
-impl runtime::Writable for PartLoadLeadTime {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=30_000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for PartLoadLeadTime {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 50.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for PartLoadLeadTime {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 60_000)?;
-        let scaled = count;
-        let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Control by interface x1 x5.
-///
-/// At parameter 00C9h (201) bits 7 to 6, `u8`, raw `0, 3`, read and write.
-///
-/// Errata: `interface_control_text`.
-#[derive(Clone, Copy, Debug)]
-pub struct ControlByInterfaceX1X5;
-
-impl runtime::Point for ControlByInterfaceX1X5 {
-    type Raw = u8;
-    type Value = enums::Switch2;
-    const NAME: &'static str = "control_by_interface_x1_x5";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x00C9;
-    const RAW_MAX: u8 = 3;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for ControlByInterfaceX1X5 {
-    const SHIFT: u32 = 6;
-    const MASK: u16 = 0x00C0;
-}
-
-impl runtime::can::Parameter for ControlByInterfaceX1X5 {}
-
-impl runtime::Readable for ControlByInterfaceX1X5 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::Switch2::from(raw)
-    }
-}
-
-impl runtime::CountReadable for ControlByInterfaceX1X5 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for ControlByInterfaceX1X5 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0 | 3);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for ControlByInterfaceX1X5 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for ControlByInterfaceX1X5 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Breaker logic.
-///
-/// At parameter 0010h (16) bits 11 to 8, `u8`, raw `0, 1`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct BreakerLogic;
-
-impl runtime::Point for BreakerLogic {
-    type Raw = u8;
-    type Value = enums::BreakerLogic;
-    const NAME: &'static str = "breaker_logic";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0010;
-    const RAW_MAX: u8 = 1;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for BreakerLogic {
-    const SHIFT: u32 = 8;
-    const MASK: u16 = 0x0F00;
-}
-
-impl runtime::can::Parameter for BreakerLogic {}
-
-impl runtime::Readable for BreakerLogic {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::BreakerLogic::from(raw)
-    }
-}
-
-impl runtime::CountReadable for BreakerLogic {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for BreakerLogic {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for BreakerLogic {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for BreakerLogic {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Load ramp maximum time.
-///
-/// At parameter 008Dh (141), `u16`, raw `0..49950`, steps of `0.02 s`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct LoadRampMaximumTime;
-
-impl runtime::Point for LoadRampMaximumTime {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "load_ramp_maximum_time";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x008D;
-    const DECIMALS: u32 = 2;
-    const UNIT: &'static str = "s";
-    const RAW_MAX: u16 = 49_950;
-}
-
-impl runtime::Whole for LoadRampMaximumTime {}
-
-impl runtime::can::Parameter for LoadRampMaximumTime {}
-
-impl runtime::Readable for LoadRampMaximumTime {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 50.0
-    }
-}
-
-impl runtime::CountReadable for LoadRampMaximumTime {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw) * 2
-    }
-}
-
-impl runtime::Writable for LoadRampMaximumTime {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=49_950);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for LoadRampMaximumTime {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 50.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for LoadRampMaximumTime {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 99_900)?;
-        let scaled = count;
-        let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Generator breaker signal logic.
-///
-/// At parameter 0015h (21) bits 3 to 3, `bit`, raw `0, 1`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorBreakerSignalLogic;
-
-impl runtime::Point for GeneratorBreakerSignalLogic {
-    type Raw = u8;
-    type Value = enums::GeneratorBreakerSignalLogic;
-    const NAME: &'static str = "generator_breaker_signal_logic";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0015;
-    const RAW_MAX: u8 = 1;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for GeneratorBreakerSignalLogic {
-    const SHIFT: u32 = 3;
-    const MASK: u16 = 0x0008;
-}
-
-impl runtime::can::Parameter for GeneratorBreakerSignalLogic {}
-
-impl runtime::Readable for GeneratorBreakerSignalLogic {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::GeneratorBreakerSignalLogic::from(raw)
-    }
-}
-
-impl runtime::CountReadable for GeneratorBreakerSignalLogic {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for GeneratorBreakerSignalLogic {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for GeneratorBreakerSignalLogic {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for GeneratorBreakerSignalLogic {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Generator breaker open relay logic.
-///
-/// At parameter 00F8h (248) bits 2 to 2, `bit`, raw `0, 1`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorBreakerOpenRelayLogic;
-
-impl runtime::Point for GeneratorBreakerOpenRelayLogic {
-    type Raw = u8;
-    type Value = enums::ContactLogic;
-    const NAME: &'static str = "generator_breaker_open_relay_logic";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x00F8;
-    const RAW_MAX: u8 = 1;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for GeneratorBreakerOpenRelayLogic {
-    const SHIFT: u32 = 2;
-    const MASK: u16 = 0x0004;
-}
-
-impl runtime::can::Parameter for GeneratorBreakerOpenRelayLogic {}
-
-impl runtime::Readable for GeneratorBreakerOpenRelayLogic {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::ContactLogic::from(raw)
-    }
-}
-
-impl runtime::CountReadable for GeneratorBreakerOpenRelayLogic {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for GeneratorBreakerOpenRelayLogic {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for GeneratorBreakerOpenRelayLogic {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for GeneratorBreakerOpenRelayLogic {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Synchronisation frequency difference maximum.
-///
-/// At parameter 001Ah (26), `u16`, raw `5..125`, steps of `0.00390625 Hz`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct SynchronisationFrequencyDifferenceMaximum;
-
-impl runtime::Point for SynchronisationFrequencyDifferenceMaximum {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "synchronisation_frequency_difference_maximum";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x001A;
-    const DECIMALS: u32 = 3;
-    const UNIT: &'static str = "Hz";
-    const RAW_MIN: u16 = 5;
-    const RAW_MAX: u16 = 125;
-}
-
-impl runtime::Whole for SynchronisationFrequencyDifferenceMaximum {}
-
-impl runtime::can::Parameter for SynchronisationFrequencyDifferenceMaximum {}
-
-impl runtime::Readable for SynchronisationFrequencyDifferenceMaximum {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 256.0
-    }
-}
-
-impl runtime::CountReadable for SynchronisationFrequencyDifferenceMaximum {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        let scaled = i32::from(raw) * 125;
-        arithmetic::div_round_i32::<32>(scaled)
-    }
-}
-
-impl runtime::Writable for SynchronisationFrequencyDifferenceMaximum {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 5..=125);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for SynchronisationFrequencyDifferenceMaximum {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 256.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for SynchronisationFrequencyDifferenceMaximum {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 18, 490)?;
-        let scaled = count * 32;
-        let raw = arithmetic::div_round_i32::<125>(scaled);
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Synchronisation frequency difference minimum.
-///
-/// At parameter 001Bh (27), `u16`, raw `0..125`, steps of `0.00390625 Hz`, read and write.
-///
-/// Errata: `synchronisation_minimum_sign`.
-#[derive(Clone, Copy, Debug)]
-pub struct SynchronisationFrequencyDifferenceMinimum;
-
-impl runtime::Point for SynchronisationFrequencyDifferenceMinimum {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "synchronisation_frequency_difference_minimum";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x001B;
-    const DECIMALS: u32 = 3;
-    const UNIT: &'static str = "Hz";
-    const RAW_MAX: u16 = 125;
-}
-
-impl runtime::Whole for SynchronisationFrequencyDifferenceMinimum {}
-
-impl runtime::can::Parameter for SynchronisationFrequencyDifferenceMinimum {}
-
-impl runtime::Readable for SynchronisationFrequencyDifferenceMinimum {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 256.0
-    }
-}
-
-impl runtime::CountReadable for SynchronisationFrequencyDifferenceMinimum {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        let scaled = i32::from(raw) * 125;
-        arithmetic::div_round_i32::<32>(scaled)
-    }
-}
-
-impl runtime::Writable for SynchronisationFrequencyDifferenceMinimum {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=125);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for SynchronisationFrequencyDifferenceMinimum {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 256.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for SynchronisationFrequencyDifferenceMinimum {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, -1, 490)?;
-        let scaled = count * 32;
-        let raw = arithmetic::div_round_i32::<125>(scaled);
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Synchronisation voltage difference maximum.
-///
-/// At parameter 001Ch (28), `u16`, raw `4..600`, steps of `0.025 %`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct SynchronisationVoltageDifferenceMaximum;
-
-impl runtime::Point for SynchronisationVoltageDifferenceMaximum {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "synchronisation_voltage_difference_maximum";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x001C;
-    const DECIMALS: u32 = 2;
-    const UNIT: &'static str = "%";
-    const RAW_MIN: u16 = 4;
-    const RAW_MAX: u16 = 600;
-}
-
-impl runtime::Whole for SynchronisationVoltageDifferenceMaximum {}
-
-impl runtime::can::Parameter for SynchronisationVoltageDifferenceMaximum {}
-
-impl runtime::Readable for SynchronisationVoltageDifferenceMaximum {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 40.0
-    }
-}
-
-impl runtime::CountReadable for SynchronisationVoltageDifferenceMaximum {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        let scaled = i32::from(raw) * 5;
-        arithmetic::div_round_i32::<2>(scaled)
-    }
-}
-
-impl runtime::Writable for SynchronisationVoltageDifferenceMaximum {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 4..=600);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for SynchronisationVoltageDifferenceMaximum {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 40.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for SynchronisationVoltageDifferenceMaximum {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 9, 1501)?;
-        let scaled = count * 2;
-        let raw = arithmetic::div_round_i32::<5>(scaled);
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Synchronisation voltage difference minimum.
-///
-/// At parameter 0135h (309), `u16`, raw `4..600`, steps of `0.025 %`, read and write.
-///
-/// Errata: `synchronisation_minimum_sign`.
-#[derive(Clone, Copy, Debug)]
-pub struct SynchronisationVoltageDifferenceMinimum;
-
-impl runtime::Point for SynchronisationVoltageDifferenceMinimum {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "synchronisation_voltage_difference_minimum";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0135;
-    const DECIMALS: u32 = 2;
-    const UNIT: &'static str = "%";
-    const RAW_MIN: u16 = 4;
-    const RAW_MAX: u16 = 600;
-}
-
-impl runtime::Whole for SynchronisationVoltageDifferenceMinimum {}
-
-impl runtime::can::Parameter for SynchronisationVoltageDifferenceMinimum {}
-
-impl runtime::Readable for SynchronisationVoltageDifferenceMinimum {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 40.0
-    }
-}
-
-impl runtime::CountReadable for SynchronisationVoltageDifferenceMinimum {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        let scaled = i32::from(raw) * 5;
-        arithmetic::div_round_i32::<2>(scaled)
-    }
-}
-
-impl runtime::Writable for SynchronisationVoltageDifferenceMinimum {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 4..=600);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for SynchronisationVoltageDifferenceMinimum {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 40.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for SynchronisationVoltageDifferenceMinimum {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 9, 1501)?;
-        let scaled = count * 2;
-        let raw = arithmetic::div_round_i32::<5>(scaled);
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Synchronisation pulse time.
-///
-/// At parameter 001Fh (31), `u16`, raw `1..13`, steps of `0.02 s`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct SynchronisationPulseTime;
-
-impl runtime::Point for SynchronisationPulseTime {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "synchronisation_pulse_time";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x001F;
-    const DECIMALS: u32 = 2;
-    const UNIT: &'static str = "s";
-    const RAW_MIN: u16 = 1;
-    const RAW_MAX: u16 = 13;
-}
-
-impl runtime::Whole for SynchronisationPulseTime {}
-
-impl runtime::can::Parameter for SynchronisationPulseTime {}
-
-impl runtime::Readable for SynchronisationPulseTime {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 50.0
-    }
-}
-
-impl runtime::CountReadable for SynchronisationPulseTime {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw) * 2
-    }
-}
-
-impl runtime::Writable for SynchronisationPulseTime {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=13);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for SynchronisationPulseTime {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 50.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for SynchronisationPulseTime {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 1, 26)?;
-        let scaled = count;
-        let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Generator breaker pick up time.
-///
-/// At parameter 0020h (32), `u16`, raw `40..300`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorBreakerPickUpTime;
-
-impl runtime::Point for GeneratorBreakerPickUpTime {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "generator_breaker_pick_up_time";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0020;
-    const UNIT: &'static str = "ms";
-    const RAW_MIN: u16 = 40;
-    const RAW_MAX: u16 = 300;
-}
-
-impl runtime::Whole for GeneratorBreakerPickUpTime {}
-
-impl runtime::can::Parameter for GeneratorBreakerPickUpTime {}
-
-impl runtime::Readable for GeneratorBreakerPickUpTime {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for GeneratorBreakerPickUpTime {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for GeneratorBreakerPickUpTime {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 40..=300);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for GeneratorBreakerPickUpTime {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for GeneratorBreakerPickUpTime {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Synchronisation time monitoring.
-///
-/// At parameter 0015h (21) bits 0 to 0, `bit`, raw `0, 1`, read and write.
-///
-/// Errata: `synchronisation_bit_note`.
-#[derive(Clone, Copy, Debug)]
-pub struct SynchronisationTimeMonitoring;
-
-impl runtime::Point for SynchronisationTimeMonitoring {
-    type Raw = u8;
-    type Value = enums::OffOn;
-    const NAME: &'static str = "synchronisation_time_monitoring";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0015;
-    const RAW_MAX: u8 = 1;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for SynchronisationTimeMonitoring {
-    const SHIFT: u32 = 0;
-    const MASK: u16 = 0x0001;
-}
-
-impl runtime::can::Parameter for SynchronisationTimeMonitoring {}
-
-impl runtime::Readable for SynchronisationTimeMonitoring {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::OffOn::from(raw)
-    }
-}
-
-impl runtime::CountReadable for SynchronisationTimeMonitoring {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for SynchronisationTimeMonitoring {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for SynchronisationTimeMonitoring {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for SynchronisationTimeMonitoring {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Synchronisation time monitoring delay.
-///
-/// At parameter 0022h (34), `u16`, raw `10..999`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct SynchronisationTimeMonitoringDelay;
-
-impl runtime::Point for SynchronisationTimeMonitoringDelay {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "synchronisation_time_monitoring_delay";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0022;
-    const UNIT: &'static str = "s";
-    const RAW_MIN: u16 = 10;
-    const RAW_MAX: u16 = 999;
-}
-
-impl runtime::Whole for SynchronisationTimeMonitoringDelay {}
-
-impl runtime::can::Parameter for SynchronisationTimeMonitoringDelay {}
-
-impl runtime::Readable for SynchronisationTimeMonitoringDelay {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for SynchronisationTimeMonitoringDelay {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for SynchronisationTimeMonitoringDelay {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 10..=999);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for SynchronisationTimeMonitoringDelay {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for SynchronisationTimeMonitoringDelay {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Dead bus start.
-///
-/// At parameter 0013h (19) bits 5 to 4, `u8`, raw `0, 3`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct DeadBusStart;
-
-impl runtime::Point for DeadBusStart {
-    type Raw = u8;
-    type Value = enums::Switch2;
-    const NAME: &'static str = "dead_bus_start";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0013;
-    const RAW_MAX: u8 = 3;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for DeadBusStart {
-    const SHIFT: u32 = 4;
-    const MASK: u16 = 0x0030;
-}
-
-impl runtime::can::Parameter for DeadBusStart {}
-
-impl runtime::Readable for DeadBusStart {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::Switch2::from(raw)
-    }
-}
-
-impl runtime::CountReadable for DeadBusStart {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for DeadBusStart {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0 | 3);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for DeadBusStart {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for DeadBusStart {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Dead bus start frequency difference maximum.
-///
-/// At parameter 001Dh (29), `u16`, raw `13..1280`, steps of `0.00390625 Hz`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct DeadBusStartFrequencyDifferenceMaximum;
-
-impl runtime::Point for DeadBusStartFrequencyDifferenceMaximum {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "dead_bus_start_frequency_difference_maximum";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x001D;
-    const DECIMALS: u32 = 3;
-    const UNIT: &'static str = "Hz";
-    const RAW_MIN: u16 = 13;
-    const RAW_MAX: u16 = 1280;
-}
-
-impl runtime::Whole for DeadBusStartFrequencyDifferenceMaximum {}
-
-impl runtime::can::Parameter for DeadBusStartFrequencyDifferenceMaximum {}
-
-impl runtime::Readable for DeadBusStartFrequencyDifferenceMaximum {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 256.0
-    }
-}
-
-impl runtime::CountReadable for DeadBusStartFrequencyDifferenceMaximum {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        let scaled = i32::from(raw) * 125;
-        arithmetic::div_round_i32::<32>(scaled)
-    }
-}
-
-impl runtime::Writable for DeadBusStartFrequencyDifferenceMaximum {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 13..=1280);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for DeadBusStartFrequencyDifferenceMaximum {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 256.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for DeadBusStartFrequencyDifferenceMaximum {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 49, 5001)?;
-        let scaled = count * 32;
-        let raw = arithmetic::div_round_i32::<125>(scaled);
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Dead bus start voltage difference maximum.
-///
-/// At parameter 001Eh (30), `u16`, raw `4..800`, steps of `0.025 %`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct DeadBusStartVoltageDifferenceMaximum;
-
-impl runtime::Point for DeadBusStartVoltageDifferenceMaximum {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "dead_bus_start_voltage_difference_maximum";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x001E;
-    const DECIMALS: u32 = 2;
-    const UNIT: &'static str = "%";
-    const RAW_MIN: u16 = 4;
-    const RAW_MAX: u16 = 800;
-}
-
-impl runtime::Whole for DeadBusStartVoltageDifferenceMaximum {}
-
-impl runtime::can::Parameter for DeadBusStartVoltageDifferenceMaximum {}
-
-impl runtime::Readable for DeadBusStartVoltageDifferenceMaximum {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 40.0
-    }
-}
-
-impl runtime::CountReadable for DeadBusStartVoltageDifferenceMaximum {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        let scaled = i32::from(raw) * 5;
-        arithmetic::div_round_i32::<2>(scaled)
-    }
-}
-
-impl runtime::Writable for DeadBusStartVoltageDifferenceMaximum {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 4..=800);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for DeadBusStartVoltageDifferenceMaximum {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 40.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for DeadBusStartVoltageDifferenceMaximum {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 9, 2001)?;
-        let scaled = count * 2;
-        let raw = arithmetic::div_round_i32::<5>(scaled);
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Dead bus start maximum time.
-///
-/// At parameter 008Eh (142), `u16`, raw `0..999`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct DeadBusStartMaximumTime;
-
-impl runtime::Point for DeadBusStartMaximumTime {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "dead_bus_start_maximum_time";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x008E;
-    const UNIT: &'static str = "s";
-    const RAW_MAX: u16 = 999;
-}
-
-impl runtime::Whole for DeadBusStartMaximumTime {}
-
-impl runtime::can::Parameter for DeadBusStartMaximumTime {}
-
-impl runtime::Readable for DeadBusStartMaximumTime {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for DeadBusStartMaximumTime {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for DeadBusStartMaximumTime {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=999);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for DeadBusStartMaximumTime {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for DeadBusStartMaximumTime {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Generator breaker monitoring.
-///
-/// At parameter 0011h (17) bits 12 to 12, `bit`, raw `0, 1`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorBreakerMonitoring;
-
-impl runtime::Point for GeneratorBreakerMonitoring {
-    type Raw = u8;
-    type Value = enums::OffOn;
-    const NAME: &'static str = "generator_breaker_monitoring";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0011;
-    const RAW_MAX: u8 = 1;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for GeneratorBreakerMonitoring {
-    const SHIFT: u32 = 12;
-    const MASK: u16 = 0x1000;
-}
-
-impl runtime::can::Parameter for GeneratorBreakerMonitoring {}
-
-impl runtime::Readable for GeneratorBreakerMonitoring {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::OffOn::from(raw)
-    }
-}
-
-impl runtime::CountReadable for GeneratorBreakerMonitoring {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for GeneratorBreakerMonitoring {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for GeneratorBreakerMonitoring {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for GeneratorBreakerMonitoring {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Automatic breaker unlocking.
-///
-/// At parameter 00F8h (248) bits 1 to 1, `bit`, raw `0, 1`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct AutomaticBreakerUnlocking;
-
-impl runtime::Point for AutomaticBreakerUnlocking {
-    type Raw = u8;
-    type Value = enums::OffOn;
-    const NAME: &'static str = "automatic_breaker_unlocking";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x00F8;
-    const RAW_MAX: u8 = 1;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for AutomaticBreakerUnlocking {
-    const SHIFT: u32 = 1;
-    const MASK: u16 = 0x0002;
-}
-
-impl runtime::can::Parameter for AutomaticBreakerUnlocking {}
-
-impl runtime::Readable for AutomaticBreakerUnlocking {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::OffOn::from(raw)
-    }
-}
-
-impl runtime::CountReadable for AutomaticBreakerUnlocking {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for AutomaticBreakerUnlocking {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for AutomaticBreakerUnlocking {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for AutomaticBreakerUnlocking {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Generator overload monitoring.
-///
-/// At parameter 000Fh (15) bits 11 to 11, `bit`, raw `0, 1`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorOverloadMonitoring;
-
-impl runtime::Point for GeneratorOverloadMonitoring {
-    type Raw = u8;
-    type Value = enums::OffOn;
-    const NAME: &'static str = "generator_overload_monitoring";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x000F;
-    const RAW_MAX: u8 = 1;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for GeneratorOverloadMonitoring {
-    const SHIFT: u32 = 11;
-    const MASK: u16 = 0x0800;
-}
-
-impl runtime::can::Parameter for GeneratorOverloadMonitoring {}
-
-impl runtime::Readable for GeneratorOverloadMonitoring {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::OffOn::from(raw)
-    }
-}
-
-impl runtime::CountReadable for GeneratorOverloadMonitoring {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for GeneratorOverloadMonitoring {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for GeneratorOverloadMonitoring {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for GeneratorOverloadMonitoring {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Overload threshold parallel operation.
-///
-/// At parameter 0070h (112), `u16`, raw `800..1500`, steps of `0.1 %`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct OverloadThresholdParallelOperation;
-
-impl runtime::Point for OverloadThresholdParallelOperation {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "overload_threshold_parallel_operation";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0070;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "%";
-    const RAW_MIN: u16 = 800;
-    const RAW_MAX: u16 = 1500;
-}
-
-impl runtime::Whole for OverloadThresholdParallelOperation {}
-
-impl runtime::can::Parameter for OverloadThresholdParallelOperation {}
-
-impl runtime::Readable for OverloadThresholdParallelOperation {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for OverloadThresholdParallelOperation {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for OverloadThresholdParallelOperation {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 800..=1500);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for OverloadThresholdParallelOperation {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for OverloadThresholdParallelOperation {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 800, 1500)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Overload delay parallel operation.
-///
-/// At parameter 0071h (113), `u16`, raw `0..4950`, steps of `0.02 s`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct OverloadDelayParallelOperation;
-
-impl runtime::Point for OverloadDelayParallelOperation {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "overload_delay_parallel_operation";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0071;
-    const DECIMALS: u32 = 2;
-    const UNIT: &'static str = "s";
-    const RAW_MAX: u16 = 4950;
-}
-
-impl runtime::Whole for OverloadDelayParallelOperation {}
-
-impl runtime::can::Parameter for OverloadDelayParallelOperation {}
-
-impl runtime::Readable for OverloadDelayParallelOperation {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 50.0
-    }
-}
-
-impl runtime::CountReadable for OverloadDelayParallelOperation {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw) * 2
-    }
-}
-
-impl runtime::Writable for OverloadDelayParallelOperation {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=4950);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for OverloadDelayParallelOperation {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 50.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for OverloadDelayParallelOperation {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 9900)?;
-        let scaled = count;
-        let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Overload threshold isolated operation.
-///
-/// At parameter 019Eh (414), `u16`, raw `800..1500`, steps of `0.1 %`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct OverloadThresholdIsolatedOperation;
-
-impl runtime::Point for OverloadThresholdIsolatedOperation {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "overload_threshold_isolated_operation";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x019E;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "%";
-    const RAW_MIN: u16 = 800;
-    const RAW_MAX: u16 = 1500;
-}
-
-impl runtime::Whole for OverloadThresholdIsolatedOperation {}
-
-impl runtime::can::Parameter for OverloadThresholdIsolatedOperation {}
-
-impl runtime::Readable for OverloadThresholdIsolatedOperation {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for OverloadThresholdIsolatedOperation {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for OverloadThresholdIsolatedOperation {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 800..=1500);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for OverloadThresholdIsolatedOperation {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for OverloadThresholdIsolatedOperation {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 800, 1500)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Overload delay isolated operation.
-///
-/// At parameter 007Eh (126), `u16`, raw `0..4950`, steps of `0.02 s`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct OverloadDelayIsolatedOperation;
-
-impl runtime::Point for OverloadDelayIsolatedOperation {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "overload_delay_isolated_operation";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x007E;
-    const DECIMALS: u32 = 2;
-    const UNIT: &'static str = "s";
-    const RAW_MAX: u16 = 4950;
-}
-
-impl runtime::Whole for OverloadDelayIsolatedOperation {}
-
-impl runtime::can::Parameter for OverloadDelayIsolatedOperation {}
-
-impl runtime::Readable for OverloadDelayIsolatedOperation {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 50.0
-    }
-}
-
-impl runtime::CountReadable for OverloadDelayIsolatedOperation {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw) * 2
-    }
-}
-
-impl runtime::Writable for OverloadDelayIsolatedOperation {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=4950);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for OverloadDelayIsolatedOperation {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 50.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for OverloadDelayIsolatedOperation {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 9900)?;
-        let scaled = count;
-        let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Generator reverse power monitoring.
-///
-/// At parameter 000Fh (15) bits 5 to 5, `bit`, raw `0, 1`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorReversePowerMonitoring;
-
-impl runtime::Point for GeneratorReversePowerMonitoring {
-    type Raw = u8;
-    type Value = enums::OffOn;
-    const NAME: &'static str = "generator_reverse_power_monitoring";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x000F;
-    const RAW_MAX: u8 = 1;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for GeneratorReversePowerMonitoring {
-    const SHIFT: u32 = 5;
-    const MASK: u16 = 0x0020;
-}
-
-impl runtime::can::Parameter for GeneratorReversePowerMonitoring {}
-
-impl runtime::Readable for GeneratorReversePowerMonitoring {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::OffOn::from(raw)
-    }
-}
-
-impl runtime::CountReadable for GeneratorReversePowerMonitoring {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for GeneratorReversePowerMonitoring {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for GeneratorReversePowerMonitoring {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for GeneratorReversePowerMonitoring {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Reverse power threshold.
-///
-/// At parameter 0072h (114), `s16`, raw `-990..990`, steps of `0.1 %`, read and write.
-///
-/// Errata: `parameter_sign`.
-#[derive(Clone, Copy, Debug)]
-pub struct ReversePowerThreshold;
-
-impl runtime::Point for ReversePowerThreshold {
-    type Raw = i16;
-    type Value = f64;
-    const NAME: &'static str = "reverse_power_threshold";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0072;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "%";
-    const RAW_MIN: i16 = -990;
-    const RAW_MAX: i16 = 990;
-}
-
-impl runtime::Whole for ReversePowerThreshold {}
-
-impl runtime::can::Parameter for ReversePowerThreshold {}
-
-impl runtime::Readable for ReversePowerThreshold {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: i16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for ReversePowerThreshold {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: i16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for ReversePowerThreshold {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: i16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, -990..=990);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for ReversePowerThreshold {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<i16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for ReversePowerThreshold {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<i16, runtime::Error> {
-        let count = arithmetic::within(count, -990, 990)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Reverse power delay.
-///
-/// At parameter 0073h (115), `u16`, raw `0..4995`, steps of `0.02 s`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct ReversePowerDelay;
-
-impl runtime::Point for ReversePowerDelay {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "reverse_power_delay";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0073;
-    const DECIMALS: u32 = 2;
-    const UNIT: &'static str = "s";
-    const RAW_MAX: u16 = 4995;
-}
-
-impl runtime::Whole for ReversePowerDelay {}
-
-impl runtime::can::Parameter for ReversePowerDelay {}
-
-impl runtime::Readable for ReversePowerDelay {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 50.0
-    }
-}
-
-impl runtime::CountReadable for ReversePowerDelay {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw) * 2
-    }
-}
-
-impl runtime::Writable for ReversePowerDelay {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=4995);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for ReversePowerDelay {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 50.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for ReversePowerDelay {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 9990)?;
-        let scaled = count;
-        let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Generator unbalanced load monitoring.
-///
-/// At parameter 000Fh (15) bits 10 to 10, `bit`, raw `0, 1`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorUnbalancedLoadMonitoring;
-
-impl runtime::Point for GeneratorUnbalancedLoadMonitoring {
-    type Raw = u8;
-    type Value = enums::OffOn;
-    const NAME: &'static str = "generator_unbalanced_load_monitoring";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x000F;
-    const RAW_MAX: u8 = 1;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for GeneratorUnbalancedLoadMonitoring {
-    const SHIFT: u32 = 10;
-    const MASK: u16 = 0x0400;
-}
-
-impl runtime::can::Parameter for GeneratorUnbalancedLoadMonitoring {}
-
-impl runtime::Readable for GeneratorUnbalancedLoadMonitoring {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::OffOn::from(raw)
-    }
-}
-
-impl runtime::CountReadable for GeneratorUnbalancedLoadMonitoring {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for GeneratorUnbalancedLoadMonitoring {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for GeneratorUnbalancedLoadMonitoring {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for GeneratorUnbalancedLoadMonitoring {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Unbalanced load threshold.
-///
-/// At parameter 0074h (116), `u16`, raw `0..1000`, steps of `0.1 %`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct UnbalancedLoadThreshold;
-
-impl runtime::Point for UnbalancedLoadThreshold {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "unbalanced_load_threshold";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0074;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "%";
-    const RAW_MAX: u16 = 1000;
-}
-
-impl runtime::Whole for UnbalancedLoadThreshold {}
-
-impl runtime::can::Parameter for UnbalancedLoadThreshold {}
-
-impl runtime::Readable for UnbalancedLoadThreshold {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for UnbalancedLoadThreshold {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for UnbalancedLoadThreshold {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for UnbalancedLoadThreshold {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for UnbalancedLoadThreshold {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 1000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Unbalanced load delay.
-///
-/// At parameter 0075h (117), `u16`, raw `1..4999`, steps of `0.02 s`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct UnbalancedLoadDelay;
-
-impl runtime::Point for UnbalancedLoadDelay {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "unbalanced_load_delay";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0075;
-    const DECIMALS: u32 = 2;
-    const UNIT: &'static str = "s";
-    const RAW_MIN: u16 = 1;
-    const RAW_MAX: u16 = 4999;
-}
-
-impl runtime::Whole for UnbalancedLoadDelay {}
-
-impl runtime::can::Parameter for UnbalancedLoadDelay {}
-
-impl runtime::Readable for UnbalancedLoadDelay {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 50.0
-    }
-}
-
-impl runtime::CountReadable for UnbalancedLoadDelay {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw) * 2
-    }
-}
-
-impl runtime::Writable for UnbalancedLoadDelay {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=4999);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for UnbalancedLoadDelay {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 50.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for UnbalancedLoadDelay {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 1, 9998)?;
-        let scaled = count;
-        let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Generator overcurrent monitoring.
-///
-/// At parameter 000Fh (15) bits 4 to 4, `bit`, raw `0, 1`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorOvercurrentMonitoring;
-
-impl runtime::Point for GeneratorOvercurrentMonitoring {
-    type Raw = u8;
-    type Value = enums::OffOn;
-    const NAME: &'static str = "generator_overcurrent_monitoring";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x000F;
-    const RAW_MAX: u8 = 1;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for GeneratorOvercurrentMonitoring {
-    const SHIFT: u32 = 4;
-    const MASK: u16 = 0x0010;
-}
-
-impl runtime::can::Parameter for GeneratorOvercurrentMonitoring {}
-
-impl runtime::Readable for GeneratorOvercurrentMonitoring {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::OffOn::from(raw)
-    }
-}
-
-impl runtime::CountReadable for GeneratorOvercurrentMonitoring {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for GeneratorOvercurrentMonitoring {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for GeneratorOvercurrentMonitoring {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for GeneratorOvercurrentMonitoring {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Overcurrent 1 threshold.
-///
-/// At parameter 0076h (118), `u16`, raw `0..3000`, steps of `0.1 %`, read and write.
-///
-/// Errata: `overcurrent_1_title`.
-#[derive(Clone, Copy, Debug)]
-pub struct Overcurrent1Threshold;
-
-impl runtime::Point for Overcurrent1Threshold {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "overcurrent_1_threshold";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0076;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "%";
-    const RAW_MAX: u16 = 3000;
-}
-
-impl runtime::Whole for Overcurrent1Threshold {}
-
-impl runtime::can::Parameter for Overcurrent1Threshold {}
-
-impl runtime::Readable for Overcurrent1Threshold {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for Overcurrent1Threshold {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for Overcurrent1Threshold {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=3000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for Overcurrent1Threshold {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for Overcurrent1Threshold {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 3000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Overcurrent 1 delay.
-///
-/// At parameter 0077h (119), `u16`, raw `1..4999`, steps of `0.02 s`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct Overcurrent1Delay;
-
-impl runtime::Point for Overcurrent1Delay {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "overcurrent_1_delay";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0077;
-    const DECIMALS: u32 = 2;
-    const UNIT: &'static str = "s";
-    const RAW_MIN: u16 = 1;
-    const RAW_MAX: u16 = 4999;
-}
-
-impl runtime::Whole for Overcurrent1Delay {}
-
-impl runtime::can::Parameter for Overcurrent1Delay {}
-
-impl runtime::Readable for Overcurrent1Delay {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 50.0
-    }
-}
-
-impl runtime::CountReadable for Overcurrent1Delay {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw) * 2
-    }
-}
-
-impl runtime::Writable for Overcurrent1Delay {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=4999);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for Overcurrent1Delay {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 50.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for Overcurrent1Delay {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 1, 9998)?;
-        let scaled = count;
-        let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Overcurrent 2 threshold.
-///
-/// At parameter 01ACh (428), `u16`, raw `0..3000`, steps of `0.1 %`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct Overcurrent2Threshold;
-
-impl runtime::Point for Overcurrent2Threshold {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "overcurrent_2_threshold";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x01AC;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "%";
-    const RAW_MAX: u16 = 3000;
-}
-
-impl runtime::Whole for Overcurrent2Threshold {}
-
-impl runtime::can::Parameter for Overcurrent2Threshold {}
-
-impl runtime::Readable for Overcurrent2Threshold {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for Overcurrent2Threshold {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for Overcurrent2Threshold {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=3000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for Overcurrent2Threshold {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for Overcurrent2Threshold {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 3000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Overcurrent 2 delay.
-///
-/// At parameter 01ADh (429), `u16`, raw `1..4999`, steps of `0.02 s`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct Overcurrent2Delay;
-
-impl runtime::Point for Overcurrent2Delay {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "overcurrent_2_delay";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x01AD;
-    const DECIMALS: u32 = 2;
-    const UNIT: &'static str = "s";
-    const RAW_MIN: u16 = 1;
-    const RAW_MAX: u16 = 4999;
-}
-
-impl runtime::Whole for Overcurrent2Delay {}
-
-impl runtime::can::Parameter for Overcurrent2Delay {}
-
-impl runtime::Readable for Overcurrent2Delay {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 50.0
-    }
-}
-
-impl runtime::CountReadable for Overcurrent2Delay {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw) * 2
-    }
-}
-
-impl runtime::Writable for Overcurrent2Delay {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=4999);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for Overcurrent2Delay {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 50.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for Overcurrent2Delay {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 1, 9998)?;
-        let scaled = count;
-        let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Inverse time overcurrent.
-///
-/// At parameter 00F8h (248) bits 10 to 10, `bit`, raw `0, 1`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct InverseTimeOvercurrent;
-
-impl runtime::Point for InverseTimeOvercurrent {
-    type Raw = u8;
-    type Value = enums::OffOn;
-    const NAME: &'static str = "inverse_time_overcurrent";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x00F8;
-    const RAW_MAX: u8 = 1;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for InverseTimeOvercurrent {
-    const SHIFT: u32 = 10;
-    const MASK: u16 = 0x0400;
-}
-
-impl runtime::can::Parameter for InverseTimeOvercurrent {}
-
-impl runtime::Readable for InverseTimeOvercurrent {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::OffOn::from(raw)
-    }
-}
-
-impl runtime::CountReadable for InverseTimeOvercurrent {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for InverseTimeOvercurrent {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for InverseTimeOvercurrent {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for InverseTimeOvercurrent {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Inverse time overcurrent characteristic.
-///
-/// At parameter 012Ah (298) bits 1 to 0, `u8`, raw `0..2`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct InverseTimeOvercurrentCharacteristic;
-
-impl runtime::Point for InverseTimeOvercurrentCharacteristic {
-    type Raw = u8;
-    type Value = enums::InverseTimeOvercurrentCharacteristic;
-    const NAME: &'static str = "inverse_time_overcurrent_characteristic";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x012A;
-    const RAW_MAX: u8 = 2;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for InverseTimeOvercurrentCharacteristic {
-    const SHIFT: u32 = 0;
-    const MASK: u16 = 0x0003;
-}
-
-impl runtime::can::Parameter for InverseTimeOvercurrentCharacteristic {}
-
-impl runtime::Readable for InverseTimeOvercurrentCharacteristic {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::InverseTimeOvercurrentCharacteristic::from(raw)
-    }
-}
-
-impl runtime::CountReadable for InverseTimeOvercurrentCharacteristic {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for InverseTimeOvercurrentCharacteristic {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=2);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for InverseTimeOvercurrentCharacteristic {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for InverseTimeOvercurrentCharacteristic {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Inverse time overcurrent tp.
-///
-/// At parameter 012Bh (299), `u16`, raw `0..99`, steps of `0.02 s`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct InverseTimeOvercurrentTp;
-
-impl runtime::Point for InverseTimeOvercurrentTp {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "inverse_time_overcurrent_tp";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x012B;
-    const DECIMALS: u32 = 2;
-    const UNIT: &'static str = "s";
-    const RAW_MAX: u16 = 99;
-}
-
-impl runtime::Whole for InverseTimeOvercurrentTp {}
-
-impl runtime::can::Parameter for InverseTimeOvercurrentTp {}
-
-impl runtime::Readable for InverseTimeOvercurrentTp {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 50.0
-    }
-}
-
-impl runtime::CountReadable for InverseTimeOvercurrentTp {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw) * 2
-    }
-}
-
-impl runtime::Writable for InverseTimeOvercurrentTp {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=99);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for InverseTimeOvercurrentTp {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 50.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for InverseTimeOvercurrentTp {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 198)?;
-        let scaled = count;
-        let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Inverse time overcurrent ip.
-///
-/// At parameter 012Ch (300), `u16`, raw `100..3000`, steps of `0.001`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct InverseTimeOvercurrentIp;
-
-impl runtime::Point for InverseTimeOvercurrentIp {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "inverse_time_overcurrent_ip";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x012C;
-    const DECIMALS: u32 = 3;
-    const RAW_MIN: u16 = 100;
-    const RAW_MAX: u16 = 3000;
-}
-
-impl runtime::Whole for InverseTimeOvercurrentIp {}
-
-impl runtime::can::Parameter for InverseTimeOvercurrentIp {}
-
-impl runtime::Readable for InverseTimeOvercurrentIp {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 1000.0
-    }
-}
-
-impl runtime::CountReadable for InverseTimeOvercurrentIp {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for InverseTimeOvercurrentIp {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 100..=3000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for InverseTimeOvercurrentIp {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 1000.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for InverseTimeOvercurrentIp {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 100, 3000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Inverse time overcurrent istart.
-///
-/// At parameter 012Dh (301), `u16`, raw `1000..3000`, steps of `0.001`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct InverseTimeOvercurrentIstart;
-
-impl runtime::Point for InverseTimeOvercurrentIstart {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "inverse_time_overcurrent_istart";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x012D;
-    const DECIMALS: u32 = 3;
-    const RAW_MIN: u16 = 1000;
-    const RAW_MAX: u16 = 3000;
-}
-
-impl runtime::Whole for InverseTimeOvercurrentIstart {}
-
-impl runtime::can::Parameter for InverseTimeOvercurrentIstart {}
-
-impl runtime::Readable for InverseTimeOvercurrentIstart {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 1000.0
-    }
-}
-
-impl runtime::CountReadable for InverseTimeOvercurrentIstart {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for InverseTimeOvercurrentIstart {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1000..=3000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for InverseTimeOvercurrentIstart {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 1000.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for InverseTimeOvercurrentIstart {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 1000, 3000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Inverse time overcurrent voltage dependence.
-///
-/// At parameter 00F8h (248) bits 11 to 11, `bit`, raw `0, 1`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct InverseTimeOvercurrentVoltageDependence;
-
-impl runtime::Point for InverseTimeOvercurrentVoltageDependence {
-    type Raw = u8;
-    type Value = enums::OffOn;
-    const NAME: &'static str = "inverse_time_overcurrent_voltage_dependence";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x00F8;
-    const RAW_MAX: u8 = 1;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for InverseTimeOvercurrentVoltageDependence {
-    const SHIFT: u32 = 11;
-    const MASK: u16 = 0x0800;
-}
-
-impl runtime::can::Parameter for InverseTimeOvercurrentVoltageDependence {}
-
-impl runtime::Readable for InverseTimeOvercurrentVoltageDependence {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::OffOn::from(raw)
-    }
-}
-
-impl runtime::CountReadable for InverseTimeOvercurrentVoltageDependence {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for InverseTimeOvercurrentVoltageDependence {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for InverseTimeOvercurrentVoltageDependence {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for InverseTimeOvercurrentVoltageDependence {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Inverse time overcurrent voltage knee.
-///
-/// At parameter 012Eh (302), `u16`, raw `10..90`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct InverseTimeOvercurrentVoltageKnee;
-
-impl runtime::Point for InverseTimeOvercurrentVoltageKnee {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "inverse_time_overcurrent_voltage_knee";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x012E;
-    const UNIT: &'static str = "%";
-    const RAW_MIN: u16 = 10;
-    const RAW_MAX: u16 = 90;
-}
-
-impl runtime::Whole for InverseTimeOvercurrentVoltageKnee {}
-
-impl runtime::can::Parameter for InverseTimeOvercurrentVoltageKnee {}
-
-impl runtime::Readable for InverseTimeOvercurrentVoltageKnee {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for InverseTimeOvercurrentVoltageKnee {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for InverseTimeOvercurrentVoltageKnee {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 10..=90);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for InverseTimeOvercurrentVoltageKnee {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for InverseTimeOvercurrentVoltageKnee {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Generator overfrequency monitoring.
-///
-/// At parameter 0136h (310) bits 12 to 12, `bit`, raw `0, 1`, read and write.
-///
-/// Errata: `generator_monitoring_texts`, `generator_overfrequency_bit`.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorOverfrequencyMonitoring;
-
-impl runtime::Point for GeneratorOverfrequencyMonitoring {
-    type Raw = u8;
-    type Value = enums::OffOn;
-    const NAME: &'static str = "generator_overfrequency_monitoring";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0136;
-    const RAW_MAX: u8 = 1;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for GeneratorOverfrequencyMonitoring {
-    const SHIFT: u32 = 12;
-    const MASK: u16 = 0x1000;
-}
-
-impl runtime::can::Parameter for GeneratorOverfrequencyMonitoring {}
-
-impl runtime::Readable for GeneratorOverfrequencyMonitoring {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::OffOn::from(raw)
-    }
-}
-
-impl runtime::CountReadable for GeneratorOverfrequencyMonitoring {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for GeneratorOverfrequencyMonitoring {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for GeneratorOverfrequencyMonitoring {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for GeneratorOverfrequencyMonitoring {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Generator overfrequency 1 threshold.
-///
-/// At parameter 0068h (104), `u16`, raw `10240..21760`, steps of `0.00390625 Hz`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorOverfrequency1Threshold;
-
-impl runtime::Point for GeneratorOverfrequency1Threshold {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "generator_overfrequency_1_threshold";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0068;
-    const DECIMALS: u32 = 3;
-    const UNIT: &'static str = "Hz";
-    const RAW_MIN: u16 = 10_240;
-    const RAW_MAX: u16 = 21_760;
-}
-
-impl runtime::Whole for GeneratorOverfrequency1Threshold {}
-
-impl runtime::can::Parameter for GeneratorOverfrequency1Threshold {}
-
-impl runtime::Readable for GeneratorOverfrequency1Threshold {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 256.0
-    }
-}
-
-impl runtime::CountReadable for GeneratorOverfrequency1Threshold {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        let scaled = i32::from(raw) * 125;
-        arithmetic::div_round_i32::<32>(scaled)
-    }
-}
-
-impl runtime::Writable for GeneratorOverfrequency1Threshold {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 10_240..=21_760);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for GeneratorOverfrequency1Threshold {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 256.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for GeneratorOverfrequency1Threshold {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 39_999, 85_001)?;
-        let scaled = count * 32;
-        let raw = arithmetic::div_round_i32::<125>(scaled);
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Generator overfrequency 1 delay.
-///
-/// At parameter 0069h (105), `u16`, raw `1..499`, steps of `0.02 s`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorOverfrequency1Delay;
-
-impl runtime::Point for GeneratorOverfrequency1Delay {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "generator_overfrequency_1_delay";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0069;
-    const DECIMALS: u32 = 2;
-    const UNIT: &'static str = "s";
-    const RAW_MIN: u16 = 1;
-    const RAW_MAX: u16 = 499;
-}
-
-impl runtime::Whole for GeneratorOverfrequency1Delay {}
-
-impl runtime::can::Parameter for GeneratorOverfrequency1Delay {}
-
-impl runtime::Readable for GeneratorOverfrequency1Delay {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 50.0
-    }
-}
-
-impl runtime::CountReadable for GeneratorOverfrequency1Delay {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw) * 2
-    }
-}
-
-impl runtime::Writable for GeneratorOverfrequency1Delay {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=499);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for GeneratorOverfrequency1Delay {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 50.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for GeneratorOverfrequency1Delay {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 1, 998)?;
-        let scaled = count;
-        let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Generator overfrequency 2 threshold.
-///
-/// At parameter 0120h (288), `u16`, raw `10240..21760`, steps of `0.00390625 Hz`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorOverfrequency2Threshold;
-
-impl runtime::Point for GeneratorOverfrequency2Threshold {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "generator_overfrequency_2_threshold";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0120;
-    const DECIMALS: u32 = 3;
-    const UNIT: &'static str = "Hz";
-    const RAW_MIN: u16 = 10_240;
-    const RAW_MAX: u16 = 21_760;
-}
-
-impl runtime::Whole for GeneratorOverfrequency2Threshold {}
-
-impl runtime::can::Parameter for GeneratorOverfrequency2Threshold {}
-
-impl runtime::Readable for GeneratorOverfrequency2Threshold {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 256.0
-    }
-}
-
-impl runtime::CountReadable for GeneratorOverfrequency2Threshold {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        let scaled = i32::from(raw) * 125;
-        arithmetic::div_round_i32::<32>(scaled)
-    }
-}
-
-impl runtime::Writable for GeneratorOverfrequency2Threshold {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 10_240..=21_760);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for GeneratorOverfrequency2Threshold {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 256.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for GeneratorOverfrequency2Threshold {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 39_999, 85_001)?;
-        let scaled = count * 32;
-        let raw = arithmetic::div_round_i32::<125>(scaled);
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Generator overfrequency 2 delay.
-///
-/// At parameter 0121h (289), `u16`, raw `1..499`, steps of `0.02 s`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorOverfrequency2Delay;
-
-impl runtime::Point for GeneratorOverfrequency2Delay {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "generator_overfrequency_2_delay";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0121;
-    const DECIMALS: u32 = 2;
-    const UNIT: &'static str = "s";
-    const RAW_MIN: u16 = 1;
-    const RAW_MAX: u16 = 499;
-}
-
-impl runtime::Whole for GeneratorOverfrequency2Delay {}
-
-impl runtime::can::Parameter for GeneratorOverfrequency2Delay {}
-
-impl runtime::Readable for GeneratorOverfrequency2Delay {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 50.0
-    }
-}
-
-impl runtime::CountReadable for GeneratorOverfrequency2Delay {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw) * 2
-    }
-}
-
-impl runtime::Writable for GeneratorOverfrequency2Delay {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=499);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for GeneratorOverfrequency2Delay {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 50.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for GeneratorOverfrequency2Delay {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 1, 998)?;
-        let scaled = count;
-        let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Generator underfrequency monitoring.
-///
-/// At parameter 0136h (310) bits 3 to 3, `bit`, raw `0, 1`, read and write.
-///
-/// Errata: `generator_monitoring_texts`.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorUnderfrequencyMonitoring;
-
-impl runtime::Point for GeneratorUnderfrequencyMonitoring {
-    type Raw = u8;
-    type Value = enums::OffOn;
-    const NAME: &'static str = "generator_underfrequency_monitoring";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0136;
-    const RAW_MAX: u8 = 1;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for GeneratorUnderfrequencyMonitoring {
-    const SHIFT: u32 = 3;
-    const MASK: u16 = 0x0008;
-}
-
-impl runtime::can::Parameter for GeneratorUnderfrequencyMonitoring {}
-
-impl runtime::Readable for GeneratorUnderfrequencyMonitoring {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::OffOn::from(raw)
-    }
-}
-
-impl runtime::CountReadable for GeneratorUnderfrequencyMonitoring {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for GeneratorUnderfrequencyMonitoring {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for GeneratorUnderfrequencyMonitoring {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for GeneratorUnderfrequencyMonitoring {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Generator underfrequency 1 threshold.
-///
-/// At parameter 006Ah (106), `u16`, raw `10240..21760`, steps of `0.00390625 Hz`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorUnderfrequency1Threshold;
-
-impl runtime::Point for GeneratorUnderfrequency1Threshold {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "generator_underfrequency_1_threshold";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x006A;
-    const DECIMALS: u32 = 3;
-    const UNIT: &'static str = "Hz";
-    const RAW_MIN: u16 = 10_240;
-    const RAW_MAX: u16 = 21_760;
-}
-
-impl runtime::Whole for GeneratorUnderfrequency1Threshold {}
-
-impl runtime::can::Parameter for GeneratorUnderfrequency1Threshold {}
-
-impl runtime::Readable for GeneratorUnderfrequency1Threshold {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 256.0
-    }
-}
-
-impl runtime::CountReadable for GeneratorUnderfrequency1Threshold {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        let scaled = i32::from(raw) * 125;
-        arithmetic::div_round_i32::<32>(scaled)
-    }
-}
-
-impl runtime::Writable for GeneratorUnderfrequency1Threshold {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 10_240..=21_760);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for GeneratorUnderfrequency1Threshold {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 256.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for GeneratorUnderfrequency1Threshold {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 39_999, 85_001)?;
-        let scaled = count * 32;
-        let raw = arithmetic::div_round_i32::<125>(scaled);
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Generator underfrequency 1 delay.
-///
-/// At parameter 006Bh (107), `u16`, raw `1..499`, steps of `0.02 s`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorUnderfrequency1Delay;
-
-impl runtime::Point for GeneratorUnderfrequency1Delay {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "generator_underfrequency_1_delay";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x006B;
-    const DECIMALS: u32 = 2;
-    const UNIT: &'static str = "s";
-    const RAW_MIN: u16 = 1;
-    const RAW_MAX: u16 = 499;
-}
-
-impl runtime::Whole for GeneratorUnderfrequency1Delay {}
-
-impl runtime::can::Parameter for GeneratorUnderfrequency1Delay {}
-
-impl runtime::Readable for GeneratorUnderfrequency1Delay {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 50.0
-    }
-}
-
-impl runtime::CountReadable for GeneratorUnderfrequency1Delay {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw) * 2
-    }
-}
-
-impl runtime::Writable for GeneratorUnderfrequency1Delay {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=499);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for GeneratorUnderfrequency1Delay {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 50.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for GeneratorUnderfrequency1Delay {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 1, 998)?;
-        let scaled = count;
-        let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Generator underfrequency 2 threshold.
-///
-/// At parameter 0122h (290), `u16`, raw `10240..21760`, steps of `0.00390625 Hz`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorUnderfrequency2Threshold;
-
-impl runtime::Point for GeneratorUnderfrequency2Threshold {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "generator_underfrequency_2_threshold";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0122;
-    const DECIMALS: u32 = 3;
-    const UNIT: &'static str = "Hz";
-    const RAW_MIN: u16 = 10_240;
-    const RAW_MAX: u16 = 21_760;
-}
-
-impl runtime::Whole for GeneratorUnderfrequency2Threshold {}
-
-impl runtime::can::Parameter for GeneratorUnderfrequency2Threshold {}
-
-impl runtime::Readable for GeneratorUnderfrequency2Threshold {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 256.0
-    }
-}
-
-impl runtime::CountReadable for GeneratorUnderfrequency2Threshold {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        let scaled = i32::from(raw) * 125;
-        arithmetic::div_round_i32::<32>(scaled)
-    }
-}
-
-impl runtime::Writable for GeneratorUnderfrequency2Threshold {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 10_240..=21_760);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for GeneratorUnderfrequency2Threshold {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 256.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for GeneratorUnderfrequency2Threshold {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 39_999, 85_001)?;
-        let scaled = count * 32;
-        let raw = arithmetic::div_round_i32::<125>(scaled);
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Generator underfrequency 2 delay.
-///
-/// At parameter 0123h (291), `u16`, raw `1..499`, steps of `0.02 s`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorUnderfrequency2Delay;
-
-impl runtime::Point for GeneratorUnderfrequency2Delay {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "generator_underfrequency_2_delay";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0123;
-    const DECIMALS: u32 = 2;
-    const UNIT: &'static str = "s";
-    const RAW_MIN: u16 = 1;
-    const RAW_MAX: u16 = 499;
-}
-
-impl runtime::Whole for GeneratorUnderfrequency2Delay {}
-
-impl runtime::can::Parameter for GeneratorUnderfrequency2Delay {}
-
-impl runtime::Readable for GeneratorUnderfrequency2Delay {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 50.0
-    }
-}
-
-impl runtime::CountReadable for GeneratorUnderfrequency2Delay {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw) * 2
-    }
-}
-
-impl runtime::Writable for GeneratorUnderfrequency2Delay {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=499);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for GeneratorUnderfrequency2Delay {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 50.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for GeneratorUnderfrequency2Delay {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 1, 998)?;
-        let scaled = count;
-        let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Generator overvoltage monitoring.
-///
-/// At parameter 0136h (310) bits 1 to 1, `bit`, raw `0, 1`, read and write.
-///
-/// Errata: `generator_monitoring_texts`.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorOvervoltageMonitoring;
-
-impl runtime::Point for GeneratorOvervoltageMonitoring {
-    type Raw = u8;
-    type Value = enums::OffOn;
-    const NAME: &'static str = "generator_overvoltage_monitoring";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0136;
-    const RAW_MAX: u8 = 1;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for GeneratorOvervoltageMonitoring {
-    const SHIFT: u32 = 1;
-    const MASK: u16 = 0x0002;
-}
-
-impl runtime::can::Parameter for GeneratorOvervoltageMonitoring {}
-
-impl runtime::Readable for GeneratorOvervoltageMonitoring {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::OffOn::from(raw)
-    }
-}
-
-impl runtime::CountReadable for GeneratorOvervoltageMonitoring {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for GeneratorOvervoltageMonitoring {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for GeneratorOvervoltageMonitoring {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for GeneratorOvervoltageMonitoring {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Generator overvoltage 1 threshold 100v.
-///
-/// At parameter 006Ch (108), `u16`, raw `generator_voltage_factor.raw x 0.05..min(24576, generator_voltage_factor.raw x 0.375)`, value `raw x 400 / generator_voltage_factor.raw V`, read and write, for `voltage=100V`.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorOvervoltage1Threshold100v;
-
-impl runtime::Point for GeneratorOvervoltage1Threshold100v {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "generator_overvoltage_1_threshold_100v";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x006C;
-    const DECIMALS: u32 = 3;
-    const UNIT: &'static str = "V";
-    const RAW_MAX: u16 = 24_576;
-}
-
-impl runtime::Whole for GeneratorOvervoltage1Threshold100v {}
-
-impl runtime::can::Parameter for GeneratorOvervoltage1Threshold100v {}
-
-impl runtime::Scaled for GeneratorOvervoltage1Threshold100v {
-    type Factors = with::GeneratorOvervoltage1Threshold100v;
-
-    #[inline]
-    fn rule(with: Self::Factors) -> Result<runtime::Rule, runtime::Error> {
-        let rule = runtime::Rule::new(1, 400);
-        let factor = with.generator_voltage_factor;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.times(factor)?;
-        Ok(rule)
-    }
-}
-
-impl runtime::Readable for GeneratorOvervoltage1Threshold100v {
-    type Factors = with::GeneratorOvervoltage1Threshold100v;
-    type Output<V> = Result<V, runtime::Error>;
-
-    #[inline]
-    fn decode_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Value> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::CountReadable for GeneratorOvervoltage1Threshold100v {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Count> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode_count::<1000>(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::Writable for GeneratorOvervoltage1Threshold100v {
-    type With = with::GeneratorOvervoltage1Threshold100v;
-
-    #[inline]
-    fn check_with(raw: u16, with: Self::With) -> Result<(), runtime::Error> {
-        let rule = runtime::Rule::new(1, 20);
-        let factor = with.generator_voltage_factor;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.limited_by(factor)?;
-        let low_1 = rule.limit()?.max(0);
-        let rule = runtime::Rule::new(3, 8);
-        let factor = with.generator_voltage_factor;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.limited_by(factor)?;
-        let high_1 = rule.limit()?.min(24_576);
-        let number = runtime::Raw::to_i64(raw);
-        let holds = (low_1..=high_1).contains(&number);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for GeneratorOvervoltage1Threshold100v {
-    #[inline]
-    fn encode_with(value: Self::Value, with: Self::With) -> Result<u16, runtime::Error> {
-        let value = arithmetic::number(value)?;
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        arithmetic::nearest::<Self>(rule.encode(value), with)
-    }
-}
-
-impl runtime::CountWritable for GeneratorOvervoltage1Threshold100v {
-    type Count = i64;
-
-    #[inline]
-    fn encode_count_with(count: i64, with: Self::With) -> Result<u16, runtime::Error> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        let raw = rule.encode_count::<1000>(count)?;
-        arithmetic::store::<Self>(raw, with)
-    }
-}
-
-/// Generator overvoltage 1 threshold 400v.
-///
-/// At parameter 006Ch (108), `u16`, raw `generator_voltage_factor.raw x 0.05..generator_voltage_factor.raw x 1.3`, value `raw x 400 / generator_voltage_factor.raw V`, read and write, for `voltage=400V`.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorOvervoltage1Threshold400v;
-
-impl runtime::Point for GeneratorOvervoltage1Threshold400v {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "generator_overvoltage_1_threshold_400v";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x006C;
-    const DECIMALS: u32 = 3;
-    const UNIT: &'static str = "V";
-}
-
-impl runtime::Whole for GeneratorOvervoltage1Threshold400v {}
-
-impl runtime::can::Parameter for GeneratorOvervoltage1Threshold400v {}
-
-impl runtime::Scaled for GeneratorOvervoltage1Threshold400v {
-    type Factors = with::GeneratorOvervoltage1Threshold400v;
-
-    #[inline]
-    fn rule(with: Self::Factors) -> Result<runtime::Rule, runtime::Error> {
-        let rule = runtime::Rule::new(1, 400);
-        let factor = with.generator_voltage_factor;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.times(factor)?;
-        Ok(rule)
-    }
-}
-
-impl runtime::Readable for GeneratorOvervoltage1Threshold400v {
-    type Factors = with::GeneratorOvervoltage1Threshold400v;
-    type Output<V> = Result<V, runtime::Error>;
-
-    #[inline]
-    fn decode_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Value> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::CountReadable for GeneratorOvervoltage1Threshold400v {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Count> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode_count::<1000>(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::Writable for GeneratorOvervoltage1Threshold400v {
-    type With = with::GeneratorOvervoltage1Threshold400v;
-
-    #[inline]
-    fn check_with(raw: u16, with: Self::With) -> Result<(), runtime::Error> {
-        let rule = runtime::Rule::new(1, 20);
-        let factor = with.generator_voltage_factor;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.limited_by(factor)?;
-        let low_1 = rule.limit()?.max(0);
-        let rule = runtime::Rule::new(13, 10);
-        let factor = with.generator_voltage_factor;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.limited_by(factor)?;
-        let high_1 = rule.limit()?.min(65_535);
-        let number = runtime::Raw::to_i64(raw);
-        let holds = (low_1..=high_1).contains(&number);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for GeneratorOvervoltage1Threshold400v {
-    #[inline]
-    fn encode_with(value: Self::Value, with: Self::With) -> Result<u16, runtime::Error> {
-        let value = arithmetic::number(value)?;
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        arithmetic::nearest::<Self>(rule.encode(value), with)
-    }
-}
-
-impl runtime::CountWritable for GeneratorOvervoltage1Threshold400v {
-    type Count = i64;
-
-    #[inline]
-    fn encode_count_with(count: i64, with: Self::With) -> Result<u16, runtime::Error> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        let raw = rule.encode_count::<1000>(count)?;
-        arithmetic::store::<Self>(raw, with)
-    }
-}
-
-/// Generator overvoltage 1 delay.
-///
-/// At parameter 006Dh (109), `u16`, raw `1..499`, steps of `0.02 s`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorOvervoltage1Delay;
-
-impl runtime::Point for GeneratorOvervoltage1Delay {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "generator_overvoltage_1_delay";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x006D;
-    const DECIMALS: u32 = 2;
-    const UNIT: &'static str = "s";
-    const RAW_MIN: u16 = 1;
-    const RAW_MAX: u16 = 499;
-}
-
-impl runtime::Whole for GeneratorOvervoltage1Delay {}
-
-impl runtime::can::Parameter for GeneratorOvervoltage1Delay {}
-
-impl runtime::Readable for GeneratorOvervoltage1Delay {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 50.0
-    }
-}
-
-impl runtime::CountReadable for GeneratorOvervoltage1Delay {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw) * 2
-    }
-}
-
-impl runtime::Writable for GeneratorOvervoltage1Delay {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=499);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for GeneratorOvervoltage1Delay {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 50.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for GeneratorOvervoltage1Delay {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 1, 998)?;
-        let scaled = count;
-        let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Generator overvoltage 2 threshold 100v.
-///
-/// At parameter 0124h (292), `u16`, raw `generator_voltage_factor.raw x 0.05..min(24576, generator_voltage_factor.raw x 0.375)`, value `raw x 400 / generator_voltage_factor.raw V`, read and write, for `voltage=100V`.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorOvervoltage2Threshold100v;
-
-impl runtime::Point for GeneratorOvervoltage2Threshold100v {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "generator_overvoltage_2_threshold_100v";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0124;
-    const DECIMALS: u32 = 3;
-    const UNIT: &'static str = "V";
-    const RAW_MAX: u16 = 24_576;
-}
-
-impl runtime::Whole for GeneratorOvervoltage2Threshold100v {}
-
-impl runtime::can::Parameter for GeneratorOvervoltage2Threshold100v {}
-
-impl runtime::Scaled for GeneratorOvervoltage2Threshold100v {
-    type Factors = with::GeneratorOvervoltage2Threshold100v;
-
-    #[inline]
-    fn rule(with: Self::Factors) -> Result<runtime::Rule, runtime::Error> {
-        let rule = runtime::Rule::new(1, 400);
-        let factor = with.generator_voltage_factor;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.times(factor)?;
-        Ok(rule)
-    }
-}
-
-impl runtime::Readable for GeneratorOvervoltage2Threshold100v {
-    type Factors = with::GeneratorOvervoltage2Threshold100v;
-    type Output<V> = Result<V, runtime::Error>;
-
-    #[inline]
-    fn decode_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Value> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::CountReadable for GeneratorOvervoltage2Threshold100v {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Count> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode_count::<1000>(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::Writable for GeneratorOvervoltage2Threshold100v {
-    type With = with::GeneratorOvervoltage2Threshold100v;
-
-    #[inline]
-    fn check_with(raw: u16, with: Self::With) -> Result<(), runtime::Error> {
-        let rule = runtime::Rule::new(1, 20);
-        let factor = with.generator_voltage_factor;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.limited_by(factor)?;
-        let low_1 = rule.limit()?.max(0);
-        let rule = runtime::Rule::new(3, 8);
-        let factor = with.generator_voltage_factor;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.limited_by(factor)?;
-        let high_1 = rule.limit()?.min(24_576);
-        let number = runtime::Raw::to_i64(raw);
-        let holds = (low_1..=high_1).contains(&number);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for GeneratorOvervoltage2Threshold100v {
-    #[inline]
-    fn encode_with(value: Self::Value, with: Self::With) -> Result<u16, runtime::Error> {
-        let value = arithmetic::number(value)?;
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        arithmetic::nearest::<Self>(rule.encode(value), with)
-    }
-}
-
-impl runtime::CountWritable for GeneratorOvervoltage2Threshold100v {
-    type Count = i64;
-
-    #[inline]
-    fn encode_count_with(count: i64, with: Self::With) -> Result<u16, runtime::Error> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        let raw = rule.encode_count::<1000>(count)?;
-        arithmetic::store::<Self>(raw, with)
-    }
-}
-
-/// Generator overvoltage 2 threshold 400v.
-///
-/// At parameter 0124h (292), `u16`, raw `generator_voltage_factor.raw x 0.05..generator_voltage_factor.raw x 1.3`, value `raw x 400 / generator_voltage_factor.raw V`, read and write, for `voltage=400V`.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorOvervoltage2Threshold400v;
-
-impl runtime::Point for GeneratorOvervoltage2Threshold400v {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "generator_overvoltage_2_threshold_400v";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0124;
-    const DECIMALS: u32 = 3;
-    const UNIT: &'static str = "V";
-}
-
-impl runtime::Whole for GeneratorOvervoltage2Threshold400v {}
-
-impl runtime::can::Parameter for GeneratorOvervoltage2Threshold400v {}
-
-impl runtime::Scaled for GeneratorOvervoltage2Threshold400v {
-    type Factors = with::GeneratorOvervoltage2Threshold400v;
-
-    #[inline]
-    fn rule(with: Self::Factors) -> Result<runtime::Rule, runtime::Error> {
-        let rule = runtime::Rule::new(1, 400);
-        let factor = with.generator_voltage_factor;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.times(factor)?;
-        Ok(rule)
-    }
-}
-
-impl runtime::Readable for GeneratorOvervoltage2Threshold400v {
-    type Factors = with::GeneratorOvervoltage2Threshold400v;
-    type Output<V> = Result<V, runtime::Error>;
-
-    #[inline]
-    fn decode_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Value> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::CountReadable for GeneratorOvervoltage2Threshold400v {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Count> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode_count::<1000>(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::Writable for GeneratorOvervoltage2Threshold400v {
-    type With = with::GeneratorOvervoltage2Threshold400v;
-
-    #[inline]
-    fn check_with(raw: u16, with: Self::With) -> Result<(), runtime::Error> {
-        let rule = runtime::Rule::new(1, 20);
-        let factor = with.generator_voltage_factor;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.limited_by(factor)?;
-        let low_1 = rule.limit()?.max(0);
-        let rule = runtime::Rule::new(13, 10);
-        let factor = with.generator_voltage_factor;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.limited_by(factor)?;
-        let high_1 = rule.limit()?.min(65_535);
-        let number = runtime::Raw::to_i64(raw);
-        let holds = (low_1..=high_1).contains(&number);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for GeneratorOvervoltage2Threshold400v {
-    #[inline]
-    fn encode_with(value: Self::Value, with: Self::With) -> Result<u16, runtime::Error> {
-        let value = arithmetic::number(value)?;
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        arithmetic::nearest::<Self>(rule.encode(value), with)
-    }
-}
-
-impl runtime::CountWritable for GeneratorOvervoltage2Threshold400v {
-    type Count = i64;
-
-    #[inline]
-    fn encode_count_with(count: i64, with: Self::With) -> Result<u16, runtime::Error> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        let raw = rule.encode_count::<1000>(count)?;
-        arithmetic::store::<Self>(raw, with)
-    }
-}
-
-/// Generator overvoltage 2 delay.
-///
-/// At parameter 0125h (293), `u16`, raw `1..499`, steps of `0.02 s`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorOvervoltage2Delay;
-
-impl runtime::Point for GeneratorOvervoltage2Delay {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "generator_overvoltage_2_delay";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0125;
-    const DECIMALS: u32 = 2;
-    const UNIT: &'static str = "s";
-    const RAW_MIN: u16 = 1;
-    const RAW_MAX: u16 = 499;
-}
-
-impl runtime::Whole for GeneratorOvervoltage2Delay {}
-
-impl runtime::can::Parameter for GeneratorOvervoltage2Delay {}
-
-impl runtime::Readable for GeneratorOvervoltage2Delay {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 50.0
-    }
-}
-
-impl runtime::CountReadable for GeneratorOvervoltage2Delay {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw) * 2
-    }
-}
-
-impl runtime::Writable for GeneratorOvervoltage2Delay {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=499);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for GeneratorOvervoltage2Delay {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 50.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for GeneratorOvervoltage2Delay {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 1, 998)?;
-        let scaled = count;
-        let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Generator undervoltage monitoring.
-///
-/// At parameter 0136h (310) bits 0 to 0, `bit`, raw `0, 1`, read and write.
-///
-/// Errata: `generator_monitoring_texts`.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorUndervoltageMonitoring;
-
-impl runtime::Point for GeneratorUndervoltageMonitoring {
-    type Raw = u8;
-    type Value = enums::OffOn;
-    const NAME: &'static str = "generator_undervoltage_monitoring";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0136;
-    const RAW_MAX: u8 = 1;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for GeneratorUndervoltageMonitoring {
-    const SHIFT: u32 = 0;
-    const MASK: u16 = 0x0001;
-}
-
-impl runtime::can::Parameter for GeneratorUndervoltageMonitoring {}
-
-impl runtime::Readable for GeneratorUndervoltageMonitoring {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::OffOn::from(raw)
-    }
-}
-
-impl runtime::CountReadable for GeneratorUndervoltageMonitoring {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for GeneratorUndervoltageMonitoring {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for GeneratorUndervoltageMonitoring {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for GeneratorUndervoltageMonitoring {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Generator undervoltage 1 threshold 100v.
-///
-/// At parameter 006Eh (110), `u16`, raw `generator_voltage_factor.raw x 0.05..min(24576, generator_voltage_factor.raw x 0.375)`, value `raw x 400 / generator_voltage_factor.raw V`, read and write, for `voltage=100V`.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorUndervoltage1Threshold100v;
-
-impl runtime::Point for GeneratorUndervoltage1Threshold100v {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "generator_undervoltage_1_threshold_100v";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x006E;
-    const DECIMALS: u32 = 3;
-    const UNIT: &'static str = "V";
-    const RAW_MAX: u16 = 24_576;
-}
-
-impl runtime::Whole for GeneratorUndervoltage1Threshold100v {}
-
-impl runtime::can::Parameter for GeneratorUndervoltage1Threshold100v {}
-
-impl runtime::Scaled for GeneratorUndervoltage1Threshold100v {
-    type Factors = with::GeneratorUndervoltage1Threshold100v;
-
-    #[inline]
-    fn rule(with: Self::Factors) -> Result<runtime::Rule, runtime::Error> {
-        let rule = runtime::Rule::new(1, 400);
-        let factor = with.generator_voltage_factor;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.times(factor)?;
-        Ok(rule)
-    }
-}
-
-impl runtime::Readable for GeneratorUndervoltage1Threshold100v {
-    type Factors = with::GeneratorUndervoltage1Threshold100v;
-    type Output<V> = Result<V, runtime::Error>;
-
-    #[inline]
-    fn decode_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Value> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::CountReadable for GeneratorUndervoltage1Threshold100v {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Count> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode_count::<1000>(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::Writable for GeneratorUndervoltage1Threshold100v {
-    type With = with::GeneratorUndervoltage1Threshold100v;
-
-    #[inline]
-    fn check_with(raw: u16, with: Self::With) -> Result<(), runtime::Error> {
-        let rule = runtime::Rule::new(1, 20);
-        let factor = with.generator_voltage_factor;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.limited_by(factor)?;
-        let low_1 = rule.limit()?.max(0);
-        let rule = runtime::Rule::new(3, 8);
-        let factor = with.generator_voltage_factor;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.limited_by(factor)?;
-        let high_1 = rule.limit()?.min(24_576);
-        let number = runtime::Raw::to_i64(raw);
-        let holds = (low_1..=high_1).contains(&number);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for GeneratorUndervoltage1Threshold100v {
-    #[inline]
-    fn encode_with(value: Self::Value, with: Self::With) -> Result<u16, runtime::Error> {
-        let value = arithmetic::number(value)?;
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        arithmetic::nearest::<Self>(rule.encode(value), with)
-    }
-}
-
-impl runtime::CountWritable for GeneratorUndervoltage1Threshold100v {
-    type Count = i64;
-
-    #[inline]
-    fn encode_count_with(count: i64, with: Self::With) -> Result<u16, runtime::Error> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        let raw = rule.encode_count::<1000>(count)?;
-        arithmetic::store::<Self>(raw, with)
-    }
-}
-
-/// Generator undervoltage 1 threshold 400v.
-///
-/// At parameter 006Eh (110), `u16`, raw `generator_voltage_factor.raw x 0.05..generator_voltage_factor.raw x 1.3`, value `raw x 400 / generator_voltage_factor.raw V`, read and write, for `voltage=400V`.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorUndervoltage1Threshold400v;
-
-impl runtime::Point for GeneratorUndervoltage1Threshold400v {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "generator_undervoltage_1_threshold_400v";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x006E;
-    const DECIMALS: u32 = 3;
-    const UNIT: &'static str = "V";
-}
-
-impl runtime::Whole for GeneratorUndervoltage1Threshold400v {}
-
-impl runtime::can::Parameter for GeneratorUndervoltage1Threshold400v {}
-
-impl runtime::Scaled for GeneratorUndervoltage1Threshold400v {
-    type Factors = with::GeneratorUndervoltage1Threshold400v;
-
-    #[inline]
-    fn rule(with: Self::Factors) -> Result<runtime::Rule, runtime::Error> {
-        let rule = runtime::Rule::new(1, 400);
-        let factor = with.generator_voltage_factor;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.times(factor)?;
-        Ok(rule)
-    }
-}
-
-impl runtime::Readable for GeneratorUndervoltage1Threshold400v {
-    type Factors = with::GeneratorUndervoltage1Threshold400v;
-    type Output<V> = Result<V, runtime::Error>;
-
-    #[inline]
-    fn decode_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Value> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::CountReadable for GeneratorUndervoltage1Threshold400v {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Count> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode_count::<1000>(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::Writable for GeneratorUndervoltage1Threshold400v {
-    type With = with::GeneratorUndervoltage1Threshold400v;
-
-    #[inline]
-    fn check_with(raw: u16, with: Self::With) -> Result<(), runtime::Error> {
-        let rule = runtime::Rule::new(1, 20);
-        let factor = with.generator_voltage_factor;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.limited_by(factor)?;
-        let low_1 = rule.limit()?.max(0);
-        let rule = runtime::Rule::new(13, 10);
-        let factor = with.generator_voltage_factor;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.limited_by(factor)?;
-        let high_1 = rule.limit()?.min(65_535);
-        let number = runtime::Raw::to_i64(raw);
-        let holds = (low_1..=high_1).contains(&number);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for GeneratorUndervoltage1Threshold400v {
-    #[inline]
-    fn encode_with(value: Self::Value, with: Self::With) -> Result<u16, runtime::Error> {
-        let value = arithmetic::number(value)?;
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        arithmetic::nearest::<Self>(rule.encode(value), with)
-    }
-}
-
-impl runtime::CountWritable for GeneratorUndervoltage1Threshold400v {
-    type Count = i64;
-
-    #[inline]
-    fn encode_count_with(count: i64, with: Self::With) -> Result<u16, runtime::Error> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        let raw = rule.encode_count::<1000>(count)?;
-        arithmetic::store::<Self>(raw, with)
-    }
-}
-
-/// Generator undervoltage 1 delay.
-///
-/// At parameter 006Fh (111), `u16`, raw `1..499`, steps of `0.02 s`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorUndervoltage1Delay;
-
-impl runtime::Point for GeneratorUndervoltage1Delay {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "generator_undervoltage_1_delay";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x006F;
-    const DECIMALS: u32 = 2;
-    const UNIT: &'static str = "s";
-    const RAW_MIN: u16 = 1;
-    const RAW_MAX: u16 = 499;
-}
-
-impl runtime::Whole for GeneratorUndervoltage1Delay {}
-
-impl runtime::can::Parameter for GeneratorUndervoltage1Delay {}
-
-impl runtime::Readable for GeneratorUndervoltage1Delay {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 50.0
-    }
-}
-
-impl runtime::CountReadable for GeneratorUndervoltage1Delay {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw) * 2
-    }
-}
-
-impl runtime::Writable for GeneratorUndervoltage1Delay {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=499);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for GeneratorUndervoltage1Delay {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 50.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for GeneratorUndervoltage1Delay {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 1, 998)?;
-        let scaled = count;
-        let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Generator undervoltage 2 threshold 100v.
-///
-/// At parameter 0126h (294), `u16`, raw `generator_voltage_factor.raw x 0.05..min(24576, generator_voltage_factor.raw x 0.375)`, value `raw x 400 / generator_voltage_factor.raw V`, read and write, for `voltage=100V`.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorUndervoltage2Threshold100v;
-
-impl runtime::Point for GeneratorUndervoltage2Threshold100v {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "generator_undervoltage_2_threshold_100v";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0126;
-    const DECIMALS: u32 = 3;
-    const UNIT: &'static str = "V";
-    const RAW_MAX: u16 = 24_576;
-}
-
-impl runtime::Whole for GeneratorUndervoltage2Threshold100v {}
-
-impl runtime::can::Parameter for GeneratorUndervoltage2Threshold100v {}
-
-impl runtime::Scaled for GeneratorUndervoltage2Threshold100v {
-    type Factors = with::GeneratorUndervoltage2Threshold100v;
-
-    #[inline]
-    fn rule(with: Self::Factors) -> Result<runtime::Rule, runtime::Error> {
-        let rule = runtime::Rule::new(1, 400);
-        let factor = with.generator_voltage_factor;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.times(factor)?;
-        Ok(rule)
-    }
-}
-
-impl runtime::Readable for GeneratorUndervoltage2Threshold100v {
-    type Factors = with::GeneratorUndervoltage2Threshold100v;
-    type Output<V> = Result<V, runtime::Error>;
-
-    #[inline]
-    fn decode_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Value> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::CountReadable for GeneratorUndervoltage2Threshold100v {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Count> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode_count::<1000>(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::Writable for GeneratorUndervoltage2Threshold100v {
-    type With = with::GeneratorUndervoltage2Threshold100v;
-
-    #[inline]
-    fn check_with(raw: u16, with: Self::With) -> Result<(), runtime::Error> {
-        let rule = runtime::Rule::new(1, 20);
-        let factor = with.generator_voltage_factor;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.limited_by(factor)?;
-        let low_1 = rule.limit()?.max(0);
-        let rule = runtime::Rule::new(3, 8);
-        let factor = with.generator_voltage_factor;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.limited_by(factor)?;
-        let high_1 = rule.limit()?.min(24_576);
-        let number = runtime::Raw::to_i64(raw);
-        let holds = (low_1..=high_1).contains(&number);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for GeneratorUndervoltage2Threshold100v {
-    #[inline]
-    fn encode_with(value: Self::Value, with: Self::With) -> Result<u16, runtime::Error> {
-        let value = arithmetic::number(value)?;
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        arithmetic::nearest::<Self>(rule.encode(value), with)
-    }
-}
-
-impl runtime::CountWritable for GeneratorUndervoltage2Threshold100v {
-    type Count = i64;
-
-    #[inline]
-    fn encode_count_with(count: i64, with: Self::With) -> Result<u16, runtime::Error> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        let raw = rule.encode_count::<1000>(count)?;
-        arithmetic::store::<Self>(raw, with)
-    }
-}
-
-/// Generator undervoltage 2 threshold 400v.
-///
-/// At parameter 0126h (294), `u16`, raw `generator_voltage_factor.raw x 0.05..generator_voltage_factor.raw x 1.3`, value `raw x 400 / generator_voltage_factor.raw V`, read and write, for `voltage=400V`.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorUndervoltage2Threshold400v;
-
-impl runtime::Point for GeneratorUndervoltage2Threshold400v {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "generator_undervoltage_2_threshold_400v";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0126;
-    const DECIMALS: u32 = 3;
-    const UNIT: &'static str = "V";
-}
-
-impl runtime::Whole for GeneratorUndervoltage2Threshold400v {}
-
-impl runtime::can::Parameter for GeneratorUndervoltage2Threshold400v {}
-
-impl runtime::Scaled for GeneratorUndervoltage2Threshold400v {
-    type Factors = with::GeneratorUndervoltage2Threshold400v;
-
-    #[inline]
-    fn rule(with: Self::Factors) -> Result<runtime::Rule, runtime::Error> {
-        let rule = runtime::Rule::new(1, 400);
-        let factor = with.generator_voltage_factor;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.times(factor)?;
-        Ok(rule)
-    }
-}
-
-impl runtime::Readable for GeneratorUndervoltage2Threshold400v {
-    type Factors = with::GeneratorUndervoltage2Threshold400v;
-    type Output<V> = Result<V, runtime::Error>;
-
-    #[inline]
-    fn decode_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Value> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::CountReadable for GeneratorUndervoltage2Threshold400v {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Count> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode_count::<1000>(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::Writable for GeneratorUndervoltage2Threshold400v {
-    type With = with::GeneratorUndervoltage2Threshold400v;
-
-    #[inline]
-    fn check_with(raw: u16, with: Self::With) -> Result<(), runtime::Error> {
-        let rule = runtime::Rule::new(1, 20);
-        let factor = with.generator_voltage_factor;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.limited_by(factor)?;
-        let low_1 = rule.limit()?.max(0);
-        let rule = runtime::Rule::new(13, 10);
-        let factor = with.generator_voltage_factor;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.limited_by(factor)?;
-        let high_1 = rule.limit()?.min(65_535);
-        let number = runtime::Raw::to_i64(raw);
-        let holds = (low_1..=high_1).contains(&number);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for GeneratorUndervoltage2Threshold400v {
-    #[inline]
-    fn encode_with(value: Self::Value, with: Self::With) -> Result<u16, runtime::Error> {
-        let value = arithmetic::number(value)?;
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        arithmetic::nearest::<Self>(rule.encode(value), with)
-    }
-}
-
-impl runtime::CountWritable for GeneratorUndervoltage2Threshold400v {
-    type Count = i64;
-
-    #[inline]
-    fn encode_count_with(count: i64, with: Self::With) -> Result<u16, runtime::Error> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        let raw = rule.encode_count::<1000>(count)?;
-        arithmetic::store::<Self>(raw, with)
-    }
-}
-
-/// Generator undervoltage 2 delay.
-///
-/// At parameter 0127h (295), `u16`, raw `1..499`, steps of `0.02 s`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct GeneratorUndervoltage2Delay;
-
-impl runtime::Point for GeneratorUndervoltage2Delay {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "generator_undervoltage_2_delay";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0127;
-    const DECIMALS: u32 = 2;
-    const UNIT: &'static str = "s";
-    const RAW_MIN: u16 = 1;
-    const RAW_MAX: u16 = 499;
-}
-
-impl runtime::Whole for GeneratorUndervoltage2Delay {}
-
-impl runtime::can::Parameter for GeneratorUndervoltage2Delay {}
-
-impl runtime::Readable for GeneratorUndervoltage2Delay {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 50.0
-    }
-}
-
-impl runtime::CountReadable for GeneratorUndervoltage2Delay {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw) * 2
-    }
-}
-
-impl runtime::Writable for GeneratorUndervoltage2Delay {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=499);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for GeneratorUndervoltage2Delay {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 50.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for GeneratorUndervoltage2Delay {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 1, 998)?;
-        let scaled = count;
-        let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Mains frequency monitoring.
-///
-/// At parameter 000Fh (15) bits 14 to 14, `bit`, raw `0, 1`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct MainsFrequencyMonitoring;
-
-impl runtime::Point for MainsFrequencyMonitoring {
-    type Raw = u8;
-    type Value = enums::OffOn;
-    const NAME: &'static str = "mains_frequency_monitoring";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x000F;
-    const RAW_MAX: u8 = 1;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for MainsFrequencyMonitoring {
-    const SHIFT: u32 = 14;
-    const MASK: u16 = 0x4000;
-}
-
-impl runtime::can::Parameter for MainsFrequencyMonitoring {}
-
-impl runtime::Readable for MainsFrequencyMonitoring {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::OffOn::from(raw)
-    }
-}
-
-impl runtime::CountReadable for MainsFrequencyMonitoring {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for MainsFrequencyMonitoring {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for MainsFrequencyMonitoring {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for MainsFrequencyMonitoring {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Mains overfrequency threshold.
-///
-/// At parameter 0057h (87), `u16`, raw `10240..17920`, steps of `0.00390625 Hz`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct MainsOverfrequencyThreshold;
-
-impl runtime::Point for MainsOverfrequencyThreshold {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "mains_overfrequency_threshold";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0057;
-    const DECIMALS: u32 = 3;
-    const UNIT: &'static str = "Hz";
-    const RAW_MIN: u16 = 10_240;
-    const RAW_MAX: u16 = 17_920;
-}
-
-impl runtime::Whole for MainsOverfrequencyThreshold {}
-
-impl runtime::can::Parameter for MainsOverfrequencyThreshold {}
-
-impl runtime::Readable for MainsOverfrequencyThreshold {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 256.0
-    }
-}
-
-impl runtime::CountReadable for MainsOverfrequencyThreshold {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        let scaled = i32::from(raw) * 125;
-        arithmetic::div_round_i32::<32>(scaled)
-    }
-}
-
-impl runtime::Writable for MainsOverfrequencyThreshold {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 10_240..=17_920);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for MainsOverfrequencyThreshold {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 256.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for MainsOverfrequencyThreshold {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 39_999, 70_001)?;
-        let scaled = count * 32;
-        let raw = arithmetic::div_round_i32::<125>(scaled);
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Mains overfrequency delay.
-///
-/// At parameter 0058h (88), `u16`, raw `1..499`, steps of `0.02 s`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct MainsOverfrequencyDelay;
-
-impl runtime::Point for MainsOverfrequencyDelay {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "mains_overfrequency_delay";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0058;
-    const DECIMALS: u32 = 2;
-    const UNIT: &'static str = "s";
-    const RAW_MIN: u16 = 1;
-    const RAW_MAX: u16 = 499;
-}
-
-impl runtime::Whole for MainsOverfrequencyDelay {}
-
-impl runtime::can::Parameter for MainsOverfrequencyDelay {}
-
-impl runtime::Readable for MainsOverfrequencyDelay {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 50.0
-    }
-}
-
-impl runtime::CountReadable for MainsOverfrequencyDelay {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw) * 2
-    }
-}
-
-impl runtime::Writable for MainsOverfrequencyDelay {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=499);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for MainsOverfrequencyDelay {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 50.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for MainsOverfrequencyDelay {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 1, 998)?;
-        let scaled = count;
-        let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Mains underfrequency threshold.
-///
-/// At parameter 0059h (89), `u16`, raw `10240..17920`, steps of `0.00390625 Hz`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct MainsUnderfrequencyThreshold;
-
-impl runtime::Point for MainsUnderfrequencyThreshold {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "mains_underfrequency_threshold";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0059;
-    const DECIMALS: u32 = 3;
-    const UNIT: &'static str = "Hz";
-    const RAW_MIN: u16 = 10_240;
-    const RAW_MAX: u16 = 17_920;
-}
-
-impl runtime::Whole for MainsUnderfrequencyThreshold {}
-
-impl runtime::can::Parameter for MainsUnderfrequencyThreshold {}
-
-impl runtime::Readable for MainsUnderfrequencyThreshold {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 256.0
-    }
-}
-
-impl runtime::CountReadable for MainsUnderfrequencyThreshold {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        let scaled = i32::from(raw) * 125;
-        arithmetic::div_round_i32::<32>(scaled)
-    }
-}
-
-impl runtime::Writable for MainsUnderfrequencyThreshold {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 10_240..=17_920);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for MainsUnderfrequencyThreshold {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 256.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for MainsUnderfrequencyThreshold {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 39_999, 70_001)?;
-        let scaled = count * 32;
-        let raw = arithmetic::div_round_i32::<125>(scaled);
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Mains underfrequency delay.
-///
-/// At parameter 005Ah (90), `u16`, raw `1..499`, steps of `0.02 s`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct MainsUnderfrequencyDelay;
-
-impl runtime::Point for MainsUnderfrequencyDelay {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "mains_underfrequency_delay";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x005A;
-    const DECIMALS: u32 = 2;
-    const UNIT: &'static str = "s";
-    const RAW_MIN: u16 = 1;
-    const RAW_MAX: u16 = 499;
-}
-
-impl runtime::Whole for MainsUnderfrequencyDelay {}
-
-impl runtime::can::Parameter for MainsUnderfrequencyDelay {}
-
-impl runtime::Readable for MainsUnderfrequencyDelay {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 50.0
-    }
-}
-
-impl runtime::CountReadable for MainsUnderfrequencyDelay {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw) * 2
-    }
-}
-
-impl runtime::Writable for MainsUnderfrequencyDelay {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=499);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for MainsUnderfrequencyDelay {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 50.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for MainsUnderfrequencyDelay {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 1, 998)?;
-        let scaled = count;
-        let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Mains voltage monitoring.
-///
-/// At parameter 000Fh (15) bits 15 to 15, `bit`, raw `0, 1`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct MainsVoltageMonitoring;
-
-impl runtime::Point for MainsVoltageMonitoring {
-    type Raw = u8;
-    type Value = enums::OffOn;
-    const NAME: &'static str = "mains_voltage_monitoring";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x000F;
-    const RAW_MAX: u8 = 1;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for MainsVoltageMonitoring {
-    const SHIFT: u32 = 15;
-    const MASK: u16 = 0x8000;
-}
-
-impl runtime::can::Parameter for MainsVoltageMonitoring {}
-
-impl runtime::Readable for MainsVoltageMonitoring {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::OffOn::from(raw)
-    }
-}
-
-impl runtime::CountReadable for MainsVoltageMonitoring {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for MainsVoltageMonitoring {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for MainsVoltageMonitoring {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for MainsVoltageMonitoring {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Mains voltage factor.
-///
-/// `KWUNTSEK` at parameter 01FCh (508), `u16`, raw `0..65535`, read only.
-///
-/// Errata: `voltage_factors`.
-#[doc(alias = "KWUNTSEK")]
-#[derive(Clone, Copy, Debug)]
-pub struct MainsVoltageFactor;
-
-impl runtime::Point for MainsVoltageFactor {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "mains_voltage_factor";
-    const CODE: Option<&'static str> = Some("KWUNTSEK");
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x01FC;
-}
-
-impl runtime::Whole for MainsVoltageFactor {}
-
-impl runtime::can::Parameter for MainsVoltageFactor {}
-
-impl runtime::Readable for MainsVoltageFactor {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for MainsVoltageFactor {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-/// Mains overvoltage threshold 100v.
-///
-/// At parameter 005Bh (91), `u16`, raw `mains_voltage_factor.raw x 0.05..min(24576, mains_voltage_factor.raw x 0.375)`, value `raw x 400 / mains_voltage_factor.raw V`, read and write, for `voltage=100V`.
-#[derive(Clone, Copy, Debug)]
-pub struct MainsOvervoltageThreshold100v;
-
-impl runtime::Point for MainsOvervoltageThreshold100v {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "mains_overvoltage_threshold_100v";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x005B;
-    const DECIMALS: u32 = 3;
-    const UNIT: &'static str = "V";
-    const RAW_MAX: u16 = 24_576;
-}
-
-impl runtime::Whole for MainsOvervoltageThreshold100v {}
-
-impl runtime::can::Parameter for MainsOvervoltageThreshold100v {}
-
-impl runtime::Scaled for MainsOvervoltageThreshold100v {
-    type Factors = with::MainsOvervoltageThreshold100v;
-
-    #[inline]
-    fn rule(with: Self::Factors) -> Result<runtime::Rule, runtime::Error> {
-        let rule = runtime::Rule::new(1, 400);
-        let factor = with.mains_voltage_factor;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.times(factor)?;
-        Ok(rule)
-    }
-}
-
-impl runtime::Readable for MainsOvervoltageThreshold100v {
-    type Factors = with::MainsOvervoltageThreshold100v;
-    type Output<V> = Result<V, runtime::Error>;
-
-    #[inline]
-    fn decode_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Value> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::CountReadable for MainsOvervoltageThreshold100v {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Count> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode_count::<1000>(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::Writable for MainsOvervoltageThreshold100v {
-    type With = with::MainsOvervoltageThreshold100v;
-
-    #[inline]
-    fn check_with(raw: u16, with: Self::With) -> Result<(), runtime::Error> {
-        let rule = runtime::Rule::new(1, 20);
-        let factor = with.mains_voltage_factor;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.limited_by(factor)?;
-        let low_1 = rule.limit()?.max(0);
-        let rule = runtime::Rule::new(3, 8);
-        let factor = with.mains_voltage_factor;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.limited_by(factor)?;
-        let high_1 = rule.limit()?.min(24_576);
-        let number = runtime::Raw::to_i64(raw);
-        let holds = (low_1..=high_1).contains(&number);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for MainsOvervoltageThreshold100v {
-    #[inline]
-    fn encode_with(value: Self::Value, with: Self::With) -> Result<u16, runtime::Error> {
-        let value = arithmetic::number(value)?;
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        arithmetic::nearest::<Self>(rule.encode(value), with)
-    }
-}
-
-impl runtime::CountWritable for MainsOvervoltageThreshold100v {
-    type Count = i64;
-
-    #[inline]
-    fn encode_count_with(count: i64, with: Self::With) -> Result<u16, runtime::Error> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        let raw = rule.encode_count::<1000>(count)?;
-        arithmetic::store::<Self>(raw, with)
-    }
-}
-
-/// Mains overvoltage threshold 400v.
-///
-/// At parameter 005Bh (91), `u16`, raw `mains_voltage_factor.raw x 0.05..mains_voltage_factor.raw x 1.3`, value `raw x 400 / mains_voltage_factor.raw V`, read and write, for `voltage=400V`.
-#[derive(Clone, Copy, Debug)]
-pub struct MainsOvervoltageThreshold400v;
-
-impl runtime::Point for MainsOvervoltageThreshold400v {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "mains_overvoltage_threshold_400v";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x005B;
-    const DECIMALS: u32 = 3;
-    const UNIT: &'static str = "V";
-}
-
-impl runtime::Whole for MainsOvervoltageThreshold400v {}
-
-impl runtime::can::Parameter for MainsOvervoltageThreshold400v {}
-
-impl runtime::Scaled for MainsOvervoltageThreshold400v {
-    type Factors = with::MainsOvervoltageThreshold400v;
-
-    #[inline]
-    fn rule(with: Self::Factors) -> Result<runtime::Rule, runtime::Error> {
-        let rule = runtime::Rule::new(1, 400);
-        let factor = with.mains_voltage_factor;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.times(factor)?;
-        Ok(rule)
-    }
-}
-
-impl runtime::Readable for MainsOvervoltageThreshold400v {
-    type Factors = with::MainsOvervoltageThreshold400v;
-    type Output<V> = Result<V, runtime::Error>;
-
-    #[inline]
-    fn decode_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Value> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::CountReadable for MainsOvervoltageThreshold400v {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Count> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode_count::<1000>(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::Writable for MainsOvervoltageThreshold400v {
-    type With = with::MainsOvervoltageThreshold400v;
-
-    #[inline]
-    fn check_with(raw: u16, with: Self::With) -> Result<(), runtime::Error> {
-        let rule = runtime::Rule::new(1, 20);
-        let factor = with.mains_voltage_factor;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.limited_by(factor)?;
-        let low_1 = rule.limit()?.max(0);
-        let rule = runtime::Rule::new(13, 10);
-        let factor = with.mains_voltage_factor;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.limited_by(factor)?;
-        let high_1 = rule.limit()?.min(65_535);
-        let number = runtime::Raw::to_i64(raw);
-        let holds = (low_1..=high_1).contains(&number);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for MainsOvervoltageThreshold400v {
-    #[inline]
-    fn encode_with(value: Self::Value, with: Self::With) -> Result<u16, runtime::Error> {
-        let value = arithmetic::number(value)?;
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        arithmetic::nearest::<Self>(rule.encode(value), with)
-    }
-}
-
-impl runtime::CountWritable for MainsOvervoltageThreshold400v {
-    type Count = i64;
-
-    #[inline]
-    fn encode_count_with(count: i64, with: Self::With) -> Result<u16, runtime::Error> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        let raw = rule.encode_count::<1000>(count)?;
-        arithmetic::store::<Self>(raw, with)
-    }
-}
-
-/// Mains overvoltage delay.
-///
-/// At parameter 005Ch (92), `u16`, raw `1..499`, steps of `0.02 s`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct MainsOvervoltageDelay;
-
-impl runtime::Point for MainsOvervoltageDelay {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "mains_overvoltage_delay";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x005C;
-    const DECIMALS: u32 = 2;
-    const UNIT: &'static str = "s";
-    const RAW_MIN: u16 = 1;
-    const RAW_MAX: u16 = 499;
-}
-
-impl runtime::Whole for MainsOvervoltageDelay {}
-
-impl runtime::can::Parameter for MainsOvervoltageDelay {}
-
-impl runtime::Readable for MainsOvervoltageDelay {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 50.0
-    }
-}
-
-impl runtime::CountReadable for MainsOvervoltageDelay {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw) * 2
-    }
-}
-
-impl runtime::Writable for MainsOvervoltageDelay {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=499);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for MainsOvervoltageDelay {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 50.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for MainsOvervoltageDelay {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 1, 998)?;
-        let scaled = count;
-        let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Mains undervoltage threshold 100v.
-///
-/// At parameter 005Dh (93), `u16`, raw `mains_voltage_factor.raw x 0.05..min(24576, mains_voltage_factor.raw x 0.375)`, value `raw x 400 / mains_voltage_factor.raw V`, read and write, for `voltage=100V`.
-#[derive(Clone, Copy, Debug)]
-pub struct MainsUndervoltageThreshold100v;
-
-impl runtime::Point for MainsUndervoltageThreshold100v {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "mains_undervoltage_threshold_100v";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x005D;
-    const DECIMALS: u32 = 3;
-    const UNIT: &'static str = "V";
-    const RAW_MAX: u16 = 24_576;
-}
-
-impl runtime::Whole for MainsUndervoltageThreshold100v {}
-
-impl runtime::can::Parameter for MainsUndervoltageThreshold100v {}
-
-impl runtime::Scaled for MainsUndervoltageThreshold100v {
-    type Factors = with::MainsUndervoltageThreshold100v;
-
-    #[inline]
-    fn rule(with: Self::Factors) -> Result<runtime::Rule, runtime::Error> {
-        let rule = runtime::Rule::new(1, 400);
-        let factor = with.mains_voltage_factor;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.times(factor)?;
-        Ok(rule)
-    }
-}
-
-impl runtime::Readable for MainsUndervoltageThreshold100v {
-    type Factors = with::MainsUndervoltageThreshold100v;
-    type Output<V> = Result<V, runtime::Error>;
-
-    #[inline]
-    fn decode_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Value> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::CountReadable for MainsUndervoltageThreshold100v {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Count> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode_count::<1000>(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::Writable for MainsUndervoltageThreshold100v {
-    type With = with::MainsUndervoltageThreshold100v;
-
-    #[inline]
-    fn check_with(raw: u16, with: Self::With) -> Result<(), runtime::Error> {
-        let rule = runtime::Rule::new(1, 20);
-        let factor = with.mains_voltage_factor;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.limited_by(factor)?;
-        let low_1 = rule.limit()?.max(0);
-        let rule = runtime::Rule::new(3, 8);
-        let factor = with.mains_voltage_factor;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.limited_by(factor)?;
-        let high_1 = rule.limit()?.min(24_576);
-        let number = runtime::Raw::to_i64(raw);
-        let holds = (low_1..=high_1).contains(&number);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for MainsUndervoltageThreshold100v {
-    #[inline]
-    fn encode_with(value: Self::Value, with: Self::With) -> Result<u16, runtime::Error> {
-        let value = arithmetic::number(value)?;
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        arithmetic::nearest::<Self>(rule.encode(value), with)
-    }
-}
-
-impl runtime::CountWritable for MainsUndervoltageThreshold100v {
-    type Count = i64;
-
-    #[inline]
-    fn encode_count_with(count: i64, with: Self::With) -> Result<u16, runtime::Error> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        let raw = rule.encode_count::<1000>(count)?;
-        arithmetic::store::<Self>(raw, with)
-    }
-}
-
-/// Mains undervoltage threshold 400v.
-///
-/// At parameter 005Dh (93), `u16`, raw `mains_voltage_factor.raw x 0.05..mains_voltage_factor.raw x 1.3`, value `raw x 400 / mains_voltage_factor.raw V`, read and write, for `voltage=400V`.
-#[derive(Clone, Copy, Debug)]
-pub struct MainsUndervoltageThreshold400v;
-
-impl runtime::Point for MainsUndervoltageThreshold400v {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "mains_undervoltage_threshold_400v";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x005D;
-    const DECIMALS: u32 = 3;
-    const UNIT: &'static str = "V";
-}
-
-impl runtime::Whole for MainsUndervoltageThreshold400v {}
-
-impl runtime::can::Parameter for MainsUndervoltageThreshold400v {}
-
-impl runtime::Scaled for MainsUndervoltageThreshold400v {
-    type Factors = with::MainsUndervoltageThreshold400v;
-
-    #[inline]
-    fn rule(with: Self::Factors) -> Result<runtime::Rule, runtime::Error> {
-        let rule = runtime::Rule::new(1, 400);
-        let factor = with.mains_voltage_factor;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.times(factor)?;
-        Ok(rule)
-    }
-}
-
-impl runtime::Readable for MainsUndervoltageThreshold400v {
-    type Factors = with::MainsUndervoltageThreshold400v;
-    type Output<V> = Result<V, runtime::Error>;
-
-    #[inline]
-    fn decode_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Value> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::CountReadable for MainsUndervoltageThreshold400v {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: u16, with: Self::Factors) -> Self::Output<Self::Count> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode_count::<1000>(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::Writable for MainsUndervoltageThreshold400v {
-    type With = with::MainsUndervoltageThreshold400v;
-
-    #[inline]
-    fn check_with(raw: u16, with: Self::With) -> Result<(), runtime::Error> {
-        let rule = runtime::Rule::new(1, 20);
-        let factor = with.mains_voltage_factor;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.limited_by(factor)?;
-        let low_1 = rule.limit()?.max(0);
-        let rule = runtime::Rule::new(13, 10);
-        let factor = with.mains_voltage_factor;
-        let factor = runtime::Raw::to_i64(factor);
-        let rule = rule.limited_by(factor)?;
-        let high_1 = rule.limit()?.min(65_535);
-        let number = runtime::Raw::to_i64(raw);
-        let holds = (low_1..=high_1).contains(&number);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for MainsUndervoltageThreshold400v {
-    #[inline]
-    fn encode_with(value: Self::Value, with: Self::With) -> Result<u16, runtime::Error> {
-        let value = arithmetic::number(value)?;
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        arithmetic::nearest::<Self>(rule.encode(value), with)
-    }
-}
-
-impl runtime::CountWritable for MainsUndervoltageThreshold400v {
-    type Count = i64;
-
-    #[inline]
-    fn encode_count_with(count: i64, with: Self::With) -> Result<u16, runtime::Error> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        let raw = rule.encode_count::<1000>(count)?;
-        arithmetic::store::<Self>(raw, with)
-    }
-}
-
-/// Mains undervoltage delay.
-///
-/// At parameter 005Eh (94), `u16`, raw `1..499`, steps of `0.02 s`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct MainsUndervoltageDelay;
-
-impl runtime::Point for MainsUndervoltageDelay {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "mains_undervoltage_delay";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x005E;
-    const DECIMALS: u32 = 2;
-    const UNIT: &'static str = "s";
-    const RAW_MIN: u16 = 1;
-    const RAW_MAX: u16 = 499;
-}
-
-impl runtime::Whole for MainsUndervoltageDelay {}
-
-impl runtime::can::Parameter for MainsUndervoltageDelay {}
-
-impl runtime::Readable for MainsUndervoltageDelay {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 50.0
-    }
-}
-
-impl runtime::CountReadable for MainsUndervoltageDelay {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw) * 2
-    }
-}
-
-impl runtime::Writable for MainsUndervoltageDelay {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=499);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for MainsUndervoltageDelay {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 50.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for MainsUndervoltageDelay {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 1, 998)?;
-        let scaled = count;
-        let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Phase shift monitoring.
-///
-/// At parameter 000Fh (15) bits 1 to 1, `bit`, raw `0, 1`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct PhaseShiftMonitoring;
-
-impl runtime::Point for PhaseShiftMonitoring {
-    type Raw = u8;
-    type Value = enums::OffOn;
-    const NAME: &'static str = "phase_shift_monitoring";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x000F;
-    const RAW_MAX: u8 = 1;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for PhaseShiftMonitoring {
-    const SHIFT: u32 = 1;
-    const MASK: u16 = 0x0002;
-}
-
-impl runtime::can::Parameter for PhaseShiftMonitoring {}
-
-impl runtime::Readable for PhaseShiftMonitoring {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::OffOn::from(raw)
-    }
-}
-
-impl runtime::CountReadable for PhaseShiftMonitoring {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for PhaseShiftMonitoring {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for PhaseShiftMonitoring {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for PhaseShiftMonitoring {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Phase shift monitoring phases.
-///
-/// At parameter 0015h (21) bits 13 to 13, `bit`, raw `0, 1`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct PhaseShiftMonitoringPhases;
-
-impl runtime::Point for PhaseShiftMonitoringPhases {
-    type Raw = u8;
-    type Value = enums::PhaseShiftMonitoringPhases;
-    const NAME: &'static str = "phase_shift_monitoring_phases";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0015;
-    const RAW_MAX: u8 = 1;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for PhaseShiftMonitoringPhases {
-    const SHIFT: u32 = 13;
-    const MASK: u16 = 0x2000;
-}
-
-impl runtime::can::Parameter for PhaseShiftMonitoringPhases {}
-
-impl runtime::Readable for PhaseShiftMonitoringPhases {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::PhaseShiftMonitoringPhases::from(raw)
-    }
-}
-
-impl runtime::CountReadable for PhaseShiftMonitoringPhases {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for PhaseShiftMonitoringPhases {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for PhaseShiftMonitoringPhases {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for PhaseShiftMonitoringPhases {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Phase shift threshold single phase.
-///
-/// At parameter 0055h (85), `u16`, raw `3..30`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct PhaseShiftThresholdSinglePhase;
-
-impl runtime::Point for PhaseShiftThresholdSinglePhase {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "phase_shift_threshold_single_phase";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0055;
-    const UNIT: &'static str = "°";
-    const RAW_MIN: u16 = 3;
-    const RAW_MAX: u16 = 30;
-}
-
-impl runtime::Whole for PhaseShiftThresholdSinglePhase {}
-
-impl runtime::can::Parameter for PhaseShiftThresholdSinglePhase {}
-
-impl runtime::Readable for PhaseShiftThresholdSinglePhase {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for PhaseShiftThresholdSinglePhase {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for PhaseShiftThresholdSinglePhase {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 3..=30);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for PhaseShiftThresholdSinglePhase {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for PhaseShiftThresholdSinglePhase {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Phase shift threshold three phase.
-///
-/// At parameter 0056h (86), `u16`, raw `3..30`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct PhaseShiftThresholdThreePhase;
-
-impl runtime::Point for PhaseShiftThresholdThreePhase {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "phase_shift_threshold_three_phase";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0056;
-    const UNIT: &'static str = "°";
-    const RAW_MIN: u16 = 3;
-    const RAW_MAX: u16 = 30;
-}
-
-impl runtime::Whole for PhaseShiftThresholdThreePhase {}
-
-impl runtime::can::Parameter for PhaseShiftThresholdThreePhase {}
-
-impl runtime::Readable for PhaseShiftThresholdThreePhase {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for PhaseShiftThresholdThreePhase {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for PhaseShiftThresholdThreePhase {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 3..=30);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for PhaseShiftThresholdThreePhase {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for PhaseShiftThresholdThreePhase {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Reactive power monitoring.
-///
-/// At parameter 00F8h (248) bits 12 to 12, `bit`, raw `0, 1`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct ReactivePowerMonitoring;
-
-impl runtime::Point for ReactivePowerMonitoring {
-    type Raw = u8;
-    type Value = enums::OffOn;
-    const NAME: &'static str = "reactive_power_monitoring";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x00F8;
-    const RAW_MAX: u8 = 1;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for ReactivePowerMonitoring {
-    const SHIFT: u32 = 12;
-    const MASK: u16 = 0x1000;
-}
-
-impl runtime::can::Parameter for ReactivePowerMonitoring {}
-
-impl runtime::Readable for ReactivePowerMonitoring {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::OffOn::from(raw)
-    }
-}
-
-impl runtime::CountReadable for ReactivePowerMonitoring {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for ReactivePowerMonitoring {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for ReactivePowerMonitoring {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for ReactivePowerMonitoring {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Reactive power threshold inductive.
-///
-/// At parameter 012Fh (303), `u16`, raw `50..1000`, steps of `0.1 %`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct ReactivePowerThresholdInductive;
-
-impl runtime::Point for ReactivePowerThresholdInductive {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "reactive_power_threshold_inductive";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x012F;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "%";
-    const RAW_MIN: u16 = 50;
-    const RAW_MAX: u16 = 1000;
-}
-
-impl runtime::Whole for ReactivePowerThresholdInductive {}
-
-impl runtime::can::Parameter for ReactivePowerThresholdInductive {}
-
-impl runtime::Readable for ReactivePowerThresholdInductive {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for ReactivePowerThresholdInductive {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for ReactivePowerThresholdInductive {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 50..=1000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for ReactivePowerThresholdInductive {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for ReactivePowerThresholdInductive {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 50, 1000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Reactive power delay inductive.
-///
-/// At parameter 0132h (306), `u16`, raw `0..49950`, steps of `0.02 s`, read and write.
-///
-/// Errata: `reactive_power_delay_ids`.
-#[derive(Clone, Copy, Debug)]
-pub struct ReactivePowerDelayInductive;
-
-impl runtime::Point for ReactivePowerDelayInductive {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "reactive_power_delay_inductive";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0132;
-    const DECIMALS: u32 = 2;
-    const UNIT: &'static str = "s";
-    const RAW_MAX: u16 = 49_950;
-}
-
-impl runtime::Whole for ReactivePowerDelayInductive {}
-
-impl runtime::can::Parameter for ReactivePowerDelayInductive {}
-
-impl runtime::Readable for ReactivePowerDelayInductive {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 50.0
-    }
-}
-
-impl runtime::CountReadable for ReactivePowerDelayInductive {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw) * 2
-    }
-}
-
-impl runtime::Writable for ReactivePowerDelayInductive {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=49_950);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for ReactivePowerDelayInductive {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 50.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for ReactivePowerDelayInductive {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 99_900)?;
-        let scaled = count;
-        let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Reactive power threshold capacitive.
-///
-/// At parameter 0130h (304), `u16`, raw `50..1000`, steps of `0.1 %`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct ReactivePowerThresholdCapacitive;
-
-impl runtime::Point for ReactivePowerThresholdCapacitive {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "reactive_power_threshold_capacitive";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0130;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "%";
-    const RAW_MIN: u16 = 50;
-    const RAW_MAX: u16 = 1000;
-}
-
-impl runtime::Whole for ReactivePowerThresholdCapacitive {}
-
-impl runtime::can::Parameter for ReactivePowerThresholdCapacitive {}
-
-impl runtime::Readable for ReactivePowerThresholdCapacitive {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for ReactivePowerThresholdCapacitive {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for ReactivePowerThresholdCapacitive {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 50..=1000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for ReactivePowerThresholdCapacitive {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for ReactivePowerThresholdCapacitive {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 50, 1000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Reactive power delay capacitive.
-///
-/// At parameter 0131h (305), `u16`, raw `0..49950`, steps of `0.02 s`, read and write.
-///
-/// Errata: `reactive_power_delay_ids`.
-#[derive(Clone, Copy, Debug)]
-pub struct ReactivePowerDelayCapacitive;
-
-impl runtime::Point for ReactivePowerDelayCapacitive {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "reactive_power_delay_capacitive";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0131;
-    const DECIMALS: u32 = 2;
-    const UNIT: &'static str = "s";
-    const RAW_MAX: u16 = 49_950;
-}
-
-impl runtime::Whole for ReactivePowerDelayCapacitive {}
-
-impl runtime::can::Parameter for ReactivePowerDelayCapacitive {}
-
-impl runtime::Readable for ReactivePowerDelayCapacitive {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 50.0
-    }
-}
-
-impl runtime::CountReadable for ReactivePowerDelayCapacitive {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw) * 2
-    }
-}
-
-impl runtime::Writable for ReactivePowerDelayCapacitive {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=49_950);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for ReactivePowerDelayCapacitive {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 50.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for ReactivePowerDelayCapacitive {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 0, 99_900)?;
-        let scaled = count;
-        let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Earth fault monitoring.
-///
-/// At parameter 00F8h (248) bits 9 to 9, `bit`, raw `0, 1`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct EarthFaultMonitoring;
-
-impl runtime::Point for EarthFaultMonitoring {
-    type Raw = u8;
-    type Value = enums::OffOn;
-    const NAME: &'static str = "earth_fault_monitoring";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x00F8;
-    const RAW_MAX: u8 = 1;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for EarthFaultMonitoring {
-    const SHIFT: u32 = 9;
-    const MASK: u16 = 0x0200;
-}
-
-impl runtime::can::Parameter for EarthFaultMonitoring {}
-
-impl runtime::Readable for EarthFaultMonitoring {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::OffOn::from(raw)
-    }
-}
-
-impl runtime::CountReadable for EarthFaultMonitoring {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for EarthFaultMonitoring {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for EarthFaultMonitoring {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for EarthFaultMonitoring {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Earth fault threshold.
-///
-/// At parameter 0133h (307), `u16`, raw `50..1000`, steps of `0.1 %`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct EarthFaultThreshold;
-
-impl runtime::Point for EarthFaultThreshold {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "earth_fault_threshold";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0133;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "%";
-    const RAW_MIN: u16 = 50;
-    const RAW_MAX: u16 = 1000;
-}
-
-impl runtime::Whole for EarthFaultThreshold {}
-
-impl runtime::can::Parameter for EarthFaultThreshold {}
-
-impl runtime::Readable for EarthFaultThreshold {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for EarthFaultThreshold {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for EarthFaultThreshold {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 50..=1000);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for EarthFaultThreshold {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for EarthFaultThreshold {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 50, 1000)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Earth fault delay.
-///
-/// At parameter 0134h (308), `u16`, raw `1..4999`, steps of `0.02 s`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct EarthFaultDelay;
-
-impl runtime::Point for EarthFaultDelay {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "earth_fault_delay";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0134;
-    const DECIMALS: u32 = 2;
-    const UNIT: &'static str = "s";
-    const RAW_MIN: u16 = 1;
-    const RAW_MAX: u16 = 4999;
-}
-
-impl runtime::Whole for EarthFaultDelay {}
-
-impl runtime::can::Parameter for EarthFaultDelay {}
-
-impl runtime::Readable for EarthFaultDelay {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 50.0
-    }
-}
-
-impl runtime::CountReadable for EarthFaultDelay {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw) * 2
-    }
-}
-
-impl runtime::Writable for EarthFaultDelay {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=4999);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for EarthFaultDelay {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 50.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for EarthFaultDelay {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 1, 9998)?;
-        let scaled = count;
-        let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Battery undervoltage threshold.
-///
-/// At parameter 0089h (137), `u16`, raw `95..300`, steps of `0.1 V`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct BatteryUndervoltageThreshold;
-
-impl runtime::Point for BatteryUndervoltageThreshold {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "battery_undervoltage_threshold";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0089;
-    const DECIMALS: u32 = 1;
-    const UNIT: &'static str = "V";
-    const RAW_MIN: u16 = 95;
-    const RAW_MAX: u16 = 300;
-}
-
-impl runtime::Whole for BatteryUndervoltageThreshold {}
-
-impl runtime::can::Parameter for BatteryUndervoltageThreshold {}
-
-impl runtime::Readable for BatteryUndervoltageThreshold {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 10.0
-    }
-}
-
-impl runtime::CountReadable for BatteryUndervoltageThreshold {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for BatteryUndervoltageThreshold {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 95..=300);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for BatteryUndervoltageThreshold {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 10.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for BatteryUndervoltageThreshold {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 95, 300)?;
-        let raw = count;
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Battery undervoltage delay.
-///
-/// At parameter 01A3h (419), `u16`, raw `1..4950`, steps of `0.02 s`, read and write.
-///
-/// Errata: `battery_undervoltage_delay_minimum`.
-#[derive(Clone, Copy, Debug)]
-pub struct BatteryUndervoltageDelay;
-
-impl runtime::Point for BatteryUndervoltageDelay {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "battery_undervoltage_delay";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x01A3;
-    const DECIMALS: u32 = 2;
-    const UNIT: &'static str = "s";
-    const RAW_MIN: u16 = 1;
-    const RAW_MAX: u16 = 4950;
-}
-
-impl runtime::Whole for BatteryUndervoltageDelay {}
-
-impl runtime::can::Parameter for BatteryUndervoltageDelay {}
-
-impl runtime::Readable for BatteryUndervoltageDelay {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 50.0
-    }
-}
-
-impl runtime::CountReadable for BatteryUndervoltageDelay {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw) * 2
-    }
-}
-
-impl runtime::Writable for BatteryUndervoltageDelay {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=4950);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for BatteryUndervoltageDelay {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 50.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for BatteryUndervoltageDelay {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 1, 9900)?;
-        let scaled = count;
-        let raw = arithmetic::div_round_i32::<2>(scaled);
-        arithmetic::fitted::<Self>(raw)
-    }
-}
-
-/// Digital inputs 1 to 4 logic.
-///
-/// At parameter 007Dh (125) bits 11 to 8, `u8`, raw `0..15`, read and write.
-///
-/// Errata: `input_bit_rows`.
-#[derive(Clone, Copy, Debug)]
-pub struct DigitalInputs1To4Logic;
-
-impl runtime::Point for DigitalInputs1To4Logic {
-    type Raw = u8;
-    type Value = flags::DigitalInputs1To4Logic;
-    const NAME: &'static str = "digital_inputs_1_to_4_logic";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x007D;
-    const RAW_MAX: u8 = 15;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for DigitalInputs1To4Logic {
-    const SHIFT: u32 = 8;
-    const MASK: u16 = 0x0F00;
-}
-
-impl runtime::can::Parameter for DigitalInputs1To4Logic {}
-
-impl runtime::Readable for DigitalInputs1To4Logic {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        flags::DigitalInputs1To4Logic::from(raw)
-    }
-}
-
-impl runtime::CountReadable for DigitalInputs1To4Logic {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for DigitalInputs1To4Logic {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=15);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for DigitalInputs1To4Logic {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for DigitalInputs1To4Logic {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Digital inputs 1 to 4 delay.
-///
-/// At parameter 0194h (404), `u16`, 4 decimal digits, read and write.
-///
-/// Errata: `input_digit_order`, `input_digit_base`.
-#[derive(Clone, Copy, Debug)]
-pub struct DigitalInputs1To4Delay;
-
-impl runtime::Point for DigitalInputs1To4Delay {
-    type Raw = u16;
-    type Value = [enums::InputDelay; 4];
-    const NAME: &'static str = "digital_inputs_1_to_4_delay";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0194;
-}
-
-impl runtime::Whole for DigitalInputs1To4Delay {}
-
-impl runtime::Digits for DigitalInputs1To4Delay {
-    const NUMBERS: &'static [u16] = &[0, 1, 2, 3, 4, 5, 6, 7, 8, 9];
-}
-
-impl runtime::can::Parameter for DigitalInputs1To4Delay {}
-
-impl runtime::Readable for DigitalInputs1To4Delay {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        runtime::digits::split(raw).map(enums::InputDelay::from)
-    }
-}
-
-impl runtime::Writable for DigitalInputs1To4Delay {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        runtime::digits::check::<Self, 4>(raw)
-    }
-}
-
-impl runtime::Encodable for DigitalInputs1To4Delay {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = runtime::digits::join::<Self>(&value.map(u16::from))?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Digital inputs 1 to 4 engine delay.
-///
-/// At parameter 007Fh (127) bits 11 to 8, `u8`, raw `0..15`, read and write.
-///
-/// Errata: `input_bit_rows`.
-#[derive(Clone, Copy, Debug)]
-pub struct DigitalInputs1To4EngineDelay;
-
-impl runtime::Point for DigitalInputs1To4EngineDelay {
-    type Raw = u8;
-    type Value = flags::DigitalInputs1To4EngineDelay;
-    const NAME: &'static str = "digital_inputs_1_to_4_engine_delay";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x007F;
-    const RAW_MAX: u8 = 15;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for DigitalInputs1To4EngineDelay {
-    const SHIFT: u32 = 8;
-    const MASK: u16 = 0x0F00;
-}
-
-impl runtime::can::Parameter for DigitalInputs1To4EngineDelay {}
-
-impl runtime::Readable for DigitalInputs1To4EngineDelay {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        flags::DigitalInputs1To4EngineDelay::from(raw)
-    }
-}
-
-impl runtime::CountReadable for DigitalInputs1To4EngineDelay {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for DigitalInputs1To4EngineDelay {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=15);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for DigitalInputs1To4EngineDelay {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for DigitalInputs1To4EngineDelay {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Digital inputs 1 to 4 fault class.
-///
-/// At parameter 0082h (130), `u16`, 4 decimal digits, read and write.
-///
-/// Errata: `input_digit_order`, `input_digit_base`, `input_fault_class_column`.
-#[derive(Clone, Copy, Debug)]
-pub struct DigitalInputs1To4FaultClass;
-
-impl runtime::Point for DigitalInputs1To4FaultClass {
-    type Raw = u16;
-    type Value = [enums::FaultClass; 4];
-    const NAME: &'static str = "digital_inputs_1_to_4_fault_class";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0082;
-}
-
-impl runtime::Whole for DigitalInputs1To4FaultClass {}
-
-impl runtime::Digits for DigitalInputs1To4FaultClass {
-    const NUMBERS: &'static [u16] = &[0, 1, 2, 3];
-}
-
-impl runtime::can::Parameter for DigitalInputs1To4FaultClass {}
-
-impl runtime::Readable for DigitalInputs1To4FaultClass {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        runtime::digits::split(raw).map(enums::FaultClass::from)
-    }
-}
-
-impl runtime::Writable for DigitalInputs1To4FaultClass {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        runtime::digits::check::<Self, 4>(raw)
-    }
-}
-
-impl runtime::Encodable for DigitalInputs1To4FaultClass {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = runtime::digits::join::<Self>(&value.map(u16::from))?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Digital inputs 5 to 8 logic.
-///
-/// At parameter 007Dh (125) bits 7 to 4, `u8`, raw `0..15`, read and write.
-///
-/// Errata: `input_bit_rows`.
-#[derive(Clone, Copy, Debug)]
-pub struct DigitalInputs5To8Logic;
-
-impl runtime::Point for DigitalInputs5To8Logic {
-    type Raw = u8;
-    type Value = flags::DigitalInputs5To8Logic;
-    const NAME: &'static str = "digital_inputs_5_to_8_logic";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x007D;
-    const RAW_MAX: u8 = 15;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for DigitalInputs5To8Logic {
-    const SHIFT: u32 = 4;
-    const MASK: u16 = 0x00F0;
-}
-
-impl runtime::can::Parameter for DigitalInputs5To8Logic {}
-
-impl runtime::Readable for DigitalInputs5To8Logic {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        flags::DigitalInputs5To8Logic::from(raw)
-    }
-}
-
-impl runtime::CountReadable for DigitalInputs5To8Logic {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for DigitalInputs5To8Logic {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=15);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for DigitalInputs5To8Logic {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for DigitalInputs5To8Logic {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Digital inputs 5 to 8 delay.
-///
-/// At parameter 0195h (405), `u16`, 4 decimal digits, read and write.
-///
-/// Errata: `input_digit_order`, `input_digit_base`.
-#[derive(Clone, Copy, Debug)]
-pub struct DigitalInputs5To8Delay;
-
-impl runtime::Point for DigitalInputs5To8Delay {
-    type Raw = u16;
-    type Value = [enums::InputDelay; 4];
-    const NAME: &'static str = "digital_inputs_5_to_8_delay";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0195;
-}
-
-impl runtime::Whole for DigitalInputs5To8Delay {}
-
-impl runtime::Digits for DigitalInputs5To8Delay {
-    const NUMBERS: &'static [u16] = &[0, 1, 2, 3, 4, 5, 6, 7, 8, 9];
-}
-
-impl runtime::can::Parameter for DigitalInputs5To8Delay {}
-
-impl runtime::Readable for DigitalInputs5To8Delay {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        runtime::digits::split(raw).map(enums::InputDelay::from)
-    }
-}
-
-impl runtime::Writable for DigitalInputs5To8Delay {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        runtime::digits::check::<Self, 4>(raw)
-    }
-}
-
-impl runtime::Encodable for DigitalInputs5To8Delay {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = runtime::digits::join::<Self>(&value.map(u16::from))?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Digital inputs 5 to 8 engine delay.
-///
-/// At parameter 007Fh (127) bits 7 to 4, `u8`, raw `0..15`, read and write.
-///
-/// Errata: `input_bit_rows`.
-#[derive(Clone, Copy, Debug)]
-pub struct DigitalInputs5To8EngineDelay;
-
-impl runtime::Point for DigitalInputs5To8EngineDelay {
-    type Raw = u8;
-    type Value = flags::DigitalInputs5To8EngineDelay;
-    const NAME: &'static str = "digital_inputs_5_to_8_engine_delay";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x007F;
-    const RAW_MAX: u8 = 15;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for DigitalInputs5To8EngineDelay {
-    const SHIFT: u32 = 4;
-    const MASK: u16 = 0x00F0;
-}
-
-impl runtime::can::Parameter for DigitalInputs5To8EngineDelay {}
-
-impl runtime::Readable for DigitalInputs5To8EngineDelay {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        flags::DigitalInputs5To8EngineDelay::from(raw)
-    }
-}
-
-impl runtime::CountReadable for DigitalInputs5To8EngineDelay {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for DigitalInputs5To8EngineDelay {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=15);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for DigitalInputs5To8EngineDelay {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for DigitalInputs5To8EngineDelay {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Digital inputs 5 to 8 fault class.
-///
-/// At parameter 0087h (135), `u16`, 4 decimal digits, read and write.
-///
-/// Errata: `input_digit_order`, `input_digit_base`, `input_fault_class_column`.
-#[derive(Clone, Copy, Debug)]
-pub struct DigitalInputs5To8FaultClass;
-
-impl runtime::Point for DigitalInputs5To8FaultClass {
-    type Raw = u16;
-    type Value = [enums::FaultClass; 4];
-    const NAME: &'static str = "digital_inputs_5_to_8_fault_class";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0087;
-}
-
-impl runtime::Whole for DigitalInputs5To8FaultClass {}
-
-impl runtime::Digits for DigitalInputs5To8FaultClass {
-    const NUMBERS: &'static [u16] = &[0, 1, 2, 3];
-}
-
-impl runtime::can::Parameter for DigitalInputs5To8FaultClass {}
-
-impl runtime::Readable for DigitalInputs5To8FaultClass {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        runtime::digits::split(raw).map(enums::FaultClass::from)
-    }
-}
-
-impl runtime::Writable for DigitalInputs5To8FaultClass {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        runtime::digits::check::<Self, 4>(raw)
-    }
-}
-
-impl runtime::Encodable for DigitalInputs5To8FaultClass {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = runtime::digits::join::<Self>(&value.map(u16::from))?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Digital inputs 9 to 12 logic.
-///
-/// At parameter 007Dh (125) bits 3 to 0, `u8`, raw `0..15`, read and write.
-///
-/// Errata: `input_bit_rows`, `input_9_12_title`.
-#[derive(Clone, Copy, Debug)]
-pub struct DigitalInputs9To12Logic;
-
-impl runtime::Point for DigitalInputs9To12Logic {
-    type Raw = u8;
-    type Value = flags::DigitalInputs9To12Logic;
-    const NAME: &'static str = "digital_inputs_9_to_12_logic";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x007D;
-    const RAW_MAX: u8 = 15;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for DigitalInputs9To12Logic {
-    const SHIFT: u32 = 0;
-    const MASK: u16 = 0x000F;
-}
-
-impl runtime::can::Parameter for DigitalInputs9To12Logic {}
-
-impl runtime::Readable for DigitalInputs9To12Logic {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        flags::DigitalInputs9To12Logic::from(raw)
-    }
-}
-
-impl runtime::CountReadable for DigitalInputs9To12Logic {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for DigitalInputs9To12Logic {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=15);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for DigitalInputs9To12Logic {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for DigitalInputs9To12Logic {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Digital inputs 9 to 12 delay.
-///
-/// At parameter 0196h (406), `u16`, 4 decimal digits, read and write.
-///
-/// Errata: `input_digit_order`, `input_digit_base`.
-#[derive(Clone, Copy, Debug)]
-pub struct DigitalInputs9To12Delay;
-
-impl runtime::Point for DigitalInputs9To12Delay {
-    type Raw = u16;
-    type Value = [enums::InputDelay; 4];
-    const NAME: &'static str = "digital_inputs_9_to_12_delay";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0196;
-}
-
-impl runtime::Whole for DigitalInputs9To12Delay {}
-
-impl runtime::Digits for DigitalInputs9To12Delay {
-    const NUMBERS: &'static [u16] = &[0, 1, 2, 3, 4, 5, 6, 7, 8, 9];
-}
-
-impl runtime::can::Parameter for DigitalInputs9To12Delay {}
-
-impl runtime::Readable for DigitalInputs9To12Delay {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        runtime::digits::split(raw).map(enums::InputDelay::from)
-    }
-}
-
-impl runtime::Writable for DigitalInputs9To12Delay {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        runtime::digits::check::<Self, 4>(raw)
-    }
-}
-
-impl runtime::Encodable for DigitalInputs9To12Delay {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = runtime::digits::join::<Self>(&value.map(u16::from))?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Digital inputs 9 to 12 engine delay.
-///
-/// At parameter 007Fh (127) bits 3 to 0, `u8`, raw `0..15`, read and write.
-///
-/// Errata: `input_bit_rows`.
-#[derive(Clone, Copy, Debug)]
-pub struct DigitalInputs9To12EngineDelay;
-
-impl runtime::Point for DigitalInputs9To12EngineDelay {
-    type Raw = u8;
-    type Value = flags::DigitalInputs9To12EngineDelay;
-    const NAME: &'static str = "digital_inputs_9_to_12_engine_delay";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x007F;
-    const RAW_MAX: u8 = 15;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for DigitalInputs9To12EngineDelay {
-    const SHIFT: u32 = 0;
-    const MASK: u16 = 0x000F;
-}
-
-impl runtime::can::Parameter for DigitalInputs9To12EngineDelay {}
-
-impl runtime::Readable for DigitalInputs9To12EngineDelay {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        flags::DigitalInputs9To12EngineDelay::from(raw)
-    }
-}
-
-impl runtime::CountReadable for DigitalInputs9To12EngineDelay {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for DigitalInputs9To12EngineDelay {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=15);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for DigitalInputs9To12EngineDelay {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for DigitalInputs9To12EngineDelay {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Digital inputs 9 to 12 fault class.
-///
-/// At parameter 0088h (136), `u16`, 4 decimal digits, read and write.
-///
-/// Errata: `input_digit_order`, `input_digit_base`, `input_fault_class_column`.
-#[derive(Clone, Copy, Debug)]
-pub struct DigitalInputs9To12FaultClass;
-
-impl runtime::Point for DigitalInputs9To12FaultClass {
-    type Raw = u16;
-    type Value = [enums::FaultClass; 4];
-    const NAME: &'static str = "digital_inputs_9_to_12_fault_class";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0088;
-}
-
-impl runtime::Whole for DigitalInputs9To12FaultClass {}
-
-impl runtime::Digits for DigitalInputs9To12FaultClass {
-    const NUMBERS: &'static [u16] = &[0, 1, 2, 3];
-}
-
-impl runtime::can::Parameter for DigitalInputs9To12FaultClass {}
-
-impl runtime::Readable for DigitalInputs9To12FaultClass {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        runtime::digits::split(raw).map(enums::FaultClass::from)
-    }
-}
-
-impl runtime::Writable for DigitalInputs9To12FaultClass {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        runtime::digits::check::<Self, 4>(raw)
-    }
-}
-
-impl runtime::Encodable for DigitalInputs9To12FaultClass {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = runtime::digits::join::<Self>(&value.map(u16::from))?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Fault text terminal 62.
-///
-/// At parameter 02DCh (732), `text`, 16 characters of `ascii`, read and write.
-///
-/// Errata: `fault_text_example`.
-#[derive(Clone, Copy, Debug)]
-pub struct FaultTextTerminal62;
-
-impl runtime::Point for FaultTextTerminal62 {
-    type Raw = [u16; 8];
-    type Value = runtime::Text<16>;
-    const NAME: &'static str = "fault_text_terminal_62";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x02DC;
-    const ADDRESSES: &'static [u16] = &[
-        0x02E3, 0x02E2, 0x02E1, 0x02E0, 0x02DF, 0x02DE, 0x02DD, 0x02DC,
-    ];
-    const WORDS: u16 = 8;
-
-    #[inline]
-    fn from_words(words: [u16; 8]) -> [u16; 8] {
-        runtime::in_reading_order(words, <Self as runtime::Point>::ADDRESSES)
-    }
-}
-
-impl runtime::Whole for FaultTextTerminal62 {
-    #[inline]
-    fn to_words(raw: [u16; 8]) -> [u16; 8] {
-        runtime::in_address_order(raw, <Self as runtime::Point>::ADDRESSES)
-    }
-}
-
-impl runtime::can::Parameter for FaultTextTerminal62 {}
-
-impl runtime::Readable for FaultTextTerminal62 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: [u16; 8], (): ()) -> Self::Output<Self::Value> {
-        runtime::Text::from_words(&raw)
-    }
-}
-
-impl runtime::Writable for FaultTextTerminal62 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: [u16; 8], (): ()) -> Result<(), runtime::Error> {
-        let holds = runtime::text::is_ascii(&raw);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for FaultTextTerminal62 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<[u16; 8], runtime::Error> {
-        let raw = value.into_words();
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Fault text terminal 63.
-///
-/// At parameter 02E4h (740), `text`, 16 characters of `ascii`, read and write.
-///
-/// Errata: `fault_text_example`.
-#[derive(Clone, Copy, Debug)]
-pub struct FaultTextTerminal63;
-
-impl runtime::Point for FaultTextTerminal63 {
-    type Raw = [u16; 8];
-    type Value = runtime::Text<16>;
-    const NAME: &'static str = "fault_text_terminal_63";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x02E4;
-    const ADDRESSES: &'static [u16] = &[
-        0x02EB, 0x02EA, 0x02E9, 0x02E8, 0x02E7, 0x02E6, 0x02E5, 0x02E4,
-    ];
-    const WORDS: u16 = 8;
-
-    #[inline]
-    fn from_words(words: [u16; 8]) -> [u16; 8] {
-        runtime::in_reading_order(words, <Self as runtime::Point>::ADDRESSES)
-    }
-}
-
-impl runtime::Whole for FaultTextTerminal63 {
-    #[inline]
-    fn to_words(raw: [u16; 8]) -> [u16; 8] {
-        runtime::in_address_order(raw, <Self as runtime::Point>::ADDRESSES)
-    }
-}
-
-impl runtime::can::Parameter for FaultTextTerminal63 {}
-
-impl runtime::Readable for FaultTextTerminal63 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: [u16; 8], (): ()) -> Self::Output<Self::Value> {
-        runtime::Text::from_words(&raw)
-    }
-}
-
-impl runtime::Writable for FaultTextTerminal63 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: [u16; 8], (): ()) -> Result<(), runtime::Error> {
-        let holds = runtime::text::is_ascii(&raw);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for FaultTextTerminal63 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<[u16; 8], runtime::Error> {
-        let raw = value.into_words();
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Fault text terminal 64.
-///
-/// At parameter 02ECh (748), `text`, 16 characters of `ascii`, read and write.
-///
-/// Errata: `fault_text_example`.
-#[derive(Clone, Copy, Debug)]
-pub struct FaultTextTerminal64;
-
-impl runtime::Point for FaultTextTerminal64 {
-    type Raw = [u16; 8];
-    type Value = runtime::Text<16>;
-    const NAME: &'static str = "fault_text_terminal_64";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x02EC;
-    const ADDRESSES: &'static [u16] = &[
-        0x02F3, 0x02F2, 0x02F1, 0x02F0, 0x02EF, 0x02EE, 0x02ED, 0x02EC,
-    ];
-    const WORDS: u16 = 8;
-
-    #[inline]
-    fn from_words(words: [u16; 8]) -> [u16; 8] {
-        runtime::in_reading_order(words, <Self as runtime::Point>::ADDRESSES)
-    }
-}
-
-impl runtime::Whole for FaultTextTerminal64 {
-    #[inline]
-    fn to_words(raw: [u16; 8]) -> [u16; 8] {
-        runtime::in_address_order(raw, <Self as runtime::Point>::ADDRESSES)
-    }
-}
-
-impl runtime::can::Parameter for FaultTextTerminal64 {}
-
-impl runtime::Readable for FaultTextTerminal64 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: [u16; 8], (): ()) -> Self::Output<Self::Value> {
-        runtime::Text::from_words(&raw)
-    }
-}
-
-impl runtime::Writable for FaultTextTerminal64 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: [u16; 8], (): ()) -> Result<(), runtime::Error> {
-        let holds = runtime::text::is_ascii(&raw);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for FaultTextTerminal64 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<[u16; 8], runtime::Error> {
-        let raw = value.into_words();
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Fault text terminal 65.
-///
-/// At parameter 02F4h (756), `text`, 16 characters of `ascii`, read and write.
-///
-/// Errata: `fault_text_example`.
-#[derive(Clone, Copy, Debug)]
-pub struct FaultTextTerminal65;
-
-impl runtime::Point for FaultTextTerminal65 {
-    type Raw = [u16; 8];
-    type Value = runtime::Text<16>;
-    const NAME: &'static str = "fault_text_terminal_65";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x02F4;
-    const ADDRESSES: &'static [u16] = &[
-        0x02FB, 0x02FA, 0x02F9, 0x02F8, 0x02F7, 0x02F6, 0x02F5, 0x02F4,
-    ];
-    const WORDS: u16 = 8;
-
-    #[inline]
-    fn from_words(words: [u16; 8]) -> [u16; 8] {
-        runtime::in_reading_order(words, <Self as runtime::Point>::ADDRESSES)
-    }
-}
-
-impl runtime::Whole for FaultTextTerminal65 {
-    #[inline]
-    fn to_words(raw: [u16; 8]) -> [u16; 8] {
-        runtime::in_address_order(raw, <Self as runtime::Point>::ADDRESSES)
-    }
-}
-
-impl runtime::can::Parameter for FaultTextTerminal65 {}
-
-impl runtime::Readable for FaultTextTerminal65 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: [u16; 8], (): ()) -> Self::Output<Self::Value> {
-        runtime::Text::from_words(&raw)
-    }
-}
-
-impl runtime::Writable for FaultTextTerminal65 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: [u16; 8], (): ()) -> Result<(), runtime::Error> {
-        let holds = runtime::text::is_ascii(&raw);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for FaultTextTerminal65 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<[u16; 8], runtime::Error> {
-        let raw = value.into_words();
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Fault text terminal 66.
-///
-/// At parameter 02FCh (764), `text`, 16 characters of `ascii`, read and write.
-///
-/// Errata: `fault_text_example`.
-#[derive(Clone, Copy, Debug)]
-pub struct FaultTextTerminal66;
-
-impl runtime::Point for FaultTextTerminal66 {
-    type Raw = [u16; 8];
-    type Value = runtime::Text<16>;
-    const NAME: &'static str = "fault_text_terminal_66";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x02FC;
-    const ADDRESSES: &'static [u16] = &[
-        0x0303, 0x0302, 0x0301, 0x0300, 0x02FF, 0x02FE, 0x02FD, 0x02FC,
-    ];
-    const WORDS: u16 = 8;
-
-    #[inline]
-    fn from_words(words: [u16; 8]) -> [u16; 8] {
-        runtime::in_reading_order(words, <Self as runtime::Point>::ADDRESSES)
-    }
-}
-
-impl runtime::Whole for FaultTextTerminal66 {
-    #[inline]
-    fn to_words(raw: [u16; 8]) -> [u16; 8] {
-        runtime::in_address_order(raw, <Self as runtime::Point>::ADDRESSES)
-    }
-}
-
-impl runtime::can::Parameter for FaultTextTerminal66 {}
-
-impl runtime::Readable for FaultTextTerminal66 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: [u16; 8], (): ()) -> Self::Output<Self::Value> {
-        runtime::Text::from_words(&raw)
-    }
-}
-
-impl runtime::Writable for FaultTextTerminal66 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: [u16; 8], (): ()) -> Result<(), runtime::Error> {
-        let holds = runtime::text::is_ascii(&raw);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for FaultTextTerminal66 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<[u16; 8], runtime::Error> {
-        let raw = value.into_words();
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Fault text terminal 67.
-///
-/// At parameter 0304h (772), `text`, 16 characters of `ascii`, read and write.
-///
-/// Errata: `fault_text_example`.
-#[derive(Clone, Copy, Debug)]
-pub struct FaultTextTerminal67;
-
-impl runtime::Point for FaultTextTerminal67 {
-    type Raw = [u16; 8];
-    type Value = runtime::Text<16>;
-    const NAME: &'static str = "fault_text_terminal_67";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0304;
-    const ADDRESSES: &'static [u16] = &[
-        0x030B, 0x030A, 0x0309, 0x0308, 0x0307, 0x0306, 0x0305, 0x0304,
-    ];
-    const WORDS: u16 = 8;
-
-    #[inline]
-    fn from_words(words: [u16; 8]) -> [u16; 8] {
-        runtime::in_reading_order(words, <Self as runtime::Point>::ADDRESSES)
-    }
-}
-
-impl runtime::Whole for FaultTextTerminal67 {
-    #[inline]
-    fn to_words(raw: [u16; 8]) -> [u16; 8] {
-        runtime::in_address_order(raw, <Self as runtime::Point>::ADDRESSES)
-    }
-}
-
-impl runtime::can::Parameter for FaultTextTerminal67 {}
-
-impl runtime::Readable for FaultTextTerminal67 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: [u16; 8], (): ()) -> Self::Output<Self::Value> {
-        runtime::Text::from_words(&raw)
-    }
-}
-
-impl runtime::Writable for FaultTextTerminal67 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: [u16; 8], (): ()) -> Result<(), runtime::Error> {
-        let holds = runtime::text::is_ascii(&raw);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for FaultTextTerminal67 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<[u16; 8], runtime::Error> {
-        let raw = value.into_words();
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Fault text terminal 68.
-///
-/// At parameter 030Ch (780), `text`, 16 characters of `ascii`, read and write.
-///
-/// Errata: `fault_text_example`.
-#[derive(Clone, Copy, Debug)]
-pub struct FaultTextTerminal68;
-
-impl runtime::Point for FaultTextTerminal68 {
-    type Raw = [u16; 8];
-    type Value = runtime::Text<16>;
-    const NAME: &'static str = "fault_text_terminal_68";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x030C;
-    const ADDRESSES: &'static [u16] = &[
-        0x0313, 0x0312, 0x0311, 0x0310, 0x030F, 0x030E, 0x030D, 0x030C,
-    ];
-    const WORDS: u16 = 8;
-
-    #[inline]
-    fn from_words(words: [u16; 8]) -> [u16; 8] {
-        runtime::in_reading_order(words, <Self as runtime::Point>::ADDRESSES)
-    }
-}
-
-impl runtime::Whole for FaultTextTerminal68 {
-    #[inline]
-    fn to_words(raw: [u16; 8]) -> [u16; 8] {
-        runtime::in_address_order(raw, <Self as runtime::Point>::ADDRESSES)
-    }
-}
-
-impl runtime::can::Parameter for FaultTextTerminal68 {}
-
-impl runtime::Readable for FaultTextTerminal68 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: [u16; 8], (): ()) -> Self::Output<Self::Value> {
-        runtime::Text::from_words(&raw)
-    }
-}
-
-impl runtime::Writable for FaultTextTerminal68 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: [u16; 8], (): ()) -> Result<(), runtime::Error> {
-        let holds = runtime::text::is_ascii(&raw);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for FaultTextTerminal68 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<[u16; 8], runtime::Error> {
-        let raw = value.into_words();
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Fault text terminal 69.
-///
-/// At parameter 0314h (788), `text`, 16 characters of `ascii`, read and write.
-///
-/// Errata: `fault_text_example`.
-#[derive(Clone, Copy, Debug)]
-pub struct FaultTextTerminal69;
-
-impl runtime::Point for FaultTextTerminal69 {
-    type Raw = [u16; 8];
-    type Value = runtime::Text<16>;
-    const NAME: &'static str = "fault_text_terminal_69";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0314;
-    const ADDRESSES: &'static [u16] = &[
-        0x031B, 0x031A, 0x0319, 0x0318, 0x0317, 0x0316, 0x0315, 0x0314,
-    ];
-    const WORDS: u16 = 8;
-
-    #[inline]
-    fn from_words(words: [u16; 8]) -> [u16; 8] {
-        runtime::in_reading_order(words, <Self as runtime::Point>::ADDRESSES)
-    }
-}
-
-impl runtime::Whole for FaultTextTerminal69 {
-    #[inline]
-    fn to_words(raw: [u16; 8]) -> [u16; 8] {
-        runtime::in_address_order(raw, <Self as runtime::Point>::ADDRESSES)
-    }
-}
-
-impl runtime::can::Parameter for FaultTextTerminal69 {}
-
-impl runtime::Readable for FaultTextTerminal69 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: [u16; 8], (): ()) -> Self::Output<Self::Value> {
-        runtime::Text::from_words(&raw)
-    }
-}
-
-impl runtime::Writable for FaultTextTerminal69 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: [u16; 8], (): ()) -> Result<(), runtime::Error> {
-        let holds = runtime::text::is_ascii(&raw);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for FaultTextTerminal69 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<[u16; 8], runtime::Error> {
-        let raw = value.into_words();
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Fault text terminal 70.
-///
-/// At parameter 031Ch (796), `text`, 16 characters of `ascii`, read and write.
-///
-/// Errata: `fault_text_example`.
-#[derive(Clone, Copy, Debug)]
-pub struct FaultTextTerminal70;
-
-impl runtime::Point for FaultTextTerminal70 {
-    type Raw = [u16; 8];
-    type Value = runtime::Text<16>;
-    const NAME: &'static str = "fault_text_terminal_70";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x031C;
-    const ADDRESSES: &'static [u16] = &[
-        0x0323, 0x0322, 0x0321, 0x0320, 0x031F, 0x031E, 0x031D, 0x031C,
-    ];
-    const WORDS: u16 = 8;
-
-    #[inline]
-    fn from_words(words: [u16; 8]) -> [u16; 8] {
-        runtime::in_reading_order(words, <Self as runtime::Point>::ADDRESSES)
-    }
-}
-
-impl runtime::Whole for FaultTextTerminal70 {
-    #[inline]
-    fn to_words(raw: [u16; 8]) -> [u16; 8] {
-        runtime::in_address_order(raw, <Self as runtime::Point>::ADDRESSES)
-    }
-}
-
-impl runtime::can::Parameter for FaultTextTerminal70 {}
-
-impl runtime::Readable for FaultTextTerminal70 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: [u16; 8], (): ()) -> Self::Output<Self::Value> {
-        runtime::Text::from_words(&raw)
-    }
-}
-
-impl runtime::Writable for FaultTextTerminal70 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: [u16; 8], (): ()) -> Result<(), runtime::Error> {
-        let holds = runtime::text::is_ascii(&raw);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for FaultTextTerminal70 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<[u16; 8], runtime::Error> {
-        let raw = value.into_words();
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Fault text terminal 71.
-///
-/// At parameter 0324h (804), `text`, 16 characters of `ascii`, read and write.
-///
-/// Errata: `fault_text_example`.
-#[derive(Clone, Copy, Debug)]
-pub struct FaultTextTerminal71;
-
-impl runtime::Point for FaultTextTerminal71 {
-    type Raw = [u16; 8];
-    type Value = runtime::Text<16>;
-    const NAME: &'static str = "fault_text_terminal_71";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0324;
-    const ADDRESSES: &'static [u16] = &[
-        0x032B, 0x032A, 0x0329, 0x0328, 0x0327, 0x0326, 0x0325, 0x0324,
-    ];
-    const WORDS: u16 = 8;
-
-    #[inline]
-    fn from_words(words: [u16; 8]) -> [u16; 8] {
-        runtime::in_reading_order(words, <Self as runtime::Point>::ADDRESSES)
-    }
-}
-
-impl runtime::Whole for FaultTextTerminal71 {
-    #[inline]
-    fn to_words(raw: [u16; 8]) -> [u16; 8] {
-        runtime::in_address_order(raw, <Self as runtime::Point>::ADDRESSES)
-    }
-}
-
-impl runtime::can::Parameter for FaultTextTerminal71 {}
-
-impl runtime::Readable for FaultTextTerminal71 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: [u16; 8], (): ()) -> Self::Output<Self::Value> {
-        runtime::Text::from_words(&raw)
-    }
-}
-
-impl runtime::Writable for FaultTextTerminal71 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: [u16; 8], (): ()) -> Result<(), runtime::Error> {
-        let holds = runtime::text::is_ascii(&raw);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for FaultTextTerminal71 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<[u16; 8], runtime::Error> {
-        let raw = value.into_words();
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Fault text terminal 72.
-///
-/// At parameter 032Ch (812), `text`, 16 characters of `ascii`, read and write.
-///
-/// Errata: `fault_text_example`.
-#[derive(Clone, Copy, Debug)]
-pub struct FaultTextTerminal72;
-
-impl runtime::Point for FaultTextTerminal72 {
-    type Raw = [u16; 8];
-    type Value = runtime::Text<16>;
-    const NAME: &'static str = "fault_text_terminal_72";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x032C;
-    const ADDRESSES: &'static [u16] = &[
-        0x0333, 0x0332, 0x0331, 0x0330, 0x032F, 0x032E, 0x032D, 0x032C,
-    ];
-    const WORDS: u16 = 8;
-
-    #[inline]
-    fn from_words(words: [u16; 8]) -> [u16; 8] {
-        runtime::in_reading_order(words, <Self as runtime::Point>::ADDRESSES)
-    }
-}
-
-impl runtime::Whole for FaultTextTerminal72 {
-    #[inline]
-    fn to_words(raw: [u16; 8]) -> [u16; 8] {
-        runtime::in_address_order(raw, <Self as runtime::Point>::ADDRESSES)
-    }
-}
-
-impl runtime::can::Parameter for FaultTextTerminal72 {}
-
-impl runtime::Readable for FaultTextTerminal72 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: [u16; 8], (): ()) -> Self::Output<Self::Value> {
-        runtime::Text::from_words(&raw)
-    }
-}
-
-impl runtime::Writable for FaultTextTerminal72 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: [u16; 8], (): ()) -> Result<(), runtime::Error> {
-        let holds = runtime::text::is_ascii(&raw);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for FaultTextTerminal72 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<[u16; 8], runtime::Error> {
-        let raw = value.into_words();
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Fault text terminal 73.
-///
-/// At parameter 0334h (820), `text`, 16 characters of `ascii`, read and write.
-///
-/// Errata: `fault_text_example`.
-#[derive(Clone, Copy, Debug)]
-pub struct FaultTextTerminal73;
-
-impl runtime::Point for FaultTextTerminal73 {
-    type Raw = [u16; 8];
-    type Value = runtime::Text<16>;
-    const NAME: &'static str = "fault_text_terminal_73";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0334;
-    const ADDRESSES: &'static [u16] = &[
-        0x033B, 0x033A, 0x0339, 0x0338, 0x0337, 0x0336, 0x0335, 0x0334,
-    ];
-    const WORDS: u16 = 8;
-
-    #[inline]
-    fn from_words(words: [u16; 8]) -> [u16; 8] {
-        runtime::in_reading_order(words, <Self as runtime::Point>::ADDRESSES)
-    }
-}
-
-impl runtime::Whole for FaultTextTerminal73 {
-    #[inline]
-    fn to_words(raw: [u16; 8]) -> [u16; 8] {
-        runtime::in_address_order(raw, <Self as runtime::Point>::ADDRESSES)
-    }
-}
-
-impl runtime::can::Parameter for FaultTextTerminal73 {}
-
-impl runtime::Readable for FaultTextTerminal73 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: [u16; 8], (): ()) -> Self::Output<Self::Value> {
-        runtime::Text::from_words(&raw)
-    }
-}
-
-impl runtime::Writable for FaultTextTerminal73 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: [u16; 8], (): ()) -> Result<(), runtime::Error> {
-        let holds = runtime::text::is_ascii(&raw);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for FaultTextTerminal73 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<[u16; 8], runtime::Error> {
-        let raw = value.into_words();
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Analog output 1 source.
-///
-/// At parameter 00C0h (192), `u16`, raw `0..23`, read and write.
-///
-/// Errata: `analog_source_23`.
-#[derive(Clone, Copy, Debug)]
-pub struct AnalogOutput1Source;
-
-impl runtime::Point for AnalogOutput1Source {
-    type Raw = u16;
-    type Value = enums::AnalogSource;
-    const NAME: &'static str = "analog_output_1_source";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x00C0;
-    const RAW_MAX: u16 = 23;
-}
-
-impl runtime::Whole for AnalogOutput1Source {}
-
-impl runtime::can::Parameter for AnalogOutput1Source {}
-
-impl runtime::Readable for AnalogOutput1Source {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::AnalogSource::from(raw)
-    }
-}
-
-impl runtime::CountReadable for AnalogOutput1Source {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for AnalogOutput1Source {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=23);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for AnalogOutput1Source {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for AnalogOutput1Source {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Analog output 1 current range.
-///
-/// At parameter 0010h (16) bits 1 to 1, `bit`, raw `0, 1`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct AnalogOutput1CurrentRange;
-
-impl runtime::Point for AnalogOutput1CurrentRange {
-    type Raw = u8;
-    type Value = enums::CurrentRange;
-    const NAME: &'static str = "analog_output_1_current_range";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0010;
-    const RAW_MAX: u8 = 1;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for AnalogOutput1CurrentRange {
-    const SHIFT: u32 = 1;
-    const MASK: u16 = 0x0002;
-}
-
-impl runtime::can::Parameter for AnalogOutput1CurrentRange {}
-
-impl runtime::Readable for AnalogOutput1CurrentRange {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::CurrentRange::from(raw)
-    }
-}
-
-impl runtime::CountReadable for AnalogOutput1CurrentRange {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for AnalogOutput1CurrentRange {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for AnalogOutput1CurrentRange {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for AnalogOutput1CurrentRange {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Analog output 1 value at 0 percent.
-///
-/// At parameter 00C1h (193), `s16`, raw `-9999..9999`, value `raw when analog_output_1_source.raw is 1; raw x 0.01 when analog_output_1_source.raw is 2; raw x 0.01 when analog_output_1_source.raw is 3; raw when analog_output_1_source.raw is 4; raw when analog_output_1_source.raw is 5; raw when analog_output_1_source.raw is 6; raw when analog_output_1_source.raw is 7; raw when analog_output_1_source.raw is 8; raw when analog_output_1_source.raw is 9; raw when analog_output_1_source.raw is 10; raw when analog_output_1_source.raw is 19; raw when analog_output_1_source.raw is 20; raw x 0.01 when analog_output_1_source.raw is 21; raw when analog_output_1_source.raw is 22`, read and write.
-///
-/// Errata: `parameter_sign`, `analog_output_values`.
-#[derive(Clone, Copy, Debug)]
-pub struct AnalogOutput1ValueAt0Percent;
-
-impl runtime::Point for AnalogOutput1ValueAt0Percent {
-    type Raw = i16;
-    type Value = f64;
-    const NAME: &'static str = "analog_output_1_value_at_0_percent";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x00C1;
-    const DECIMALS: u32 = 2;
-    const RAW_MIN: i16 = -9999;
-    const RAW_MAX: i16 = 9999;
-}
-
-impl runtime::Whole for AnalogOutput1ValueAt0Percent {}
-
-impl runtime::can::Parameter for AnalogOutput1ValueAt0Percent {}
-
-impl runtime::Scaled for AnalogOutput1ValueAt0Percent {
-    type Factors = with::AnalogOutput1ValueAt0Percent;
-
-    #[inline]
-    fn rule(with: Self::Factors) -> Result<runtime::Rule, runtime::Error> {
-        let held = with.analog_output_1_source;
-        if runtime::Raw::to_i64(held) == 1 {
-            let rule = runtime::Rule::new(1, 1);
-            return Ok(rule);
-        }
-        let held = with.analog_output_1_source;
-        if runtime::Raw::to_i64(held) == 2 {
-            let rule = runtime::Rule::new(100, 1);
-            return Ok(rule);
-        }
-        let held = with.analog_output_1_source;
-        if runtime::Raw::to_i64(held) == 3 {
-            let rule = runtime::Rule::new(100, 1);
-            return Ok(rule);
-        }
-        let held = with.analog_output_1_source;
-        if runtime::Raw::to_i64(held) == 4 {
-            let rule = runtime::Rule::new(1, 1);
-            return Ok(rule);
-        }
-        let held = with.analog_output_1_source;
-        if runtime::Raw::to_i64(held) == 5 {
-            let rule = runtime::Rule::new(1, 1);
-            return Ok(rule);
-        }
-        let held = with.analog_output_1_source;
-        if runtime::Raw::to_i64(held) == 6 {
-            let rule = runtime::Rule::new(1, 1);
-            return Ok(rule);
-        }
-        let held = with.analog_output_1_source;
-        if runtime::Raw::to_i64(held) == 7 {
-            let rule = runtime::Rule::new(1, 1);
-            return Ok(rule);
-        }
-        let held = with.analog_output_1_source;
-        if runtime::Raw::to_i64(held) == 8 {
-            let rule = runtime::Rule::new(1, 1);
-            return Ok(rule);
-        }
-        let held = with.analog_output_1_source;
-        if runtime::Raw::to_i64(held) == 9 {
-            let rule = runtime::Rule::new(1, 1);
-            return Ok(rule);
-        }
-        let held = with.analog_output_1_source;
-        if runtime::Raw::to_i64(held) == 10 {
-            let rule = runtime::Rule::new(1, 1);
-            return Ok(rule);
-        }
-        let held = with.analog_output_1_source;
-        if runtime::Raw::to_i64(held) == 19 {
-            let rule = runtime::Rule::new(1, 1);
-            return Ok(rule);
-        }
-        let held = with.analog_output_1_source;
-        if runtime::Raw::to_i64(held) == 20 {
-            let rule = runtime::Rule::new(1, 1);
-            return Ok(rule);
-        }
-        let held = with.analog_output_1_source;
-        if runtime::Raw::to_i64(held) == 21 {
-            let rule = runtime::Rule::new(100, 1);
-            return Ok(rule);
-        }
-        let held = with.analog_output_1_source;
-        if runtime::Raw::to_i64(held) == 22 {
-            let rule = runtime::Rule::new(1, 1);
-            return Ok(rule);
-        }
-        Err(runtime::Error::NoCase)
-    }
-}
-
-impl runtime::Readable for AnalogOutput1ValueAt0Percent {
-    type Factors = with::AnalogOutput1ValueAt0Percent;
-    type Output<V> = Result<V, runtime::Error>;
-
-    #[inline]
-    fn decode_with(raw: i16, with: Self::Factors) -> Self::Output<Self::Value> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::CountReadable for AnalogOutput1ValueAt0Percent {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: i16, with: Self::Factors) -> Self::Output<Self::Count> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode_count::<100>(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::Writable for AnalogOutput1ValueAt0Percent {
-    type With = with::AnalogOutput1ValueAt0Percent;
-
-    #[inline]
-    fn check_with(raw: i16, _: Self::With) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, -9999..=9999);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for AnalogOutput1ValueAt0Percent {
-    #[inline]
-    fn encode_with(value: Self::Value, with: Self::With) -> Result<i16, runtime::Error> {
-        let value = arithmetic::number(value)?;
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        arithmetic::nearest::<Self>(rule.encode(value), with)
-    }
-}
-
-impl runtime::CountWritable for AnalogOutput1ValueAt0Percent {
-    type Count = i64;
-
-    #[inline]
-    fn encode_count_with(count: i64, with: Self::With) -> Result<i16, runtime::Error> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        let raw = rule.encode_count::<100>(count)?;
-        arithmetic::store::<Self>(raw, with)
-    }
-}
-
-/// Analog output 1 value at 100 percent.
-///
-/// At parameter 00C2h (194), `s16`, raw `-9999..9999`, value `raw when analog_output_1_source.raw is 1; raw x 0.01 when analog_output_1_source.raw is 2; raw x 0.01 when analog_output_1_source.raw is 3; raw when analog_output_1_source.raw is 4; raw when analog_output_1_source.raw is 5; raw when analog_output_1_source.raw is 6; raw when analog_output_1_source.raw is 7; raw when analog_output_1_source.raw is 8; raw when analog_output_1_source.raw is 9; raw when analog_output_1_source.raw is 10; raw when analog_output_1_source.raw is 19; raw when analog_output_1_source.raw is 20; raw x 0.01 when analog_output_1_source.raw is 21; raw when analog_output_1_source.raw is 22`, read and write.
-///
-/// Errata: `parameter_sign`, `analog_output_values`.
-#[derive(Clone, Copy, Debug)]
-pub struct AnalogOutput1ValueAt100Percent;
-
-impl runtime::Point for AnalogOutput1ValueAt100Percent {
-    type Raw = i16;
-    type Value = f64;
-    const NAME: &'static str = "analog_output_1_value_at_100_percent";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x00C2;
-    const DECIMALS: u32 = 2;
-    const RAW_MIN: i16 = -9999;
-    const RAW_MAX: i16 = 9999;
-}
-
-impl runtime::Whole for AnalogOutput1ValueAt100Percent {}
-
-impl runtime::can::Parameter for AnalogOutput1ValueAt100Percent {}
-
-impl runtime::Scaled for AnalogOutput1ValueAt100Percent {
-    type Factors = with::AnalogOutput1ValueAt100Percent;
-
-    #[inline]
-    fn rule(with: Self::Factors) -> Result<runtime::Rule, runtime::Error> {
-        let held = with.analog_output_1_source;
-        if runtime::Raw::to_i64(held) == 1 {
-            let rule = runtime::Rule::new(1, 1);
-            return Ok(rule);
-        }
-        let held = with.analog_output_1_source;
-        if runtime::Raw::to_i64(held) == 2 {
-            let rule = runtime::Rule::new(100, 1);
-            return Ok(rule);
-        }
-        let held = with.analog_output_1_source;
-        if runtime::Raw::to_i64(held) == 3 {
-            let rule = runtime::Rule::new(100, 1);
-            return Ok(rule);
-        }
-        let held = with.analog_output_1_source;
-        if runtime::Raw::to_i64(held) == 4 {
-            let rule = runtime::Rule::new(1, 1);
-            return Ok(rule);
-        }
-        let held = with.analog_output_1_source;
-        if runtime::Raw::to_i64(held) == 5 {
-            let rule = runtime::Rule::new(1, 1);
-            return Ok(rule);
-        }
-        let held = with.analog_output_1_source;
-        if runtime::Raw::to_i64(held) == 6 {
-            let rule = runtime::Rule::new(1, 1);
-            return Ok(rule);
-        }
-        let held = with.analog_output_1_source;
-        if runtime::Raw::to_i64(held) == 7 {
-            let rule = runtime::Rule::new(1, 1);
-            return Ok(rule);
-        }
-        let held = with.analog_output_1_source;
-        if runtime::Raw::to_i64(held) == 8 {
-            let rule = runtime::Rule::new(1, 1);
-            return Ok(rule);
-        }
-        let held = with.analog_output_1_source;
-        if runtime::Raw::to_i64(held) == 9 {
-            let rule = runtime::Rule::new(1, 1);
-            return Ok(rule);
-        }
-        let held = with.analog_output_1_source;
-        if runtime::Raw::to_i64(held) == 10 {
-            let rule = runtime::Rule::new(1, 1);
-            return Ok(rule);
-        }
-        let held = with.analog_output_1_source;
-        if runtime::Raw::to_i64(held) == 19 {
-            let rule = runtime::Rule::new(1, 1);
-            return Ok(rule);
-        }
-        let held = with.analog_output_1_source;
-        if runtime::Raw::to_i64(held) == 20 {
-            let rule = runtime::Rule::new(1, 1);
-            return Ok(rule);
-        }
-        let held = with.analog_output_1_source;
-        if runtime::Raw::to_i64(held) == 21 {
-            let rule = runtime::Rule::new(100, 1);
-            return Ok(rule);
-        }
-        let held = with.analog_output_1_source;
-        if runtime::Raw::to_i64(held) == 22 {
-            let rule = runtime::Rule::new(1, 1);
-            return Ok(rule);
-        }
-        Err(runtime::Error::NoCase)
-    }
-}
-
-impl runtime::Readable for AnalogOutput1ValueAt100Percent {
-    type Factors = with::AnalogOutput1ValueAt100Percent;
-    type Output<V> = Result<V, runtime::Error>;
-
-    #[inline]
-    fn decode_with(raw: i16, with: Self::Factors) -> Self::Output<Self::Value> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::CountReadable for AnalogOutput1ValueAt100Percent {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: i16, with: Self::Factors) -> Self::Output<Self::Count> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode_count::<100>(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::Writable for AnalogOutput1ValueAt100Percent {
-    type With = with::AnalogOutput1ValueAt100Percent;
-
-    #[inline]
-    fn check_with(raw: i16, _: Self::With) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, -9999..=9999);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for AnalogOutput1ValueAt100Percent {
-    #[inline]
-    fn encode_with(value: Self::Value, with: Self::With) -> Result<i16, runtime::Error> {
-        let value = arithmetic::number(value)?;
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        arithmetic::nearest::<Self>(rule.encode(value), with)
-    }
-}
-
-impl runtime::CountWritable for AnalogOutput1ValueAt100Percent {
-    type Count = i64;
-
-    #[inline]
-    fn encode_count_with(count: i64, with: Self::With) -> Result<i16, runtime::Error> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        let raw = rule.encode_count::<100>(count)?;
-        arithmetic::store::<Self>(raw, with)
-    }
-}
-
-/// Analog output 2 source.
-///
-/// At parameter 00C3h (195), `u16`, raw `0..23`, read and write.
-///
-/// Errata: `analog_source_23`.
-#[derive(Clone, Copy, Debug)]
-pub struct AnalogOutput2Source;
-
-impl runtime::Point for AnalogOutput2Source {
-    type Raw = u16;
-    type Value = enums::AnalogSource;
-    const NAME: &'static str = "analog_output_2_source";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x00C3;
-    const RAW_MAX: u16 = 23;
-}
-
-impl runtime::Whole for AnalogOutput2Source {}
-
-impl runtime::can::Parameter for AnalogOutput2Source {}
-
-impl runtime::Readable for AnalogOutput2Source {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        enums::AnalogSource::from(raw)
-    }
-}
-
-impl runtime::CountReadable for AnalogOutput2Source {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for AnalogOutput2Source {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=23);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for AnalogOutput2Source {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = u16::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for AnalogOutput2Source {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Analog output 2 current range.
-///
-/// At parameter 0010h (16) bits 3 to 3, `bit`, raw `0, 1`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct AnalogOutput2CurrentRange;
-
-impl runtime::Point for AnalogOutput2CurrentRange {
-    type Raw = u8;
-    type Value = enums::CurrentRange;
-    const NAME: &'static str = "analog_output_2_current_range";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0010;
-    const RAW_MAX: u8 = 1;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for AnalogOutput2CurrentRange {
-    const SHIFT: u32 = 3;
-    const MASK: u16 = 0x0008;
-}
-
-impl runtime::can::Parameter for AnalogOutput2CurrentRange {}
-
-impl runtime::Readable for AnalogOutput2CurrentRange {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::CurrentRange::from(raw)
-    }
-}
-
-impl runtime::CountReadable for AnalogOutput2CurrentRange {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for AnalogOutput2CurrentRange {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for AnalogOutput2CurrentRange {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for AnalogOutput2CurrentRange {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Analog output 2 value at 0 percent.
-///
-/// At parameter 00C4h (196), `s16`, raw `-9999..9999`, value `raw when analog_output_2_source.raw is 1; raw x 0.01 when analog_output_2_source.raw is 2; raw x 0.01 when analog_output_2_source.raw is 3; raw when analog_output_2_source.raw is 4; raw when analog_output_2_source.raw is 5; raw when analog_output_2_source.raw is 6; raw when analog_output_2_source.raw is 7; raw when analog_output_2_source.raw is 8; raw when analog_output_2_source.raw is 9; raw when analog_output_2_source.raw is 10; raw when analog_output_2_source.raw is 19; raw when analog_output_2_source.raw is 20; raw x 0.01 when analog_output_2_source.raw is 21; raw when analog_output_2_source.raw is 22`, read and write.
-///
-/// Errata: `parameter_sign`, `analog_output_values`.
-#[derive(Clone, Copy, Debug)]
-pub struct AnalogOutput2ValueAt0Percent;
-
-impl runtime::Point for AnalogOutput2ValueAt0Percent {
-    type Raw = i16;
-    type Value = f64;
-    const NAME: &'static str = "analog_output_2_value_at_0_percent";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x00C4;
-    const DECIMALS: u32 = 2;
-    const RAW_MIN: i16 = -9999;
-    const RAW_MAX: i16 = 9999;
-}
-
-impl runtime::Whole for AnalogOutput2ValueAt0Percent {}
-
-impl runtime::can::Parameter for AnalogOutput2ValueAt0Percent {}
-
-impl runtime::Scaled for AnalogOutput2ValueAt0Percent {
-    type Factors = with::AnalogOutput2ValueAt0Percent;
-
-    #[inline]
-    fn rule(with: Self::Factors) -> Result<runtime::Rule, runtime::Error> {
-        let held = with.analog_output_2_source;
-        if runtime::Raw::to_i64(held) == 1 {
-            let rule = runtime::Rule::new(1, 1);
-            return Ok(rule);
-        }
-        let held = with.analog_output_2_source;
-        if runtime::Raw::to_i64(held) == 2 {
-            let rule = runtime::Rule::new(100, 1);
-            return Ok(rule);
-        }
-        let held = with.analog_output_2_source;
-        if runtime::Raw::to_i64(held) == 3 {
-            let rule = runtime::Rule::new(100, 1);
-            return Ok(rule);
-        }
-        let held = with.analog_output_2_source;
-        if runtime::Raw::to_i64(held) == 4 {
-            let rule = runtime::Rule::new(1, 1);
-            return Ok(rule);
-        }
-        let held = with.analog_output_2_source;
-        if runtime::Raw::to_i64(held) == 5 {
-            let rule = runtime::Rule::new(1, 1);
-            return Ok(rule);
-        }
-        let held = with.analog_output_2_source;
-        if runtime::Raw::to_i64(held) == 6 {
-            let rule = runtime::Rule::new(1, 1);
-            return Ok(rule);
-        }
-        let held = with.analog_output_2_source;
-        if runtime::Raw::to_i64(held) == 7 {
-            let rule = runtime::Rule::new(1, 1);
-            return Ok(rule);
-        }
-        let held = with.analog_output_2_source;
-        if runtime::Raw::to_i64(held) == 8 {
-            let rule = runtime::Rule::new(1, 1);
-            return Ok(rule);
-        }
-        let held = with.analog_output_2_source;
-        if runtime::Raw::to_i64(held) == 9 {
-            let rule = runtime::Rule::new(1, 1);
-            return Ok(rule);
-        }
-        let held = with.analog_output_2_source;
-        if runtime::Raw::to_i64(held) == 10 {
-            let rule = runtime::Rule::new(1, 1);
-            return Ok(rule);
-        }
-        let held = with.analog_output_2_source;
-        if runtime::Raw::to_i64(held) == 19 {
-            let rule = runtime::Rule::new(1, 1);
-            return Ok(rule);
-        }
-        let held = with.analog_output_2_source;
-        if runtime::Raw::to_i64(held) == 20 {
-            let rule = runtime::Rule::new(1, 1);
-            return Ok(rule);
-        }
-        let held = with.analog_output_2_source;
-        if runtime::Raw::to_i64(held) == 21 {
-            let rule = runtime::Rule::new(100, 1);
-            return Ok(rule);
-        }
-        let held = with.analog_output_2_source;
-        if runtime::Raw::to_i64(held) == 22 {
-            let rule = runtime::Rule::new(1, 1);
-            return Ok(rule);
-        }
-        Err(runtime::Error::NoCase)
-    }
-}
-
-impl runtime::Readable for AnalogOutput2ValueAt0Percent {
-    type Factors = with::AnalogOutput2ValueAt0Percent;
-    type Output<V> = Result<V, runtime::Error>;
-
-    #[inline]
-    fn decode_with(raw: i16, with: Self::Factors) -> Self::Output<Self::Value> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::CountReadable for AnalogOutput2ValueAt0Percent {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: i16, with: Self::Factors) -> Self::Output<Self::Count> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode_count::<100>(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::Writable for AnalogOutput2ValueAt0Percent {
-    type With = with::AnalogOutput2ValueAt0Percent;
-
-    #[inline]
-    fn check_with(raw: i16, _: Self::With) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, -9999..=9999);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for AnalogOutput2ValueAt0Percent {
-    #[inline]
-    fn encode_with(value: Self::Value, with: Self::With) -> Result<i16, runtime::Error> {
-        let value = arithmetic::number(value)?;
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        arithmetic::nearest::<Self>(rule.encode(value), with)
-    }
-}
-
-impl runtime::CountWritable for AnalogOutput2ValueAt0Percent {
-    type Count = i64;
-
-    #[inline]
-    fn encode_count_with(count: i64, with: Self::With) -> Result<i16, runtime::Error> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        let raw = rule.encode_count::<100>(count)?;
-        arithmetic::store::<Self>(raw, with)
-    }
-}
-
-/// Analog output 2 value at 100 percent.
-///
-/// At parameter 00C5h (197), `s16`, raw `-9999..9999`, value `raw when analog_output_2_source.raw is 1; raw x 0.01 when analog_output_2_source.raw is 2; raw x 0.01 when analog_output_2_source.raw is 3; raw when analog_output_2_source.raw is 4; raw when analog_output_2_source.raw is 5; raw when analog_output_2_source.raw is 6; raw when analog_output_2_source.raw is 7; raw when analog_output_2_source.raw is 8; raw when analog_output_2_source.raw is 9; raw when analog_output_2_source.raw is 10; raw when analog_output_2_source.raw is 19; raw when analog_output_2_source.raw is 20; raw x 0.01 when analog_output_2_source.raw is 21; raw when analog_output_2_source.raw is 22`, read and write.
-///
-/// Errata: `parameter_sign`, `analog_output_values`.
-#[derive(Clone, Copy, Debug)]
-pub struct AnalogOutput2ValueAt100Percent;
-
-impl runtime::Point for AnalogOutput2ValueAt100Percent {
-    type Raw = i16;
-    type Value = f64;
-    const NAME: &'static str = "analog_output_2_value_at_100_percent";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x00C5;
-    const DECIMALS: u32 = 2;
-    const RAW_MIN: i16 = -9999;
-    const RAW_MAX: i16 = 9999;
-}
-
-impl runtime::Whole for AnalogOutput2ValueAt100Percent {}
-
-impl runtime::can::Parameter for AnalogOutput2ValueAt100Percent {}
-
-impl runtime::Scaled for AnalogOutput2ValueAt100Percent {
-    type Factors = with::AnalogOutput2ValueAt100Percent;
-
-    #[inline]
-    fn rule(with: Self::Factors) -> Result<runtime::Rule, runtime::Error> {
-        let held = with.analog_output_2_source;
-        if runtime::Raw::to_i64(held) == 1 {
-            let rule = runtime::Rule::new(1, 1);
-            return Ok(rule);
-        }
-        let held = with.analog_output_2_source;
-        if runtime::Raw::to_i64(held) == 2 {
-            let rule = runtime::Rule::new(100, 1);
-            return Ok(rule);
-        }
-        let held = with.analog_output_2_source;
-        if runtime::Raw::to_i64(held) == 3 {
-            let rule = runtime::Rule::new(100, 1);
-            return Ok(rule);
-        }
-        let held = with.analog_output_2_source;
-        if runtime::Raw::to_i64(held) == 4 {
-            let rule = runtime::Rule::new(1, 1);
-            return Ok(rule);
-        }
-        let held = with.analog_output_2_source;
-        if runtime::Raw::to_i64(held) == 5 {
-            let rule = runtime::Rule::new(1, 1);
-            return Ok(rule);
-        }
-        let held = with.analog_output_2_source;
-        if runtime::Raw::to_i64(held) == 6 {
-            let rule = runtime::Rule::new(1, 1);
-            return Ok(rule);
-        }
-        let held = with.analog_output_2_source;
-        if runtime::Raw::to_i64(held) == 7 {
-            let rule = runtime::Rule::new(1, 1);
-            return Ok(rule);
-        }
-        let held = with.analog_output_2_source;
-        if runtime::Raw::to_i64(held) == 8 {
-            let rule = runtime::Rule::new(1, 1);
-            return Ok(rule);
-        }
-        let held = with.analog_output_2_source;
-        if runtime::Raw::to_i64(held) == 9 {
-            let rule = runtime::Rule::new(1, 1);
-            return Ok(rule);
-        }
-        let held = with.analog_output_2_source;
-        if runtime::Raw::to_i64(held) == 10 {
-            let rule = runtime::Rule::new(1, 1);
-            return Ok(rule);
-        }
-        let held = with.analog_output_2_source;
-        if runtime::Raw::to_i64(held) == 19 {
-            let rule = runtime::Rule::new(1, 1);
-            return Ok(rule);
-        }
-        let held = with.analog_output_2_source;
-        if runtime::Raw::to_i64(held) == 20 {
-            let rule = runtime::Rule::new(1, 1);
-            return Ok(rule);
-        }
-        let held = with.analog_output_2_source;
-        if runtime::Raw::to_i64(held) == 21 {
-            let rule = runtime::Rule::new(100, 1);
-            return Ok(rule);
-        }
-        let held = with.analog_output_2_source;
-        if runtime::Raw::to_i64(held) == 22 {
-            let rule = runtime::Rule::new(1, 1);
-            return Ok(rule);
-        }
-        Err(runtime::Error::NoCase)
-    }
-}
-
-impl runtime::Readable for AnalogOutput2ValueAt100Percent {
-    type Factors = with::AnalogOutput2ValueAt100Percent;
-    type Output<V> = Result<V, runtime::Error>;
-
-    #[inline]
-    fn decode_with(raw: i16, with: Self::Factors) -> Self::Output<Self::Value> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::CountReadable for AnalogOutput2ValueAt100Percent {
-    type Count = i64;
-
-    #[inline]
-    fn decode_count_with(raw: i16, with: Self::Factors) -> Self::Output<Self::Count> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        rule.decode_count::<100>(runtime::Raw::to_i64(raw))
-    }
-}
-
-impl runtime::Writable for AnalogOutput2ValueAt100Percent {
-    type With = with::AnalogOutput2ValueAt100Percent;
-
-    #[inline]
-    fn check_with(raw: i16, _: Self::With) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, -9999..=9999);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for AnalogOutput2ValueAt100Percent {
-    #[inline]
-    fn encode_with(value: Self::Value, with: Self::With) -> Result<i16, runtime::Error> {
-        let value = arithmetic::number(value)?;
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        arithmetic::nearest::<Self>(rule.encode(value), with)
-    }
-}
-
-impl runtime::CountWritable for AnalogOutput2ValueAt100Percent {
-    type Count = i64;
-
-    #[inline]
-    fn encode_count_with(count: i64, with: Self::With) -> Result<i16, runtime::Error> {
-        let rule = <Self as runtime::Scaled>::rule(with)?;
-        let raw = rule.encode_count::<100>(count)?;
-        arithmetic::store::<Self>(raw, with)
-    }
-}
-
-/// Relay 1 event 1.
-///
-/// At parameter 01B4h (436) bits 15 to 8, `u8`, raw `1..98`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct Relay1Event1;
-
-impl runtime::Point for Relay1Event1 {
-    type Raw = u8;
-    type Value = enums::RelayEvent;
-    const NAME: &'static str = "relay_1_event_1";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x01B4;
-    const FIXED_MASK: u32 = 0x00F8;
-    const FIXED_BITS: u32 = 0x0000;
-    const RAW_MIN: u8 = 1;
-    const RAW_MAX: u8 = 98;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for Relay1Event1 {
-    const SHIFT: u32 = 8;
-    const MASK: u16 = 0xFF00;
-}
-
-impl runtime::can::Parameter for Relay1Event1 {}
-
-impl runtime::Readable for Relay1Event1 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::RelayEvent::from(raw)
-    }
-}
-
-impl runtime::CountReadable for Relay1Event1 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for Relay1Event1 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=98);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for Relay1Event1 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for Relay1Event1 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Relay 1 logic 1.
-///
-/// At parameter 01B4h (436) bits 2 to 0, `u8`, raw `0..7`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct Relay1Logic1;
-
-impl runtime::Point for Relay1Logic1 {
-    type Raw = u8;
-    type Value = flags::Relay1Logic1;
-    const NAME: &'static str = "relay_1_logic_1";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x01B4;
-    const FIXED_MASK: u32 = 0x00F8;
-    const FIXED_BITS: u32 = 0x0000;
-    const RAW_MAX: u8 = 7;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for Relay1Logic1 {
-    const SHIFT: u32 = 0;
-    const MASK: u16 = 0x0007;
-}
-
-impl runtime::can::Parameter for Relay1Logic1 {}
-
-impl runtime::Readable for Relay1Logic1 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        flags::Relay1Logic1::from(raw)
-    }
-}
-
-impl runtime::CountReadable for Relay1Logic1 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for Relay1Logic1 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=7);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for Relay1Logic1 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for Relay1Logic1 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Relay 1 event 2.
-///
-/// At parameter 01B5h (437) bits 15 to 8, `u8`, raw `1..98`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct Relay1Event2;
-
-impl runtime::Point for Relay1Event2 {
-    type Raw = u8;
-    type Value = enums::RelayEvent;
-    const NAME: &'static str = "relay_1_event_2";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x01B5;
-    const FIXED_MASK: u32 = 0x00F8;
-    const FIXED_BITS: u32 = 0x0000;
-    const RAW_MIN: u8 = 1;
-    const RAW_MAX: u8 = 98;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for Relay1Event2 {
-    const SHIFT: u32 = 8;
-    const MASK: u16 = 0xFF00;
-}
-
-impl runtime::can::Parameter for Relay1Event2 {}
-
-impl runtime::Readable for Relay1Event2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::RelayEvent::from(raw)
-    }
-}
-
-impl runtime::CountReadable for Relay1Event2 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for Relay1Event2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=98);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for Relay1Event2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for Relay1Event2 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Relay 1 logic 2.
-///
-/// At parameter 01B5h (437) bits 2 to 0, `u8`, raw `0..7`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct Relay1Logic2;
-
-impl runtime::Point for Relay1Logic2 {
-    type Raw = u8;
-    type Value = flags::Relay1Logic2;
-    const NAME: &'static str = "relay_1_logic_2";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x01B5;
-    const FIXED_MASK: u32 = 0x00F8;
-    const FIXED_BITS: u32 = 0x0000;
-    const RAW_MAX: u8 = 7;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for Relay1Logic2 {
-    const SHIFT: u32 = 0;
-    const MASK: u16 = 0x0007;
-}
-
-impl runtime::can::Parameter for Relay1Logic2 {}
-
-impl runtime::Readable for Relay1Logic2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        flags::Relay1Logic2::from(raw)
-    }
-}
-
-impl runtime::CountReadable for Relay1Logic2 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for Relay1Logic2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=7);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for Relay1Logic2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for Relay1Logic2 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Relay 1 event 3.
-///
-/// At parameter 01B6h (438) bits 15 to 8, `u8`, raw `1..98`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct Relay1Event3;
-
-impl runtime::Point for Relay1Event3 {
-    type Raw = u8;
-    type Value = enums::RelayEvent;
-    const NAME: &'static str = "relay_1_event_3";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x01B6;
-    const FIXED_MASK: u32 = 0x00F8;
-    const FIXED_BITS: u32 = 0x0000;
-    const RAW_MIN: u8 = 1;
-    const RAW_MAX: u8 = 98;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for Relay1Event3 {
-    const SHIFT: u32 = 8;
-    const MASK: u16 = 0xFF00;
-}
-
-impl runtime::can::Parameter for Relay1Event3 {}
-
-impl runtime::Readable for Relay1Event3 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::RelayEvent::from(raw)
-    }
-}
-
-impl runtime::CountReadable for Relay1Event3 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for Relay1Event3 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=98);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for Relay1Event3 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for Relay1Event3 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Relay 1 logic 3.
-///
-/// At parameter 01B6h (438) bits 2 to 0, `u8`, raw `0..7`, read and write.
-///
-/// Errata: `relay_last_word`.
-#[derive(Clone, Copy, Debug)]
-pub struct Relay1Logic3;
-
-impl runtime::Point for Relay1Logic3 {
-    type Raw = u8;
-    type Value = flags::Relay1Logic3;
-    const NAME: &'static str = "relay_1_logic_3";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x01B6;
-    const FIXED_MASK: u32 = 0x00F8;
-    const FIXED_BITS: u32 = 0x0000;
-    const RAW_MAX: u8 = 7;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for Relay1Logic3 {
-    const SHIFT: u32 = 0;
-    const MASK: u16 = 0x0007;
-}
-
-impl runtime::can::Parameter for Relay1Logic3 {}
-
-impl runtime::Readable for Relay1Logic3 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        flags::Relay1Logic3::from(raw)
-    }
-}
-
-impl runtime::CountReadable for Relay1Logic3 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for Relay1Logic3 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=7);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for Relay1Logic3 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for Relay1Logic3 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Relay 2 event 1.
-///
-/// At parameter 01B7h (439) bits 15 to 8, `u8`, raw `1..98`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct Relay2Event1;
-
-impl runtime::Point for Relay2Event1 {
-    type Raw = u8;
-    type Value = enums::RelayEvent;
-    const NAME: &'static str = "relay_2_event_1";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x01B7;
-    const FIXED_MASK: u32 = 0x00F8;
-    const FIXED_BITS: u32 = 0x0000;
-    const RAW_MIN: u8 = 1;
-    const RAW_MAX: u8 = 98;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for Relay2Event1 {
-    const SHIFT: u32 = 8;
-    const MASK: u16 = 0xFF00;
-}
-
-impl runtime::can::Parameter for Relay2Event1 {}
-
-impl runtime::Readable for Relay2Event1 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::RelayEvent::from(raw)
-    }
-}
-
-impl runtime::CountReadable for Relay2Event1 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for Relay2Event1 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=98);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for Relay2Event1 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for Relay2Event1 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Relay 2 logic 1.
-///
-/// At parameter 01B7h (439) bits 2 to 0, `u8`, raw `0..7`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct Relay2Logic1;
-
-impl runtime::Point for Relay2Logic1 {
-    type Raw = u8;
-    type Value = flags::Relay2Logic1;
-    const NAME: &'static str = "relay_2_logic_1";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x01B7;
-    const FIXED_MASK: u32 = 0x00F8;
-    const FIXED_BITS: u32 = 0x0000;
-    const RAW_MAX: u8 = 7;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for Relay2Logic1 {
-    const SHIFT: u32 = 0;
-    const MASK: u16 = 0x0007;
-}
-
-impl runtime::can::Parameter for Relay2Logic1 {}
-
-impl runtime::Readable for Relay2Logic1 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        flags::Relay2Logic1::from(raw)
-    }
-}
-
-impl runtime::CountReadable for Relay2Logic1 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for Relay2Logic1 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=7);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for Relay2Logic1 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for Relay2Logic1 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Relay 2 event 2.
-///
-/// At parameter 01B8h (440) bits 15 to 8, `u8`, raw `1..98`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct Relay2Event2;
-
-impl runtime::Point for Relay2Event2 {
-    type Raw = u8;
-    type Value = enums::RelayEvent;
-    const NAME: &'static str = "relay_2_event_2";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x01B8;
-    const FIXED_MASK: u32 = 0x00F8;
-    const FIXED_BITS: u32 = 0x0000;
-    const RAW_MIN: u8 = 1;
-    const RAW_MAX: u8 = 98;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for Relay2Event2 {
-    const SHIFT: u32 = 8;
-    const MASK: u16 = 0xFF00;
-}
-
-impl runtime::can::Parameter for Relay2Event2 {}
-
-impl runtime::Readable for Relay2Event2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::RelayEvent::from(raw)
-    }
-}
-
-impl runtime::CountReadable for Relay2Event2 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for Relay2Event2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=98);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for Relay2Event2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for Relay2Event2 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Relay 2 logic 2.
-///
-/// At parameter 01B8h (440) bits 2 to 0, `u8`, raw `0..7`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct Relay2Logic2;
-
-impl runtime::Point for Relay2Logic2 {
-    type Raw = u8;
-    type Value = flags::Relay2Logic2;
-    const NAME: &'static str = "relay_2_logic_2";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x01B8;
-    const FIXED_MASK: u32 = 0x00F8;
-    const FIXED_BITS: u32 = 0x0000;
-    const RAW_MAX: u8 = 7;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for Relay2Logic2 {
-    const SHIFT: u32 = 0;
-    const MASK: u16 = 0x0007;
-}
-
-impl runtime::can::Parameter for Relay2Logic2 {}
-
-impl runtime::Readable for Relay2Logic2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        flags::Relay2Logic2::from(raw)
-    }
-}
-
-impl runtime::CountReadable for Relay2Logic2 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for Relay2Logic2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=7);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for Relay2Logic2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for Relay2Logic2 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Relay 2 event 3.
-///
-/// At parameter 01B9h (441) bits 15 to 8, `u8`, raw `1..98`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct Relay2Event3;
-
-impl runtime::Point for Relay2Event3 {
-    type Raw = u8;
-    type Value = enums::RelayEvent;
-    const NAME: &'static str = "relay_2_event_3";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x01B9;
-    const FIXED_MASK: u32 = 0x00F8;
-    const FIXED_BITS: u32 = 0x0000;
-    const RAW_MIN: u8 = 1;
-    const RAW_MAX: u8 = 98;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for Relay2Event3 {
-    const SHIFT: u32 = 8;
-    const MASK: u16 = 0xFF00;
-}
-
-impl runtime::can::Parameter for Relay2Event3 {}
-
-impl runtime::Readable for Relay2Event3 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::RelayEvent::from(raw)
-    }
-}
-
-impl runtime::CountReadable for Relay2Event3 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for Relay2Event3 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=98);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for Relay2Event3 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for Relay2Event3 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Relay 2 logic 3.
-///
-/// At parameter 01B9h (441) bits 2 to 0, `u8`, raw `0..7`, read and write.
-///
-/// Errata: `relay_last_word`.
-#[derive(Clone, Copy, Debug)]
-pub struct Relay2Logic3;
-
-impl runtime::Point for Relay2Logic3 {
-    type Raw = u8;
-    type Value = flags::Relay2Logic3;
-    const NAME: &'static str = "relay_2_logic_3";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x01B9;
-    const FIXED_MASK: u32 = 0x00F8;
-    const FIXED_BITS: u32 = 0x0000;
-    const RAW_MAX: u8 = 7;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for Relay2Logic3 {
-    const SHIFT: u32 = 0;
-    const MASK: u16 = 0x0007;
-}
-
-impl runtime::can::Parameter for Relay2Logic3 {}
-
-impl runtime::Readable for Relay2Logic3 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        flags::Relay2Logic3::from(raw)
-    }
-}
-
-impl runtime::CountReadable for Relay2Logic3 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for Relay2Logic3 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=7);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for Relay2Logic3 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for Relay2Logic3 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Relay 3 event 1.
-///
-/// At parameter 01BAh (442) bits 15 to 8, `u8`, raw `1..98`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct Relay3Event1;
-
-impl runtime::Point for Relay3Event1 {
-    type Raw = u8;
-    type Value = enums::RelayEvent;
-    const NAME: &'static str = "relay_3_event_1";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x01BA;
-    const FIXED_MASK: u32 = 0x00F8;
-    const FIXED_BITS: u32 = 0x0000;
-    const RAW_MIN: u8 = 1;
-    const RAW_MAX: u8 = 98;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for Relay3Event1 {
-    const SHIFT: u32 = 8;
-    const MASK: u16 = 0xFF00;
-}
-
-impl runtime::can::Parameter for Relay3Event1 {}
-
-impl runtime::Readable for Relay3Event1 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::RelayEvent::from(raw)
-    }
-}
-
-impl runtime::CountReadable for Relay3Event1 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for Relay3Event1 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=98);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for Relay3Event1 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for Relay3Event1 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Relay 3 logic 1.
-///
-/// At parameter 01BAh (442) bits 2 to 0, `u8`, raw `0..7`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct Relay3Logic1;
-
-impl runtime::Point for Relay3Logic1 {
-    type Raw = u8;
-    type Value = flags::Relay3Logic1;
-    const NAME: &'static str = "relay_3_logic_1";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x01BA;
-    const FIXED_MASK: u32 = 0x00F8;
-    const FIXED_BITS: u32 = 0x0000;
-    const RAW_MAX: u8 = 7;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for Relay3Logic1 {
-    const SHIFT: u32 = 0;
-    const MASK: u16 = 0x0007;
-}
-
-impl runtime::can::Parameter for Relay3Logic1 {}
-
-impl runtime::Readable for Relay3Logic1 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        flags::Relay3Logic1::from(raw)
-    }
-}
-
-impl runtime::CountReadable for Relay3Logic1 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for Relay3Logic1 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=7);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for Relay3Logic1 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for Relay3Logic1 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Relay 3 event 2.
-///
-/// At parameter 01BBh (443) bits 15 to 8, `u8`, raw `1..98`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct Relay3Event2;
-
-impl runtime::Point for Relay3Event2 {
-    type Raw = u8;
-    type Value = enums::RelayEvent;
-    const NAME: &'static str = "relay_3_event_2";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x01BB;
-    const FIXED_MASK: u32 = 0x00F8;
-    const FIXED_BITS: u32 = 0x0000;
-    const RAW_MIN: u8 = 1;
-    const RAW_MAX: u8 = 98;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for Relay3Event2 {
-    const SHIFT: u32 = 8;
-    const MASK: u16 = 0xFF00;
-}
-
-impl runtime::can::Parameter for Relay3Event2 {}
-
-impl runtime::Readable for Relay3Event2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::RelayEvent::from(raw)
-    }
-}
-
-impl runtime::CountReadable for Relay3Event2 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for Relay3Event2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=98);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for Relay3Event2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for Relay3Event2 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Relay 3 logic 2.
-///
-/// At parameter 01BBh (443) bits 2 to 0, `u8`, raw `0..7`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct Relay3Logic2;
-
-impl runtime::Point for Relay3Logic2 {
-    type Raw = u8;
-    type Value = flags::Relay3Logic2;
-    const NAME: &'static str = "relay_3_logic_2";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x01BB;
-    const FIXED_MASK: u32 = 0x00F8;
-    const FIXED_BITS: u32 = 0x0000;
-    const RAW_MAX: u8 = 7;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for Relay3Logic2 {
-    const SHIFT: u32 = 0;
-    const MASK: u16 = 0x0007;
-}
-
-impl runtime::can::Parameter for Relay3Logic2 {}
-
-impl runtime::Readable for Relay3Logic2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        flags::Relay3Logic2::from(raw)
-    }
-}
-
-impl runtime::CountReadable for Relay3Logic2 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for Relay3Logic2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=7);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for Relay3Logic2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for Relay3Logic2 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Relay 3 event 3.
-///
-/// At parameter 01BCh (444) bits 15 to 8, `u8`, raw `1..98`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct Relay3Event3;
-
-impl runtime::Point for Relay3Event3 {
-    type Raw = u8;
-    type Value = enums::RelayEvent;
-    const NAME: &'static str = "relay_3_event_3";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x01BC;
-    const FIXED_MASK: u32 = 0x00F8;
-    const FIXED_BITS: u32 = 0x0000;
-    const RAW_MIN: u8 = 1;
-    const RAW_MAX: u8 = 98;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for Relay3Event3 {
-    const SHIFT: u32 = 8;
-    const MASK: u16 = 0xFF00;
-}
-
-impl runtime::can::Parameter for Relay3Event3 {}
-
-impl runtime::Readable for Relay3Event3 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::RelayEvent::from(raw)
-    }
-}
-
-impl runtime::CountReadable for Relay3Event3 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for Relay3Event3 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=98);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for Relay3Event3 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for Relay3Event3 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Relay 3 logic 3.
-///
-/// At parameter 01BCh (444) bits 2 to 0, `u8`, raw `0..7`, read and write.
-///
-/// Errata: `relay_last_word`.
-#[derive(Clone, Copy, Debug)]
-pub struct Relay3Logic3;
-
-impl runtime::Point for Relay3Logic3 {
-    type Raw = u8;
-    type Value = flags::Relay3Logic3;
-    const NAME: &'static str = "relay_3_logic_3";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x01BC;
-    const FIXED_MASK: u32 = 0x00F8;
-    const FIXED_BITS: u32 = 0x0000;
-    const RAW_MAX: u8 = 7;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for Relay3Logic3 {
-    const SHIFT: u32 = 0;
-    const MASK: u16 = 0x0007;
-}
-
-impl runtime::can::Parameter for Relay3Logic3 {}
-
-impl runtime::Readable for Relay3Logic3 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        flags::Relay3Logic3::from(raw)
-    }
-}
-
-impl runtime::CountReadable for Relay3Logic3 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for Relay3Logic3 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=7);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for Relay3Logic3 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for Relay3Logic3 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Relay 4 event 1.
-///
-/// At parameter 01BDh (445) bits 15 to 8, `u8`, raw `1..98`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct Relay4Event1;
-
-impl runtime::Point for Relay4Event1 {
-    type Raw = u8;
-    type Value = enums::RelayEvent;
-    const NAME: &'static str = "relay_4_event_1";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x01BD;
-    const FIXED_MASK: u32 = 0x00F8;
-    const FIXED_BITS: u32 = 0x0000;
-    const RAW_MIN: u8 = 1;
-    const RAW_MAX: u8 = 98;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for Relay4Event1 {
-    const SHIFT: u32 = 8;
-    const MASK: u16 = 0xFF00;
-}
-
-impl runtime::can::Parameter for Relay4Event1 {}
-
-impl runtime::Readable for Relay4Event1 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::RelayEvent::from(raw)
-    }
-}
-
-impl runtime::CountReadable for Relay4Event1 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for Relay4Event1 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=98);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for Relay4Event1 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for Relay4Event1 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Relay 4 logic 1.
-///
-/// At parameter 01BDh (445) bits 2 to 0, `u8`, raw `0..7`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct Relay4Logic1;
-
-impl runtime::Point for Relay4Logic1 {
-    type Raw = u8;
-    type Value = flags::Relay4Logic1;
-    const NAME: &'static str = "relay_4_logic_1";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x01BD;
-    const FIXED_MASK: u32 = 0x00F8;
-    const FIXED_BITS: u32 = 0x0000;
-    const RAW_MAX: u8 = 7;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for Relay4Logic1 {
-    const SHIFT: u32 = 0;
-    const MASK: u16 = 0x0007;
-}
-
-impl runtime::can::Parameter for Relay4Logic1 {}
-
-impl runtime::Readable for Relay4Logic1 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        flags::Relay4Logic1::from(raw)
-    }
-}
-
-impl runtime::CountReadable for Relay4Logic1 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for Relay4Logic1 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=7);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for Relay4Logic1 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for Relay4Logic1 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Relay 4 event 2.
-///
-/// At parameter 01BEh (446) bits 15 to 8, `u8`, raw `1..98`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct Relay4Event2;
-
-impl runtime::Point for Relay4Event2 {
-    type Raw = u8;
-    type Value = enums::RelayEvent;
-    const NAME: &'static str = "relay_4_event_2";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x01BE;
-    const FIXED_MASK: u32 = 0x00F8;
-    const FIXED_BITS: u32 = 0x0000;
-    const RAW_MIN: u8 = 1;
-    const RAW_MAX: u8 = 98;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for Relay4Event2 {
-    const SHIFT: u32 = 8;
-    const MASK: u16 = 0xFF00;
-}
-
-impl runtime::can::Parameter for Relay4Event2 {}
-
-impl runtime::Readable for Relay4Event2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::RelayEvent::from(raw)
-    }
-}
-
-impl runtime::CountReadable for Relay4Event2 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for Relay4Event2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=98);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for Relay4Event2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for Relay4Event2 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Relay 4 logic 2.
-///
-/// At parameter 01BEh (446) bits 2 to 0, `u8`, raw `0..7`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct Relay4Logic2;
-
-impl runtime::Point for Relay4Logic2 {
-    type Raw = u8;
-    type Value = flags::Relay4Logic2;
-    const NAME: &'static str = "relay_4_logic_2";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x01BE;
-    const FIXED_MASK: u32 = 0x00F8;
-    const FIXED_BITS: u32 = 0x0000;
-    const RAW_MAX: u8 = 7;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for Relay4Logic2 {
-    const SHIFT: u32 = 0;
-    const MASK: u16 = 0x0007;
-}
-
-impl runtime::can::Parameter for Relay4Logic2 {}
-
-impl runtime::Readable for Relay4Logic2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        flags::Relay4Logic2::from(raw)
-    }
-}
-
-impl runtime::CountReadable for Relay4Logic2 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for Relay4Logic2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=7);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for Relay4Logic2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for Relay4Logic2 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Relay 4 event 3.
-///
-/// At parameter 01BFh (447) bits 15 to 8, `u8`, raw `1..98`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct Relay4Event3;
-
-impl runtime::Point for Relay4Event3 {
-    type Raw = u8;
-    type Value = enums::RelayEvent;
-    const NAME: &'static str = "relay_4_event_3";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x01BF;
-    const FIXED_MASK: u32 = 0x00F8;
-    const FIXED_BITS: u32 = 0x0000;
-    const RAW_MIN: u8 = 1;
-    const RAW_MAX: u8 = 98;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for Relay4Event3 {
-    const SHIFT: u32 = 8;
-    const MASK: u16 = 0xFF00;
-}
-
-impl runtime::can::Parameter for Relay4Event3 {}
-
-impl runtime::Readable for Relay4Event3 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::RelayEvent::from(raw)
-    }
-}
-
-impl runtime::CountReadable for Relay4Event3 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for Relay4Event3 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=98);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for Relay4Event3 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for Relay4Event3 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Relay 4 logic 3.
-///
-/// At parameter 01BFh (447) bits 2 to 0, `u8`, raw `0..7`, read and write.
-///
-/// Errata: `relay_last_word`.
-#[derive(Clone, Copy, Debug)]
-pub struct Relay4Logic3;
-
-impl runtime::Point for Relay4Logic3 {
-    type Raw = u8;
-    type Value = flags::Relay4Logic3;
-    const NAME: &'static str = "relay_4_logic_3";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x01BF;
-    const FIXED_MASK: u32 = 0x00F8;
-    const FIXED_BITS: u32 = 0x0000;
-    const RAW_MAX: u8 = 7;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for Relay4Logic3 {
-    const SHIFT: u32 = 0;
-    const MASK: u16 = 0x0007;
-}
-
-impl runtime::can::Parameter for Relay4Logic3 {}
-
-impl runtime::Readable for Relay4Logic3 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        flags::Relay4Logic3::from(raw)
-    }
-}
-
-impl runtime::CountReadable for Relay4Logic3 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for Relay4Logic3 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=7);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for Relay4Logic3 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for Relay4Logic3 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Relay 5 event 1.
-///
-/// At parameter 01C0h (448) bits 15 to 8, `u8`, raw `1..98`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct Relay5Event1;
-
-impl runtime::Point for Relay5Event1 {
-    type Raw = u8;
-    type Value = enums::RelayEvent;
-    const NAME: &'static str = "relay_5_event_1";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x01C0;
-    const FIXED_MASK: u32 = 0x00F8;
-    const FIXED_BITS: u32 = 0x0000;
-    const RAW_MIN: u8 = 1;
-    const RAW_MAX: u8 = 98;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for Relay5Event1 {
-    const SHIFT: u32 = 8;
-    const MASK: u16 = 0xFF00;
-}
-
-impl runtime::can::Parameter for Relay5Event1 {}
-
-impl runtime::Readable for Relay5Event1 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::RelayEvent::from(raw)
-    }
-}
-
-impl runtime::CountReadable for Relay5Event1 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for Relay5Event1 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=98);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for Relay5Event1 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for Relay5Event1 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Relay 5 logic 1.
-///
-/// At parameter 01C0h (448) bits 2 to 0, `u8`, raw `0..7`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct Relay5Logic1;
-
-impl runtime::Point for Relay5Logic1 {
-    type Raw = u8;
-    type Value = flags::Relay5Logic1;
-    const NAME: &'static str = "relay_5_logic_1";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x01C0;
-    const FIXED_MASK: u32 = 0x00F8;
-    const FIXED_BITS: u32 = 0x0000;
-    const RAW_MAX: u8 = 7;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for Relay5Logic1 {
-    const SHIFT: u32 = 0;
-    const MASK: u16 = 0x0007;
-}
-
-impl runtime::can::Parameter for Relay5Logic1 {}
-
-impl runtime::Readable for Relay5Logic1 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        flags::Relay5Logic1::from(raw)
-    }
-}
-
-impl runtime::CountReadable for Relay5Logic1 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for Relay5Logic1 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=7);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for Relay5Logic1 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for Relay5Logic1 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Relay 5 event 2.
-///
-/// At parameter 01C1h (449) bits 15 to 8, `u8`, raw `1..98`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct Relay5Event2;
-
-impl runtime::Point for Relay5Event2 {
-    type Raw = u8;
-    type Value = enums::RelayEvent;
-    const NAME: &'static str = "relay_5_event_2";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x01C1;
-    const FIXED_MASK: u32 = 0x00F8;
-    const FIXED_BITS: u32 = 0x0000;
-    const RAW_MIN: u8 = 1;
-    const RAW_MAX: u8 = 98;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for Relay5Event2 {
-    const SHIFT: u32 = 8;
-    const MASK: u16 = 0xFF00;
-}
-
-impl runtime::can::Parameter for Relay5Event2 {}
-
-impl runtime::Readable for Relay5Event2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::RelayEvent::from(raw)
-    }
-}
-
-impl runtime::CountReadable for Relay5Event2 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for Relay5Event2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=98);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for Relay5Event2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for Relay5Event2 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Relay 5 logic 2.
-///
-/// At parameter 01C1h (449) bits 2 to 0, `u8`, raw `0..7`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct Relay5Logic2;
-
-impl runtime::Point for Relay5Logic2 {
-    type Raw = u8;
-    type Value = flags::Relay5Logic2;
-    const NAME: &'static str = "relay_5_logic_2";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x01C1;
-    const FIXED_MASK: u32 = 0x00F8;
-    const FIXED_BITS: u32 = 0x0000;
-    const RAW_MAX: u8 = 7;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for Relay5Logic2 {
-    const SHIFT: u32 = 0;
-    const MASK: u16 = 0x0007;
-}
-
-impl runtime::can::Parameter for Relay5Logic2 {}
-
-impl runtime::Readable for Relay5Logic2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        flags::Relay5Logic2::from(raw)
-    }
-}
-
-impl runtime::CountReadable for Relay5Logic2 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for Relay5Logic2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=7);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for Relay5Logic2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for Relay5Logic2 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Relay 5 event 3.
-///
-/// At parameter 01C2h (450) bits 15 to 8, `u8`, raw `1..98`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct Relay5Event3;
-
-impl runtime::Point for Relay5Event3 {
-    type Raw = u8;
-    type Value = enums::RelayEvent;
-    const NAME: &'static str = "relay_5_event_3";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x01C2;
-    const FIXED_MASK: u32 = 0x00F8;
-    const FIXED_BITS: u32 = 0x0000;
-    const RAW_MIN: u8 = 1;
-    const RAW_MAX: u8 = 98;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for Relay5Event3 {
-    const SHIFT: u32 = 8;
-    const MASK: u16 = 0xFF00;
-}
-
-impl runtime::can::Parameter for Relay5Event3 {}
-
-impl runtime::Readable for Relay5Event3 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::RelayEvent::from(raw)
-    }
-}
-
-impl runtime::CountReadable for Relay5Event3 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for Relay5Event3 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=98);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for Relay5Event3 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for Relay5Event3 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Relay 5 logic 3.
-///
-/// At parameter 01C2h (450) bits 2 to 0, `u8`, raw `0..7`, read and write.
-///
-/// Errata: `relay_last_word`.
-#[derive(Clone, Copy, Debug)]
-pub struct Relay5Logic3;
-
-impl runtime::Point for Relay5Logic3 {
-    type Raw = u8;
-    type Value = flags::Relay5Logic3;
-    const NAME: &'static str = "relay_5_logic_3";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x01C2;
-    const FIXED_MASK: u32 = 0x00F8;
-    const FIXED_BITS: u32 = 0x0000;
-    const RAW_MAX: u8 = 7;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for Relay5Logic3 {
-    const SHIFT: u32 = 0;
-    const MASK: u16 = 0x0007;
-}
-
-impl runtime::can::Parameter for Relay5Logic3 {}
-
-impl runtime::Readable for Relay5Logic3 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        flags::Relay5Logic3::from(raw)
-    }
-}
-
-impl runtime::CountReadable for Relay5Logic3 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for Relay5Logic3 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=7);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for Relay5Logic3 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for Relay5Logic3 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Relay 6 event 1.
-///
-/// At parameter 01C3h (451) bits 15 to 8, `u8`, raw `1..98`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct Relay6Event1;
-
-impl runtime::Point for Relay6Event1 {
-    type Raw = u8;
-    type Value = enums::RelayEvent;
-    const NAME: &'static str = "relay_6_event_1";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x01C3;
-    const FIXED_MASK: u32 = 0x00F8;
-    const FIXED_BITS: u32 = 0x0000;
-    const RAW_MIN: u8 = 1;
-    const RAW_MAX: u8 = 98;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for Relay6Event1 {
-    const SHIFT: u32 = 8;
-    const MASK: u16 = 0xFF00;
-}
-
-impl runtime::can::Parameter for Relay6Event1 {}
-
-impl runtime::Readable for Relay6Event1 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::RelayEvent::from(raw)
-    }
-}
-
-impl runtime::CountReadable for Relay6Event1 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for Relay6Event1 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=98);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for Relay6Event1 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for Relay6Event1 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Relay 6 logic 1.
-///
-/// At parameter 01C3h (451) bits 2 to 0, `u8`, raw `0..7`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct Relay6Logic1;
-
-impl runtime::Point for Relay6Logic1 {
-    type Raw = u8;
-    type Value = flags::Relay6Logic1;
-    const NAME: &'static str = "relay_6_logic_1";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x01C3;
-    const FIXED_MASK: u32 = 0x00F8;
-    const FIXED_BITS: u32 = 0x0000;
-    const RAW_MAX: u8 = 7;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for Relay6Logic1 {
-    const SHIFT: u32 = 0;
-    const MASK: u16 = 0x0007;
-}
-
-impl runtime::can::Parameter for Relay6Logic1 {}
-
-impl runtime::Readable for Relay6Logic1 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        flags::Relay6Logic1::from(raw)
-    }
-}
-
-impl runtime::CountReadable for Relay6Logic1 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for Relay6Logic1 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=7);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for Relay6Logic1 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for Relay6Logic1 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Relay 6 event 2.
-///
-/// At parameter 01C4h (452) bits 15 to 8, `u8`, raw `1..98`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct Relay6Event2;
-
-impl runtime::Point for Relay6Event2 {
-    type Raw = u8;
-    type Value = enums::RelayEvent;
-    const NAME: &'static str = "relay_6_event_2";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x01C4;
-    const FIXED_MASK: u32 = 0x00F8;
-    const FIXED_BITS: u32 = 0x0000;
-    const RAW_MIN: u8 = 1;
-    const RAW_MAX: u8 = 98;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for Relay6Event2 {
-    const SHIFT: u32 = 8;
-    const MASK: u16 = 0xFF00;
-}
-
-impl runtime::can::Parameter for Relay6Event2 {}
-
-impl runtime::Readable for Relay6Event2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::RelayEvent::from(raw)
-    }
-}
-
-impl runtime::CountReadable for Relay6Event2 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for Relay6Event2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=98);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for Relay6Event2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for Relay6Event2 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Relay 6 logic 2.
-///
-/// At parameter 01C4h (452) bits 2 to 0, `u8`, raw `0..7`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct Relay6Logic2;
-
-impl runtime::Point for Relay6Logic2 {
-    type Raw = u8;
-    type Value = flags::Relay6Logic2;
-    const NAME: &'static str = "relay_6_logic_2";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x01C4;
-    const FIXED_MASK: u32 = 0x00F8;
-    const FIXED_BITS: u32 = 0x0000;
-    const RAW_MAX: u8 = 7;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for Relay6Logic2 {
-    const SHIFT: u32 = 0;
-    const MASK: u16 = 0x0007;
-}
-
-impl runtime::can::Parameter for Relay6Logic2 {}
-
-impl runtime::Readable for Relay6Logic2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        flags::Relay6Logic2::from(raw)
-    }
-}
-
-impl runtime::CountReadable for Relay6Logic2 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for Relay6Logic2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=7);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for Relay6Logic2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for Relay6Logic2 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Relay 6 event 3.
-///
-/// At parameter 01C5h (453) bits 15 to 8, `u8`, raw `1..98`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct Relay6Event3;
-
-impl runtime::Point for Relay6Event3 {
-    type Raw = u8;
-    type Value = enums::RelayEvent;
-    const NAME: &'static str = "relay_6_event_3";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x01C5;
-    const FIXED_MASK: u32 = 0x00F8;
-    const FIXED_BITS: u32 = 0x0000;
-    const RAW_MIN: u8 = 1;
-    const RAW_MAX: u8 = 98;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for Relay6Event3 {
-    const SHIFT: u32 = 8;
-    const MASK: u16 = 0xFF00;
-}
-
-impl runtime::can::Parameter for Relay6Event3 {}
-
-impl runtime::Readable for Relay6Event3 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::RelayEvent::from(raw)
-    }
-}
-
-impl runtime::CountReadable for Relay6Event3 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for Relay6Event3 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=98);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for Relay6Event3 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for Relay6Event3 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Relay 6 logic 3.
-///
-/// At parameter 01C5h (453) bits 2 to 0, `u8`, raw `0..7`, read and write.
-///
-/// Errata: `relay_last_word`.
-#[derive(Clone, Copy, Debug)]
-pub struct Relay6Logic3;
-
-impl runtime::Point for Relay6Logic3 {
-    type Raw = u8;
-    type Value = flags::Relay6Logic3;
-    const NAME: &'static str = "relay_6_logic_3";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x01C5;
-    const FIXED_MASK: u32 = 0x00F8;
-    const FIXED_BITS: u32 = 0x0000;
-    const RAW_MAX: u8 = 7;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for Relay6Logic3 {
-    const SHIFT: u32 = 0;
-    const MASK: u16 = 0x0007;
-}
-
-impl runtime::can::Parameter for Relay6Logic3 {}
-
-impl runtime::Readable for Relay6Logic3 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        flags::Relay6Logic3::from(raw)
-    }
-}
-
-impl runtime::CountReadable for Relay6Logic3 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for Relay6Logic3 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=7);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for Relay6Logic3 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for Relay6Logic3 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Relay 7 event 1.
-///
-/// At parameter 01C6h (454) bits 15 to 8, `u8`, raw `1..98`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct Relay7Event1;
-
-impl runtime::Point for Relay7Event1 {
-    type Raw = u8;
-    type Value = enums::RelayEvent;
-    const NAME: &'static str = "relay_7_event_1";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x01C6;
-    const FIXED_MASK: u32 = 0x00F8;
-    const FIXED_BITS: u32 = 0x0000;
-    const RAW_MIN: u8 = 1;
-    const RAW_MAX: u8 = 98;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for Relay7Event1 {
-    const SHIFT: u32 = 8;
-    const MASK: u16 = 0xFF00;
-}
-
-impl runtime::can::Parameter for Relay7Event1 {}
-
-impl runtime::Readable for Relay7Event1 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::RelayEvent::from(raw)
-    }
-}
-
-impl runtime::CountReadable for Relay7Event1 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for Relay7Event1 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=98);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for Relay7Event1 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for Relay7Event1 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Relay 7 logic 1.
-///
-/// At parameter 01C6h (454) bits 2 to 0, `u8`, raw `0..7`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct Relay7Logic1;
-
-impl runtime::Point for Relay7Logic1 {
-    type Raw = u8;
-    type Value = flags::Relay7Logic1;
-    const NAME: &'static str = "relay_7_logic_1";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x01C6;
-    const FIXED_MASK: u32 = 0x00F8;
-    const FIXED_BITS: u32 = 0x0000;
-    const RAW_MAX: u8 = 7;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for Relay7Logic1 {
-    const SHIFT: u32 = 0;
-    const MASK: u16 = 0x0007;
-}
-
-impl runtime::can::Parameter for Relay7Logic1 {}
-
-impl runtime::Readable for Relay7Logic1 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        flags::Relay7Logic1::from(raw)
-    }
-}
-
-impl runtime::CountReadable for Relay7Logic1 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for Relay7Logic1 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=7);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for Relay7Logic1 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for Relay7Logic1 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Relay 7 event 2.
-///
-/// At parameter 01C7h (455) bits 15 to 8, `u8`, raw `1..98`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct Relay7Event2;
-
-impl runtime::Point for Relay7Event2 {
-    type Raw = u8;
-    type Value = enums::RelayEvent;
-    const NAME: &'static str = "relay_7_event_2";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x01C7;
-    const FIXED_MASK: u32 = 0x00F8;
-    const FIXED_BITS: u32 = 0x0000;
-    const RAW_MIN: u8 = 1;
-    const RAW_MAX: u8 = 98;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for Relay7Event2 {
-    const SHIFT: u32 = 8;
-    const MASK: u16 = 0xFF00;
-}
-
-impl runtime::can::Parameter for Relay7Event2 {}
-
-impl runtime::Readable for Relay7Event2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::RelayEvent::from(raw)
-    }
-}
-
-impl runtime::CountReadable for Relay7Event2 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for Relay7Event2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=98);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for Relay7Event2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for Relay7Event2 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Relay 7 logic 2.
-///
-/// At parameter 01C7h (455) bits 2 to 0, `u8`, raw `0..7`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct Relay7Logic2;
-
-impl runtime::Point for Relay7Logic2 {
-    type Raw = u8;
-    type Value = flags::Relay7Logic2;
-    const NAME: &'static str = "relay_7_logic_2";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x01C7;
-    const FIXED_MASK: u32 = 0x00F8;
-    const FIXED_BITS: u32 = 0x0000;
-    const RAW_MAX: u8 = 7;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for Relay7Logic2 {
-    const SHIFT: u32 = 0;
-    const MASK: u16 = 0x0007;
-}
-
-impl runtime::can::Parameter for Relay7Logic2 {}
-
-impl runtime::Readable for Relay7Logic2 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        flags::Relay7Logic2::from(raw)
-    }
-}
-
-impl runtime::CountReadable for Relay7Logic2 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for Relay7Logic2 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=7);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for Relay7Logic2 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for Relay7Logic2 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Relay 7 event 3.
-///
-/// At parameter 01C8h (456) bits 15 to 8, `u8`, raw `1..98`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct Relay7Event3;
-
-impl runtime::Point for Relay7Event3 {
-    type Raw = u8;
-    type Value = enums::RelayEvent;
-    const NAME: &'static str = "relay_7_event_3";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x01C8;
-    const FIXED_MASK: u32 = 0x00F8;
-    const FIXED_BITS: u32 = 0x0000;
-    const RAW_MIN: u8 = 1;
-    const RAW_MAX: u8 = 98;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for Relay7Event3 {
-    const SHIFT: u32 = 8;
-    const MASK: u16 = 0xFF00;
-}
-
-impl runtime::can::Parameter for Relay7Event3 {}
-
-impl runtime::Readable for Relay7Event3 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::RelayEvent::from(raw)
-    }
-}
-
-impl runtime::CountReadable for Relay7Event3 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for Relay7Event3 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=98);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for Relay7Event3 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for Relay7Event3 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Relay 7 logic 3.
-///
-/// At parameter 01C8h (456) bits 2 to 0, `u8`, raw `0..7`, read and write.
-///
-/// Errata: `relay_last_word`.
-#[derive(Clone, Copy, Debug)]
-pub struct Relay7Logic3;
-
-impl runtime::Point for Relay7Logic3 {
-    type Raw = u8;
-    type Value = flags::Relay7Logic3;
-    const NAME: &'static str = "relay_7_logic_3";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x01C8;
-    const FIXED_MASK: u32 = 0x00F8;
-    const FIXED_BITS: u32 = 0x0000;
-    const RAW_MAX: u8 = 7;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for Relay7Logic3 {
-    const SHIFT: u32 = 0;
-    const MASK: u16 = 0x0007;
-}
-
-impl runtime::can::Parameter for Relay7Logic3 {}
-
-impl runtime::Readable for Relay7Logic3 {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        flags::Relay7Logic3::from(raw)
-    }
-}
-
-impl runtime::CountReadable for Relay7Logic3 {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for Relay7Logic3 {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=7);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for Relay7Logic3 {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for Relay7Logic3 {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Automatic idle control.
-///
-/// At parameter 0012h (18) bits 0 to 0, `bit`, raw `0, 1`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct AutomaticIdleControl;
-
-impl runtime::Point for AutomaticIdleControl {
-    type Raw = u8;
-    type Value = enums::OffOn;
-    const NAME: &'static str = "automatic_idle_control";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0012;
-    const RAW_MAX: u8 = 1;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for AutomaticIdleControl {
-    const SHIFT: u32 = 0;
-    const MASK: u16 = 0x0001;
-}
-
-impl runtime::can::Parameter for AutomaticIdleControl {}
-
-impl runtime::Readable for AutomaticIdleControl {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::OffOn::from(raw)
-    }
-}
-
-impl runtime::CountReadable for AutomaticIdleControl {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for AutomaticIdleControl {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for AutomaticIdleControl {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for AutomaticIdleControl {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Shutdown.
-///
-/// At parameter 00C9h (201) bits 11 to 11, `bit`, raw `0, 1`, read and write.
-///
-/// Errata: `shutdown_bit`.
-#[derive(Clone, Copy, Debug)]
-pub struct Shutdown;
-
-impl runtime::Point for Shutdown {
-    type Raw = u8;
-    type Value = enums::OffOn;
-    const NAME: &'static str = "shutdown";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x00C9;
-    const RAW_MAX: u8 = 1;
-
-    #[inline]
-    fn from_words([word]: [u16; 1]) -> u8 {
-        runtime::Raw::from_words([runtime::group::<Self>(word)])
-    }
-}
-
-impl runtime::BitGroup for Shutdown {
-    const SHIFT: u32 = 11;
-    const MASK: u16 = 0x0800;
-}
-
-impl runtime::can::Parameter for Shutdown {}
-
-impl runtime::Readable for Shutdown {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u8, (): ()) -> Self::Output<Self::Value> {
-        enums::OffOn::from(raw)
-    }
-}
-
-impl runtime::CountReadable for Shutdown {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u8, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for Shutdown {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u8, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 0..=1);
-        runtime::listed(holds)
-    }
-}
-
-impl runtime::Encodable for Shutdown {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u8, runtime::Error> {
-        let raw = u8::from(value);
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for Shutdown {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u8, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::UnknownValue)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Engine monitoring delay.
-///
-/// At parameter 007Ah (122), `u16`, raw `1..99`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct EngineMonitoringDelay;
-
-impl runtime::Point for EngineMonitoringDelay {
-    type Raw = u16;
-    type Value = u16;
-    const NAME: &'static str = "engine_monitoring_delay";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x007A;
-    const UNIT: &'static str = "s";
-    const RAW_MIN: u16 = 1;
-    const RAW_MAX: u16 = 99;
-}
-
-impl runtime::Whole for EngineMonitoringDelay {}
-
-impl runtime::can::Parameter for EngineMonitoringDelay {}
-
-impl runtime::Readable for EngineMonitoringDelay {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        raw
-    }
-}
-
-impl runtime::CountReadable for EngineMonitoringDelay {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        i32::from(raw)
-    }
-}
-
-impl runtime::Writable for EngineMonitoringDelay {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 1..=99);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for EngineMonitoringDelay {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let raw = value;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-impl runtime::CountWritable for EngineMonitoringDelay {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let raw = arithmetic::held::<Self>(count, runtime::Error::OutOfRange)?;
-        arithmetic::checked::<Self>(raw, ())
-    }
-}
-
-/// Monitoring start frequency.
-///
-/// At parameter 0019h (25), `u16`, raw `3840..17920`, steps of `0.00390625 Hz`, read and write.
-#[derive(Clone, Copy, Debug)]
-pub struct MonitoringStartFrequency;
-
-impl runtime::Point for MonitoringStartFrequency {
-    type Raw = u16;
-    type Value = f64;
-    const NAME: &'static str = "monitoring_start_frequency";
-    const SPACE: runtime::Space = runtime::Space::Parameter;
-    const ADDRESS: u16 = 0x0019;
-    const DECIMALS: u32 = 3;
-    const UNIT: &'static str = "Hz";
-    const RAW_MIN: u16 = 3840;
-    const RAW_MAX: u16 = 17_920;
-}
-
-impl runtime::Whole for MonitoringStartFrequency {}
-
-impl runtime::can::Parameter for MonitoringStartFrequency {}
-
-impl runtime::Readable for MonitoringStartFrequency {
-    type Factors = ();
-    type Output<V> = V;
-
-    #[inline]
-    fn decode_with(raw: u16, (): ()) -> Self::Output<Self::Value> {
-        f64::from(raw) / 256.0
-    }
-}
-
-impl runtime::CountReadable for MonitoringStartFrequency {
-    type Count = i32;
-
-    #[inline]
-    fn decode_count_with(raw: u16, (): ()) -> Self::Output<Self::Count> {
-        let scaled = i32::from(raw) * 125;
-        arithmetic::div_round_i32::<32>(scaled)
-    }
-}
-
-impl runtime::Writable for MonitoringStartFrequency {
-    type With = ();
-
-    #[inline]
-    fn check_with(raw: u16, (): ()) -> Result<(), runtime::Error> {
-        let holds = matches!(raw, 3840..=17_920);
-        runtime::allowed(holds)
-    }
-}
-
-impl runtime::Encodable for MonitoringStartFrequency {
-    #[inline]
-    fn encode_with(value: Self::Value, (): ()) -> Result<u16, runtime::Error> {
-        let scaled = value * 256.0;
-        arithmetic::nearest::<Self>(scaled, ())
-    }
-}
-
-impl runtime::CountWritable for MonitoringStartFrequency {
-    type Count = i32;
-
-    #[inline]
-    fn encode_count_with(count: i32, (): ()) -> Result<u16, runtime::Error> {
-        let count = arithmetic::within(count, 14_999, 70_001)?;
-        let scaled = count * 32;
-        let raw = arithmetic::div_round_i32::<125>(scaled);
-        arithmetic::fitted::<Self>(raw)
-    }
+point! {
+    /// Telegram identification.
+    ///
+    /// At telegram `visualisation` word 0000h (0), `u16`, raw `0..65535`, read only.
+    TelegramIdentification: u16 = "telegram_identification";
+    at Telegram 0x0000;
+    telegram "visualisation";
+    const MUX: u32 = 0;
+    const WORD: u32 = 1;
+    const NR: u32 = 1;
+    => value u16 as plain();
+    read { count i32; }
+    impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
+}
+
+point! {
+    /// Generator frequency.
+    ///
+    /// At telegram `visualisation` word 0001h (1), `u16`, raw `0..65535`, one count is `0.01 Hz`, read only.
+    GeneratorFrequency: u16 = "generator_frequency";
+    at Telegram 0x0001;
+    telegram "visualisation";
+    const MUX: u32 = 0;
+    const WORD: u32 = 2;
+    const NR: u32 = 2;
+    unit "Hz";
+    decimals 2;
+    => value f64 as scaled(100, 1);
+    read { count i32; }
+    impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
+}
+
+point! {
+    /// Generator active power.
+    ///
+    /// At telegram `visualisation` word 0002h (2), `s16`, raw `-32768..32767`, value `raw x
+    /// 10^generator_power_exponent.raw W`, one count is `1 W`, read only.
+    GeneratorActivePower: i16 = "generator_active_power";
+    at Telegram 0x0002;
+    telegram "visualisation";
+    const MUX: u32 = 0;
+    const WORD: u32 = 3;
+    const NR: u32 = 3;
+    unit "W";
+    => value_or_error f64 as ruled(|with: with::GeneratorActivePower|
+        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent(with.generator_power_exponent, 0, 5)?));
+    read { count i64; with with::GeneratorActivePower; }
+    impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
+}
+
+point! {
+    /// Generator power exponent.
+    ///
+    /// `PGNEXPO` at telegram `visualisation` word 0003h (3) bits 15 to 8, `s8`, raw `0..5`, read only.
+    #[doc(alias = "PGNEXPO")]
+    GeneratorPowerExponent: i8 = "generator_power_exponent", "PGNEXPO";
+    at Telegram 0x0003;
+    telegram "visualisation";
+    bits 8 0xFF00 signed_group;
+    const MUX: u32 = 1;
+    const WORD: u32 = 1;
+    const NR: u32 = 4;
+    raw 0..=5;
+    => value i8 as plain();
+    read { count i32; }
+    impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
+}
+
+point! {
+    /// Generator voltage exponent.
+    ///
+    /// `UGNEXPO` at telegram `visualisation` word 0003h (3) bits 7 to 0, `s8`, raw `-4..4`, read only.
+    #[doc(alias = "UGNEXPO")]
+    GeneratorVoltageExponent: i8 = "generator_voltage_exponent", "UGNEXPO";
+    at Telegram 0x0003;
+    telegram "visualisation";
+    bits 0 0x00FF signed_group;
+    const MUX: u32 = 1;
+    const WORD: u32 = 1;
+    const NR: u32 = 4;
+    raw -4..=4;
+    => value i8 as plain();
+    read { count i32; }
+    impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
+}
+
+point! {
+    /// Present active power setpoint.
+    ///
+    /// At telegram `visualisation` word 0004h (4), `s16`, raw `-32768..32767`, value `raw / 2800 x
+    /// active_power_setpoint_factor.raw x 10^generator_power_exponent.raw W`, one count is `0.0001 W`, read
+    /// only.
+    PresentActivePowerSetpoint: i16 = "present_active_power_setpoint";
+    at Telegram 0x0004;
+    telegram "visualisation";
+    const MUX: u32 = 1;
+    const WORD: u32 = 2;
+    const NR: u32 = 5;
+    unit "W";
+    decimals 4;
+    => value_or_error f64 as ruled(|with: with::PresentActivePowerSetpoint|
+        runtime::Rule::new(2800, 1).over(with.active_power_setpoint_factor)
+            ?.over_ten_to(runtime::arithmetic::exponent(with.generator_power_exponent, 0, 5)?));
+    read { count i64; with with::PresentActivePowerSetpoint; }
+    impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
+}
+
+point! {
+    /// Active power setpoint factor.
+    ///
+    /// `PGNWWD` at telegram `visualisation` word 0005h (5), `u16`, raw `0..65535`, read only.
+    #[doc(alias = "PGNWWD")]
+    ActivePowerSetpointFactor: u16 = "active_power_setpoint_factor", "PGNWWD";
+    at Telegram 0x0005;
+    telegram "visualisation";
+    const MUX: u32 = 1;
+    const WORD: u32 = 3;
+    const NR: u32 = 6;
+    => value u16 as plain();
+    read { count i32; }
+    impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
+}
+
+point! {
+    /// Busbar voltage l1 l2.
+    ///
+    /// At telegram `visualisation` word 0006h (6), `u16`, raw `0..65535`, value `raw x
+    /// 10^busbar_voltage_exponent.raw V`, one count is `0.0001 V`, read only.
+    BusbarVoltageL1L2: u16 = "busbar_voltage_l1_l2";
+    at Telegram 0x0006;
+    telegram "visualisation";
+    const MUX: u32 = 2;
+    const WORD: u32 = 1;
+    const NR: u32 = 7;
+    unit "V";
+    decimals 4;
+    => value_or_error f64 as ruled(|with: with::BusbarVoltageL1L2|
+        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent(with.busbar_voltage_exponent, -4, 4)?));
+    read { count i64; with with::BusbarVoltageL1L2; }
+    impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
+}
+
+point! {
+    /// Mains voltage l1 l2.
+    ///
+    /// At telegram `visualisation` word 0007h (7), `u16`, raw `0..65535`, value `raw x
+    /// 10^mains_voltage_exponent.raw V`, one count is `0.0001 V`, read only.
+    MainsVoltageL1L2: u16 = "mains_voltage_l1_l2";
+    at Telegram 0x0007;
+    telegram "visualisation";
+    const MUX: u32 = 2;
+    const WORD: u32 = 2;
+    const NR: u32 = 8;
+    unit "V";
+    decimals 4;
+    => value_or_error f64 as ruled(|with: with::MainsVoltageL1L2|
+        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent(with.mains_voltage_exponent, -4, 4)?));
+    read { count i64; with with::MainsVoltageL1L2; }
+    impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
+}
+
+point! {
+    /// Present fault classes.
+    ///
+    /// At telegram `visualisation` word 0008h (8), `u16`, raw `0..65535`, read only.
+    PresentFaultClasses: u16 = "present_fault_classes";
+    at Telegram 0x0008;
+    telegram "visualisation";
+    const MUX: u32 = 2;
+    const WORD: u32 = 3;
+    const NR: u32 = 9;
+    => value flags::PresentFaultClasses as flags();
+    read { count i32; }
+    impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
+}
+
+point! {
+    /// Control register 2.
+    ///
+    /// At telegram `visualisation` word 0009h (9), `u16`, raw `0..65535`, read only.
+    ControlRegister2: u16 = "control_register_2";
+    at Telegram 0x0009;
+    telegram "visualisation";
+    const MUX: u32 = 3;
+    const WORD: u32 = 1;
+    const NR: u32 = 10;
+    => value flags::ControlRegister2 as flags();
+    read { count i32; }
+    impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
+}
+
+point! {
+    /// Control register 1.
+    ///
+    /// At telegram `visualisation` word 000Bh (11), `u16`, raw `0..65535`, read only.
+    ControlRegister1: u16 = "control_register_1";
+    at Telegram 0x000B;
+    telegram "visualisation";
+    const MUX: u32 = 3;
+    const WORD: u32 = 3;
+    const NR: u32 = 12;
+    => value flags::ControlRegister1 as flags();
+    read { count i32; }
+    impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
+}
+
+point! {
+    /// Internal faults 8.
+    ///
+    /// At telegram `visualisation` word 000Ch (12), `u16`, raw `0..65535`, read only.
+    InternalFaults8: u16 = "internal_faults_8";
+    at Telegram 0x000C;
+    telegram "visualisation";
+    const MUX: u32 = 4;
+    const WORD: u32 = 1;
+    const NR: u32 = 13;
+    => value flags::InternalFaults8 as flags();
+    read { count i32; }
+    impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
+}
+
+point! {
+    /// Internal faults 6.
+    ///
+    /// At telegram `visualisation` word 000Dh (13), `u16`, raw `0..65535`, read only.
+    InternalFaults6: u16 = "internal_faults_6";
+    at Telegram 0x000D;
+    telegram "visualisation";
+    const MUX: u32 = 4;
+    const WORD: u32 = 2;
+    const NR: u32 = 14;
+    => value flags::InternalFaults6 as flags();
+    read { count i32; }
+    impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
+}
+
+point! {
+    /// Generator voltage l2 l3.
+    ///
+    /// At telegram `visualisation` word 000Eh (14), `u16`, raw `0..65535`, value `raw x
+    /// 10^generator_voltage_exponent.raw V`, one count is `0.0001 V`, read only.
+    GeneratorVoltageL2L3: u16 = "generator_voltage_l2_l3";
+    at Telegram 0x000E;
+    telegram "visualisation";
+    const MUX: u32 = 4;
+    const WORD: u32 = 3;
+    const NR: u32 = 15;
+    unit "V";
+    decimals 4;
+    => value_or_error f64 as ruled(|with: with::GeneratorVoltageL2L3|
+        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent(with.generator_voltage_exponent, -4, 4)?));
+    read { count i64; with with::GeneratorVoltageL2L3; }
+    impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
+}
+
+point! {
+    /// Generator voltage l3 l1.
+    ///
+    /// At telegram `visualisation` word 000Fh (15), `u16`, raw `0..65535`, value `raw x
+    /// 10^generator_voltage_exponent.raw V`, one count is `0.0001 V`, read only.
+    GeneratorVoltageL3L1: u16 = "generator_voltage_l3_l1";
+    at Telegram 0x000F;
+    telegram "visualisation";
+    const MUX: u32 = 5;
+    const WORD: u32 = 1;
+    const NR: u32 = 16;
+    unit "V";
+    decimals 4;
+    => value_or_error f64 as ruled(|with: with::GeneratorVoltageL3L1|
+        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent(with.generator_voltage_exponent, -4, 4)?));
+    read { count i64; with with::GeneratorVoltageL3L1; }
+    impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
+}
+
+point! {
+    /// Generator voltage l1 n.
+    ///
+    /// At telegram `visualisation` word 0010h (16), `u16`, raw `0..65535`, value `raw x
+    /// 10^generator_voltage_exponent.raw V`, one count is `0.0001 V`, read only.
+    GeneratorVoltageL1N: u16 = "generator_voltage_l1_n";
+    at Telegram 0x0010;
+    telegram "visualisation";
+    const MUX: u32 = 5;
+    const WORD: u32 = 2;
+    const NR: u32 = 17;
+    unit "V";
+    decimals 4;
+    => value_or_error f64 as ruled(|with: with::GeneratorVoltageL1N|
+        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent(with.generator_voltage_exponent, -4, 4)?));
+    read { count i64; with with::GeneratorVoltageL1N; }
+    impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
+}
+
+point! {
+    /// Generator voltage l2 n.
+    ///
+    /// At telegram `visualisation` word 0011h (17), `u16`, raw `0..65535`, value `raw x
+    /// 10^generator_voltage_exponent.raw V`, one count is `0.0001 V`, read only.
+    GeneratorVoltageL2N: u16 = "generator_voltage_l2_n";
+    at Telegram 0x0011;
+    telegram "visualisation";
+    const MUX: u32 = 5;
+    const WORD: u32 = 3;
+    const NR: u32 = 18;
+    unit "V";
+    decimals 4;
+    => value_or_error f64 as ruled(|with: with::GeneratorVoltageL2N|
+        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent(with.generator_voltage_exponent, -4, 4)?));
+    read { count i64; with with::GeneratorVoltageL2N; }
+    impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
+}
+
+point! {
+    /// Generator voltage l3 n.
+    ///
+    /// At telegram `visualisation` word 0012h (18), `u16`, raw `0..65535`, value `raw x
+    /// 10^generator_voltage_exponent.raw V`, one count is `0.0001 V`, read only.
+    GeneratorVoltageL3N: u16 = "generator_voltage_l3_n";
+    at Telegram 0x0012;
+    telegram "visualisation";
+    const MUX: u32 = 6;
+    const WORD: u32 = 1;
+    const NR: u32 = 19;
+    unit "V";
+    decimals 4;
+    => value_or_error f64 as ruled(|with: with::GeneratorVoltageL3N|
+        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent(with.generator_voltage_exponent, -4, 4)?));
+    read { count i64; with with::GeneratorVoltageL3N; }
+    impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
+}
+
+point! {
+    /// Generator voltage l1 l2.
+    ///
+    /// At telegram `visualisation` word 0013h (19), `u16`, raw `0..65535`, value `raw x
+    /// 10^generator_voltage_exponent.raw V`, one count is `0.0001 V`, read only.
+    GeneratorVoltageL1L2: u16 = "generator_voltage_l1_l2";
+    at Telegram 0x0013;
+    telegram "visualisation";
+    const MUX: u32 = 6;
+    const WORD: u32 = 2;
+    const NR: u32 = 20;
+    unit "V";
+    decimals 4;
+    => value_or_error f64 as ruled(|with: with::GeneratorVoltageL1L2|
+        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent(with.generator_voltage_exponent, -4, 4)?));
+    read { count i64; with with::GeneratorVoltageL1L2; }
+    impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
+}
+
+point! {
+    /// Generator current l1.
+    ///
+    /// At telegram `visualisation` word 0015h (21), `u16`, raw `0..65535`, value `raw x
+    /// 10^generator_current_exponent.raw A`, one count is `0.001 A`, read only.
+    GeneratorCurrentL1: u16 = "generator_current_l1";
+    at Telegram 0x0015;
+    telegram "visualisation";
+    const MUX: u32 = 7;
+    const WORD: u32 = 1;
+    const NR: u32 = 22;
+    unit "A";
+    decimals 3;
+    => value_or_error f64 as ruled(|with: with::GeneratorCurrentL1|
+        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent(with.generator_current_exponent, -3, 3)?));
+    read { count i64; with with::GeneratorCurrentL1; }
+    impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
+}
+
+point! {
+    /// Generator current l2.
+    ///
+    /// At telegram `visualisation` word 0016h (22), `u16`, raw `0..65535`, value `raw x
+    /// 10^generator_current_exponent.raw A`, one count is `0.001 A`, read only.
+    GeneratorCurrentL2: u16 = "generator_current_l2";
+    at Telegram 0x0016;
+    telegram "visualisation";
+    const MUX: u32 = 7;
+    const WORD: u32 = 2;
+    const NR: u32 = 23;
+    unit "A";
+    decimals 3;
+    => value_or_error f64 as ruled(|with: with::GeneratorCurrentL2|
+        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent(with.generator_current_exponent, -3, 3)?));
+    read { count i64; with with::GeneratorCurrentL2; }
+    impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
+}
+
+point! {
+    /// Generator current l3.
+    ///
+    /// At telegram `visualisation` word 0017h (23), `u16`, raw `0..65535`, value `raw x
+    /// 10^generator_current_exponent.raw A`, one count is `0.001 A`, read only.
+    GeneratorCurrentL3: u16 = "generator_current_l3";
+    at Telegram 0x0017;
+    telegram "visualisation";
+    const MUX: u32 = 7;
+    const WORD: u32 = 3;
+    const NR: u32 = 24;
+    unit "A";
+    decimals 3;
+    => value_or_error f64 as ruled(|with: with::GeneratorCurrentL3|
+        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent(with.generator_current_exponent, -3, 3)?));
+    read { count i64; with with::GeneratorCurrentL3; }
+    impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
+}
+
+point! {
+    /// Generator cos phi.
+    ///
+    /// At telegram `visualisation` word 0019h (25), `s16`, raw `-32768..32767`, one count is `0.01`, read only.
+    GeneratorCosPhi: i16 = "generator_cos_phi";
+    at Telegram 0x0019;
+    telegram "visualisation";
+    const MUX: u32 = 8;
+    const WORD: u32 = 2;
+    const NR: u32 = 26;
+    decimals 2;
+    => value f64 as scaled(100, 1);
+    read { count i32; }
+    impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
+}
+
+point! {
+    /// Load sharing participants.
+    ///
+    /// At telegram `visualisation` word 001Ch (28), `u16`, raw `0..65535`, read only.
+    LoadSharingParticipants: u16 = "load_sharing_participants";
+    at Telegram 0x001C;
+    telegram "visualisation";
+    const MUX: u32 = 9;
+    const WORD: u32 = 2;
+    const NR: u32 = 29;
+    => value u16 as plain();
+    read { count i32; }
+    impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
+}
+
+point! {
+    /// Mains state.
+    ///
+    /// At telegram `visualisation` word 001Dh (29) bits 15 to 8, `u8`, raw `0, 255`, read only.
+    MainsState: u8 = "mains_state";
+    at Telegram 0x001D;
+    telegram "visualisation";
+    bits 8 0xFF00 group;
+    const MUX: u32 = 9;
+    const WORD: u32 = 3;
+    const NR: u32 = 30;
+    => value enums::SupplyPresence as named(u8);
+    read { count i32; }
+    impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
+}
+
+point! {
+    /// Generator state.
+    ///
+    /// At telegram `visualisation` word 001Dh (29) bits 7 to 0, `u8`, raw `0, 255`, read only.
+    GeneratorState: u8 = "generator_state";
+    at Telegram 0x001D;
+    telegram "visualisation";
+    bits 0 0x00FF group;
+    const MUX: u32 = 9;
+    const WORD: u32 = 3;
+    const NR: u32 = 30;
+    => value enums::SupplyPresence as named(u8);
+    read { count i32; }
+    impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
+}
+
+point! {
+    /// Generator current exponent.
+    ///
+    /// `IGNEXPO` at telegram `visualisation` word 001Eh (30) bits 15 to 8, `s8`, raw `-3..3`, read only.
+    #[doc(alias = "IGNEXPO")]
+    GeneratorCurrentExponent: i8 = "generator_current_exponent", "IGNEXPO";
+    at Telegram 0x001E;
+    telegram "visualisation";
+    bits 8 0xFF00 signed_group;
+    const MUX: u32 = 10;
+    const WORD: u32 = 1;
+    const NR: u32 = 31;
+    raw -3..=3;
+    => value i8 as plain();
+    read { count i32; }
+    impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
+}
+
+point! {
+    /// Busbar frequency.
+    ///
+    /// At telegram `visualisation` word 001Fh (31), `u16`, raw `0..65535`, one count is `0.01 Hz`, read only.
+    BusbarFrequency: u16 = "busbar_frequency";
+    at Telegram 0x001F;
+    telegram "visualisation";
+    const MUX: u32 = 10;
+    const WORD: u32 = 2;
+    const NR: u32 = 32;
+    unit "Hz";
+    decimals 2;
+    => value f64 as scaled(100, 1);
+    read { count i32; }
+    impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
+}
+
+point! {
+    /// Busbar state.
+    ///
+    /// At telegram `visualisation` word 0020h (32) bits 15 to 8, `u8`, raw `0, 255`, read only.
+    BusbarState: u8 = "busbar_state";
+    at Telegram 0x0020;
+    telegram "visualisation";
+    bits 8 0xFF00 group;
+    const MUX: u32 = 10;
+    const WORD: u32 = 3;
+    const NR: u32 = 33;
+    => value enums::SupplyPresence as named(u8);
+    read { count i32; }
+    impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
+}
+
+point! {
+    /// Mains voltage l2 l3.
+    ///
+    /// At telegram `visualisation` word 0021h (33), `u16`, raw `0..65535`, value `raw x
+    /// 10^mains_voltage_exponent.raw V`, one count is `0.0001 V`, read only.
+    MainsVoltageL2L3: u16 = "mains_voltage_l2_l3";
+    at Telegram 0x0021;
+    telegram "visualisation";
+    const MUX: u32 = 11;
+    const WORD: u32 = 1;
+    const NR: u32 = 34;
+    unit "V";
+    decimals 4;
+    => value_or_error f64 as ruled(|with: with::MainsVoltageL2L3|
+        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent(with.mains_voltage_exponent, -4, 4)?));
+    read { count i64; with with::MainsVoltageL2L3; }
+    impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
+}
+
+point! {
+    /// Mains voltage l3 l1.
+    ///
+    /// At telegram `visualisation` word 0022h (34), `u16`, raw `0..65535`, value `raw x
+    /// 10^mains_voltage_exponent.raw V`, one count is `0.0001 V`, read only.
+    MainsVoltageL3L1: u16 = "mains_voltage_l3_l1";
+    at Telegram 0x0022;
+    telegram "visualisation";
+    const MUX: u32 = 11;
+    const WORD: u32 = 2;
+    const NR: u32 = 35;
+    unit "V";
+    decimals 4;
+    => value_or_error f64 as ruled(|with: with::MainsVoltageL3L1|
+        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent(with.mains_voltage_exponent, -4, 4)?));
+    read { count i64; with with::MainsVoltageL3L1; }
+    impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
+}
+
+point! {
+    /// Mains voltage l1 n.
+    ///
+    /// At telegram `visualisation` word 0023h (35), `u16`, raw `0..65535`, value `raw x
+    /// 10^mains_voltage_exponent.raw V`, one count is `0.0001 V`, read only.
+    MainsVoltageL1N: u16 = "mains_voltage_l1_n";
+    at Telegram 0x0023;
+    telegram "visualisation";
+    const MUX: u32 = 11;
+    const WORD: u32 = 3;
+    const NR: u32 = 36;
+    unit "V";
+    decimals 4;
+    => value_or_error f64 as ruled(|with: with::MainsVoltageL1N|
+        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent(with.mains_voltage_exponent, -4, 4)?));
+    read { count i64; with with::MainsVoltageL1N; }
+    impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
+}
+
+point! {
+    /// Mains voltage l2 n.
+    ///
+    /// At telegram `visualisation` word 0024h (36), `u16`, raw `0..65535`, value `raw x
+    /// 10^mains_voltage_exponent.raw V`, one count is `0.0001 V`, read only.
+    MainsVoltageL2N: u16 = "mains_voltage_l2_n";
+    at Telegram 0x0024;
+    telegram "visualisation";
+    const MUX: u32 = 12;
+    const WORD: u32 = 1;
+    const NR: u32 = 37;
+    unit "V";
+    decimals 4;
+    => value_or_error f64 as ruled(|with: with::MainsVoltageL2N|
+        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent(with.mains_voltage_exponent, -4, 4)?));
+    read { count i64; with with::MainsVoltageL2N; }
+    impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
+}
+
+point! {
+    /// Mains voltage l3 n.
+    ///
+    /// At telegram `visualisation` word 0025h (37), `u16`, raw `0..65535`, value `raw x
+    /// 10^mains_voltage_exponent.raw V`, one count is `0.0001 V`, read only.
+    MainsVoltageL3N: u16 = "mains_voltage_l3_n";
+    at Telegram 0x0025;
+    telegram "visualisation";
+    const MUX: u32 = 12;
+    const WORD: u32 = 2;
+    const NR: u32 = 38;
+    unit "V";
+    decimals 4;
+    => value_or_error f64 as ruled(|with: with::MainsVoltageL3N|
+        runtime::Rule::new(1, 1).over_ten_to(runtime::arithmetic::exponent(with.mains_voltage_exponent, -4, 4)?));
+    read { count i64; with with::MainsVoltageL3N; }
+    impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
+}
+
+point! {
+    /// Mains frequency.
+    ///
+    /// At telegram `visualisation` word 0026h (38), `u16`, raw `0..65535`, one count is `0.01 Hz`, read only.
+    MainsFrequency: u16 = "mains_frequency";
+    at Telegram 0x0026;
+    telegram "visualisation";
+    const MUX: u32 = 12;
+    const WORD: u32 = 3;
+    const NR: u32 = 39;
+    unit "Hz";
+    decimals 2;
+    => value f64 as scaled(100, 1);
+    read { count i32; }
+    impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
+}
+
+point! {
+    /// Mains voltage exponent.
+    ///
+    /// `UNTEXPO` at telegram `visualisation` word 002Ah (42) bits 7 to 0, `s8`, raw `-4..4`, read only.
+    #[doc(alias = "UNTEXPO")]
+    MainsVoltageExponent: i8 = "mains_voltage_exponent", "UNTEXPO";
+    at Telegram 0x002A;
+    telegram "visualisation";
+    bits 0 0x00FF signed_group;
+    const MUX: u32 = 14;
+    const WORD: u32 = 1;
+    const NR: u32 = 43;
+    raw -4..=4;
+    => value i8 as plain();
+    read { count i32; }
+    impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
+}
+
+point! {
+    /// Busbar voltage exponent.
+    ///
+    /// `USSEXPO` at telegram `visualisation` word 002Bh (43) bits 7 to 0, `s8`, raw `-4..4`, read only.
+    #[doc(alias = "USSEXPO")]
+    BusbarVoltageExponent: i8 = "busbar_voltage_exponent", "USSEXPO";
+    at Telegram 0x002B;
+    telegram "visualisation";
+    bits 0 0x00FF signed_group;
+    const MUX: u32 = 14;
+    const WORD: u32 = 2;
+    const NR: u32 = 44;
+    raw -4..=4;
+    => value i8 as plain();
+    read { count i32; }
+    impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
+}
+
+point! {
+    /// Operating hours.
+    ///
+    /// At telegram `visualisation` word 002Ch (44), `u32`, raw `0..4294967295`, read only.
+    OperatingHours: u32 = "operating_hours";
+    at Telegram 0x002C;
+    addresses [0x002C, 0x002D];
+    words 2;
+    telegram "visualisation";
+    const MUX: u32 = 14;
+    const WORD: u32 = 3;
+    const NR: u32 = 45;
+    unit "h";
+    => value u32 as plain();
+    read { count i64; }
+    impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
+}
+
+point! {
+    /// Hours until maintenance.
+    ///
+    /// At telegram `visualisation` word 002Eh (46), `u16`, raw `0..65535`, read only.
+    HoursUntilMaintenance: u16 = "hours_until_maintenance";
+    at Telegram 0x002E;
+    telegram "visualisation";
+    const MUX: u32 = 15;
+    const WORD: u32 = 2;
+    const NR: u32 = 47;
+    unit "h";
+    => value u16 as plain();
+    read { count i32; }
+    impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
+}
+
+point! {
+    /// Engine start counter.
+    ///
+    /// At telegram `visualisation` word 002Fh (47), `u16`, raw `0..65535`, read only.
+    EngineStartCounter: u16 = "engine_start_counter";
+    at Telegram 0x002F;
+    telegram "visualisation";
+    const MUX: u32 = 15;
+    const WORD: u32 = 3;
+    const NR: u32 = 48;
+    => value u16 as plain();
+    read { count i32; }
+    impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
+}
+
+point! {
+    /// Generator active energy.
+    ///
+    /// At telegram `visualisation` word 0031h (49), `u32`, raw `0..4294967295`, read only.
+    GeneratorActiveEnergy: u32 = "generator_active_energy";
+    at Telegram 0x0031;
+    addresses [0x0031, 0x0032];
+    words 2;
+    telegram "visualisation";
+    const MUX: u32 = 16;
+    const WORD: u32 = 2;
+    const NR: u32 = 50;
+    unit "kWh";
+    => value u32 as plain();
+    read { count i64; }
+    impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
+}
+
+point! {
+    /// Battery voltage.
+    ///
+    /// At telegram `visualisation` word 0033h (51), `u16`, raw `0..65535`, one count is `0.1 V`, read only.
+    BatteryVoltage: u16 = "battery_voltage";
+    at Telegram 0x0033;
+    telegram "visualisation";
+    const MUX: u32 = 17;
+    const WORD: u32 = 1;
+    const NR: u32 = 52;
+    unit "V";
+    decimals 1;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
+}
+
+point! {
+    /// Internal faults 1.
+    ///
+    /// At telegram `visualisation` word 0034h (52), `u16`, raw `0..65535`, read only.
+    InternalFaults1: u16 = "internal_faults_1";
+    at Telegram 0x0034;
+    telegram "visualisation";
+    const MUX: u32 = 17;
+    const WORD: u32 = 2;
+    const NR: u32 = 53;
+    => value flags::InternalFaults1 as flags();
+    read { count i32; }
+    impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
+}
+
+point! {
+    /// Internal faults 2.
+    ///
+    /// At telegram `visualisation` word 0035h (53), `u16`, raw `0..65535`, read only.
+    InternalFaults2: u16 = "internal_faults_2";
+    at Telegram 0x0035;
+    telegram "visualisation";
+    const MUX: u32 = 17;
+    const WORD: u32 = 3;
+    const NR: u32 = 54;
+    => value flags::InternalFaults2 as flags();
+    read { count i32; }
+    impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
+}
+
+point! {
+    /// Internal faults 3.
+    ///
+    /// At telegram `visualisation` word 0036h (54), `u16`, raw `0..65535`, read only.
+    InternalFaults3: u16 = "internal_faults_3";
+    at Telegram 0x0036;
+    telegram "visualisation";
+    const MUX: u32 = 18;
+    const WORD: u32 = 1;
+    const NR: u32 = 55;
+    => value flags::InternalFaults3 as flags();
+    read { count i32; }
+    impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
+}
+
+point! {
+    /// Internal faults 4.
+    ///
+    /// At telegram `visualisation` word 0037h (55), `u16`, raw `0..65535`, read only.
+    InternalFaults4: u16 = "internal_faults_4";
+    at Telegram 0x0037;
+    telegram "visualisation";
+    const MUX: u32 = 18;
+    const WORD: u32 = 2;
+    const NR: u32 = 56;
+    => value flags::InternalFaults4 as flags();
+    read { count i32; }
+    impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
+}
+
+point! {
+    /// Internal faults 5.
+    ///
+    /// At telegram `visualisation` word 0038h (56), `u16`, raw `0..65535`, read only.
+    InternalFaults5: u16 = "internal_faults_5";
+    at Telegram 0x0038;
+    telegram "visualisation";
+    const MUX: u32 = 18;
+    const WORD: u32 = 3;
+    const NR: u32 = 57;
+    => value flags::InternalFaults5 as flags();
+    read { count i32; }
+    impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
+}
+
+point! {
+    /// Digital input faults 1 to 8.
+    ///
+    /// At telegram `visualisation` word 0039h (57), `u16`, raw `0..65535`, read only.
+    DigitalInputFaults1To8: u16 = "digital_input_faults_1_to_8";
+    at Telegram 0x0039;
+    telegram "visualisation";
+    const MUX: u32 = 19;
+    const WORD: u32 = 1;
+    const NR: u32 = 58;
+    => value flags::DigitalInputFaults1To8 as flags();
+    read { count i32; }
+    impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
+}
+
+point! {
+    /// Digital input faults 9 to 16.
+    ///
+    /// At telegram `visualisation` word 003Ah (58), `u16`, raw `0..65535`, read only.
+    DigitalInputFaults9To16: u16 = "digital_input_faults_9_to_16";
+    at Telegram 0x003A;
+    telegram "visualisation";
+    const MUX: u32 = 19;
+    const WORD: u32 = 2;
+    const NR: u32 = 59;
+    => value flags::DigitalInputFaults9To16 as flags();
+    read { count i32; }
+    impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
+}
+
+point! {
+    /// Internal faults 7.
+    ///
+    /// At telegram `visualisation` word 003Bh (59), `u16`, raw `0..65535`, read only.
+    InternalFaults7: u16 = "internal_faults_7";
+    at Telegram 0x003B;
+    telegram "visualisation";
+    const MUX: u32 = 19;
+    const WORD: u32 = 3;
+    const NR: u32 = 60;
+    => value flags::InternalFaults7 as flags();
+    read { count i32; }
+    impl runtime::can::Received { type Telegram = crate::telegrams::Visualisation; }
+}
+
+point! {
+    /// Password level 2.
+    ///
+    /// At parameter 01F4h (500), `u16`, raw `0..9999`, read and write.
+    PasswordLevel2: u16 = "password_level_2";
+    at Parameter 0x01F4;
+    raw 0..=9999;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Generator frequency setpoint.
+    ///
+    /// At parameter 000Bh (11), `u16`, raw `10240..17920`, steps of `0.00390625 Hz`, one count is `0.001 Hz`,
+    /// read and write.
+    GeneratorFrequencySetpoint: u16 = "generator_frequency_setpoint";
+    at Parameter 0x000B;
+    unit "Hz";
+    decimals 3;
+    raw 10_240..=17_920;
+    => value f64 as scaled(256, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Generator rated frequency.
+    ///
+    /// At parameter 000Ch (12), `u16`, raw `12800..15360`, steps of `0.00390625 Hz`, one count is `0.001 Hz`,
+    /// read and write.
+    GeneratorRatedFrequency: u16 = "generator_rated_frequency";
+    at Parameter 0x000C;
+    unit "Hz";
+    decimals 3;
+    raw 12_800..=15_360;
+    => value f64 as scaled(256, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Generator voltage transformer secondary 100v.
+    ///
+    /// At parameter 0009h (9), `u16`, raw `50..125`, read and write, for `voltage=100V`.
+    GeneratorVoltageTransformerSecondary100v: u16 = "generator_voltage_transformer_secondary_100v";
+    at Parameter 0x0009;
+    unit "V";
+    raw 50..=125;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Generator voltage transformer secondary 400v.
+    ///
+    /// At parameter 0009h (9), `u16`, raw `50..480`, read and write, for `voltage=400V`.
+    GeneratorVoltageTransformerSecondary400v: u16 = "generator_voltage_transformer_secondary_400v";
+    at Parameter 0x0009;
+    unit "V";
+    raw 50..=480;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Generator voltage transformer primary.
+    ///
+    /// At parameter 0001h (1), `u16`, raw `5..65000`, read and write.
+    GeneratorVoltageTransformerPrimary: u16 = "generator_voltage_transformer_primary";
+    at Parameter 0x0001;
+    unit "V";
+    raw 5..=65_000;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Busbar voltage transformer secondary 100v.
+    ///
+    /// At parameter 01F2h (498), `u16`, raw `50..125`, read and write, for `voltage=100V`.
+    BusbarVoltageTransformerSecondary100v: u16 = "busbar_voltage_transformer_secondary_100v";
+    at Parameter 0x01F2;
+    unit "V";
+    raw 50..=125;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Busbar voltage transformer secondary 400v.
+    ///
+    /// At parameter 01F2h (498), `u16`, raw `50..480`, read and write, for `voltage=400V`.
+    BusbarVoltageTransformerSecondary400v: u16 = "busbar_voltage_transformer_secondary_400v";
+    at Parameter 0x01F2;
+    unit "V";
+    raw 50..=480;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Busbar voltage transformer primary.
+    ///
+    /// At parameter 01F3h (499), `u16`, raw `5..65000`, read and write.
+    BusbarVoltageTransformerPrimary: u16 = "busbar_voltage_transformer_primary";
+    at Parameter 0x01F3;
+    unit "V";
+    raw 5..=65_000;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Mains voltage transformer secondary 100v.
+    ///
+    /// At parameter 011Ah (282), `u16`, raw `50..125`, read and write, for `voltage=100V`.
+    MainsVoltageTransformerSecondary100v: u16 = "mains_voltage_transformer_secondary_100v";
+    at Parameter 0x011A;
+    unit "V";
+    raw 50..=125;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Mains voltage transformer secondary 400v.
+    ///
+    /// At parameter 011Ah (282), `u16`, raw `50..480`, read and write, for `voltage=400V`.
+    MainsVoltageTransformerSecondary400v: u16 = "mains_voltage_transformer_secondary_400v";
+    at Parameter 0x011A;
+    unit "V";
+    raw 50..=480;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Mains voltage transformer primary.
+    ///
+    /// At parameter 0003h (3), `u16`, raw `5..65000`, read and write.
+    MainsVoltageTransformerPrimary: u16 = "mains_voltage_transformer_primary";
+    at Parameter 0x0003;
+    unit "V";
+    raw 5..=65_000;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Generator voltage factor.
+    ///
+    /// `KWUGNSEK` at parameter 01FBh (507), `u16`, raw `0..65535`, read only.
+    #[doc(alias = "KWUGNSEK")]
+    GeneratorVoltageFactor: u16 = "generator_voltage_factor", "KWUGNSEK";
+    at Parameter 0x01FB;
+    => value u16 as plain();
+    read { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Generator voltage setpoint 100v.
+    ///
+    /// At parameter 000Ah (10), `u16`, raw `generator_voltage_factor.raw x 0.0625..min(20480,
+    /// generator_voltage_factor.raw x 0.3125)`, value `raw x 400 / generator_voltage_factor.raw V`, one count
+    /// is `0.001 V`, read and write, for `voltage=100V`.
+    GeneratorVoltageSetpoint100v: u16 = "generator_voltage_setpoint_100v";
+    at Parameter 0x000A;
+    unit "V";
+    decimals 3;
+    raw 0..=20_480;
+    => value_or_error f64 as ruled(|with: with::GeneratorVoltageSetpoint100v|
+        runtime::Rule::new(1, 400).times(with.generator_voltage_factor));
+    read { count i64; with with::GeneratorVoltageSetpoint100v; }
+    write {
+        count i64;
+        with with::GeneratorVoltageSetpoint100v;
+        limits |with| [
+            (
+                runtime::Rule::new(1, 16).limited_by(with.generator_voltage_factor)?.limit()?.max(0),
+                runtime::Rule::new(5, 16).limited_by(with.generator_voltage_factor)?.limit()?.min(20_480),
+            ),
+        ];
+    }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Generator voltage setpoint 400v.
+    ///
+    /// At parameter 000Ah (10), `u16`, raw `generator_voltage_factor.raw x 0.125..generator_voltage_factor.raw
+    /// x 1.2`, value `raw x 400 / generator_voltage_factor.raw V`, one count is `0.001 V`, read and write, for
+    /// `voltage=400V`.
+    GeneratorVoltageSetpoint400v: u16 = "generator_voltage_setpoint_400v";
+    at Parameter 0x000A;
+    unit "V";
+    decimals 3;
+    => value_or_error f64 as ruled(|with: with::GeneratorVoltageSetpoint400v|
+        runtime::Rule::new(1, 400).times(with.generator_voltage_factor));
+    read { count i64; with with::GeneratorVoltageSetpoint400v; }
+    write {
+        count i64;
+        with with::GeneratorVoltageSetpoint400v;
+        limits |with| [
+            (
+                runtime::Rule::new(1, 8).limited_by(with.generator_voltage_factor)?.limit()?.max(0),
+                runtime::Rule::new(6, 5).limited_by(with.generator_voltage_factor)?.limit()?.min(65_535),
+            ),
+        ];
+    }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Generator rated voltage 100v.
+    ///
+    /// At parameter 0128h (296), `u16`, raw `generator_voltage_factor.raw x 0.0625..min(20480,
+    /// generator_voltage_factor.raw x 0.3125)`, value `raw x 400 / generator_voltage_factor.raw V`, one count
+    /// is `0.001 V`, read and write, for `voltage=100V`.
+    GeneratorRatedVoltage100v: u16 = "generator_rated_voltage_100v";
+    at Parameter 0x0128;
+    unit "V";
+    decimals 3;
+    raw 0..=20_480;
+    => value_or_error f64 as ruled(|with: with::GeneratorRatedVoltage100v|
+        runtime::Rule::new(1, 400).times(with.generator_voltage_factor));
+    read { count i64; with with::GeneratorRatedVoltage100v; }
+    write {
+        count i64;
+        with with::GeneratorRatedVoltage100v;
+        limits |with| [
+            (
+                runtime::Rule::new(1, 16).limited_by(with.generator_voltage_factor)?.limit()?.max(0),
+                runtime::Rule::new(5, 16).limited_by(with.generator_voltage_factor)?.limit()?.min(20_480),
+            ),
+        ];
+    }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Generator rated voltage 400v.
+    ///
+    /// At parameter 0128h (296), `u16`, raw `generator_voltage_factor.raw x 0.125..generator_voltage_factor.raw
+    /// x 1.2`, value `raw x 400 / generator_voltage_factor.raw V`, one count is `0.001 V`, read and write, for
+    /// `voltage=400V`.
+    GeneratorRatedVoltage400v: u16 = "generator_rated_voltage_400v";
+    at Parameter 0x0128;
+    unit "V";
+    decimals 3;
+    => value_or_error f64 as ruled(|with: with::GeneratorRatedVoltage400v|
+        runtime::Rule::new(1, 400).times(with.generator_voltage_factor));
+    read { count i64; with with::GeneratorRatedVoltage400v; }
+    write {
+        count i64;
+        with with::GeneratorRatedVoltage400v;
+        limits |with| [
+            (
+                runtime::Rule::new(1, 8).limited_by(with.generator_voltage_factor)?.limit()?.max(0),
+                runtime::Rule::new(6, 5).limited_by(with.generator_voltage_factor)?.limit()?.min(65_535),
+            ),
+        ];
+    }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Generator current transformer ratio.
+    ///
+    /// At parameter 0002h (2), `u16`, raw `10..7000`, read and write.
+    GeneratorCurrentTransformerRatio: u16 = "generator_current_transformer_ratio";
+    at Parameter 0x0002;
+    unit "A";
+    raw 10..=7000;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Power measurement phases.
+    ///
+    /// At parameter 0015h (21) bits 11 to 11, `bit`, raw `0, 1`, read and write.
+    PowerMeasurementPhases: u8 = "power_measurement_phases";
+    at Parameter 0x0015;
+    bits 11 0x0800 group;
+    raw 0..=1;
+    => value enums::PowerMeasurementPhases as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Generator rated power.
+    ///
+    /// At parameter 0007h (7), `u16`, raw `5..9999`, read and write.
+    GeneratorRatedPower: u16 = "generator_rated_power";
+    at Parameter 0x0007;
+    unit "kW";
+    raw 5..=9999;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Generator rated current.
+    ///
+    /// At parameter 0047h (71), `u16`, raw `0..7000`, read and write.
+    GeneratorRatedCurrent: u16 = "generator_rated_current";
+    at Parameter 0x0047;
+    unit "A";
+    raw 0..=7000;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Generator power setpoint 1.
+    ///
+    /// At parameter 0045h (69), `s16`, raw `-9999..9999`, read and write.
+    GeneratorPowerSetpoint1: i16 = "generator_power_setpoint_1";
+    at Parameter 0x0045;
+    unit "kW";
+    raw -9999..=9999;
+    => value i16 as plain();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Generator power setpoint 2.
+    ///
+    /// At parameter 0046h (70), `s16`, raw `-9999..9999`, read and write.
+    GeneratorPowerSetpoint2: i16 = "generator_power_setpoint_2";
+    at Parameter 0x0046;
+    unit "kW";
+    raw -9999..=9999;
+    => value i16 as plain();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Frequency controller.
+    ///
+    /// At parameter 0013h (19) bits 15 to 14, `u8`, raw `0, 3`, read and write.
+    FrequencyController: u8 = "frequency_controller";
+    at Parameter 0x0013;
+    bits 14 0xC000 group;
+    raw 0..=3;
+    => value enums::Switch2 as named(u8);
+    read { count i32; }
+    write { count i32; closed true; in [0 | 3]; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Frequency controller start frequency.
+    ///
+    /// At parameter 0039h (57), `u16`, raw `0..17920`, steps of `0.00390625 Hz`, one count is `0.001 Hz`, read
+    /// and write.
+    FrequencyControllerStartFrequency: u16 = "frequency_controller_start_frequency";
+    at Parameter 0x0039;
+    unit "Hz";
+    decimals 3;
+    raw 0..=17_920;
+    => value f64 as scaled(256, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Frequency controller start delay.
+    ///
+    /// At parameter 01F1h (497), `u16`, raw `0..49950`, steps of `0.02 s`, one count is `0.01 s`, read and
+    /// write.
+    FrequencyControllerStartDelay: u16 = "frequency_controller_start_delay";
+    at Parameter 0x01F1;
+    unit "s";
+    decimals 2;
+    raw 0..=49_950;
+    => value f64 as scaled(50, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Frequency controller dead band.
+    ///
+    /// At parameter 002Ch (44), `u16`, raw `5..256`, steps of `0.00390625 Hz`, one count is `0.001 Hz`, read
+    /// and write.
+    FrequencyControllerDeadBand: u16 = "frequency_controller_dead_band";
+    at Parameter 0x002C;
+    unit "Hz";
+    decimals 3;
+    raw 5..=256;
+    => value f64 as scaled(256, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Frequency controller pulse time.
+    ///
+    /// At parameter 002Dh (45), `u16`, raw `5..125`, steps of `2 ms`, one count is `1 ms`, read and write.
+    FrequencyControllerPulseTime: u16 = "frequency_controller_pulse_time";
+    at Parameter 0x002D;
+    unit "ms";
+    raw 5..=125;
+    => value f64 as scaled(1, 2);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Frequency controller proportional gain.
+    ///
+    /// At parameter 002Eh (46), `u16`, raw `1..999`, one count is `0.1`, read and write.
+    FrequencyControllerProportionalGain: u16 = "frequency_controller_proportional_gain";
+    at Parameter 0x002E;
+    decimals 1;
+    raw 1..=999;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Voltage controller.
+    ///
+    /// At parameter 0013h (19) bits 11 to 10, `u8`, raw `0, 3`, read and write.
+    VoltageController: u8 = "voltage_controller";
+    at Parameter 0x0013;
+    bits 10 0x0C00 group;
+    raw 0..=3;
+    => value enums::Switch2 as named(u8);
+    read { count i32; }
+    write { count i32; closed true; in [0 | 3]; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Voltage controller dead band.
+    ///
+    /// At parameter 0025h (37), `u16`, raw `4..600`, steps of `0.025 %`, one count is `0.01 %`, read and write.
+    VoltageControllerDeadBand: u16 = "voltage_controller_dead_band";
+    at Parameter 0x0025;
+    unit "%";
+    decimals 2;
+    raw 4..=600;
+    => value f64 as scaled(40, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Voltage controller pulse time.
+    ///
+    /// At parameter 0026h (38), `u16`, raw `10..125`, steps of `2 ms`, one count is `1 ms`, read and write.
+    VoltageControllerPulseTime: u16 = "voltage_controller_pulse_time";
+    at Parameter 0x0026;
+    unit "ms";
+    raw 10..=125;
+    => value f64 as scaled(1, 2);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Voltage controller proportional gain.
+    ///
+    /// At parameter 0027h (39), `u16`, raw `1..999`, one count is `0.1`, read and write.
+    VoltageControllerProportionalGain: u16 = "voltage_controller_proportional_gain";
+    at Parameter 0x0027;
+    decimals 1;
+    raw 1..=999;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Cos phi controller.
+    ///
+    /// At parameter 0013h (19) bits 9 to 8, `u8`, raw `0, 3`, read and write.
+    CosPhiController: u8 = "cos_phi_controller";
+    at Parameter 0x0013;
+    bits 8 0x0300 group;
+    raw 0..=3;
+    => value enums::Switch2 as named(u8);
+    read { count i32; }
+    write { count i32; closed true; in [0 | 3]; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Cos phi controller setpoint.
+    ///
+    /// At parameter 000Dh (13), `s16`, raw `-99..-70 or 70..100`, one count is `0.01`, read and write.
+    CosPhiControllerSetpoint: i16 = "cos_phi_controller_setpoint";
+    at Parameter 0x000D;
+    decimals 2;
+    raw -99..=100;
+    => value f64 as scaled(100, 1);
+    read { count i32; }
+    write { count i32; in [-99..=-70 | 70..=100]; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Cos phi controller dead band.
+    ///
+    /// At parameter 0028h (40), `u16`, raw `5..250`, one count is `0.1 %`, read and write.
+    CosPhiControllerDeadBand: u16 = "cos_phi_controller_dead_band";
+    at Parameter 0x0028;
+    unit "%";
+    decimals 1;
+    raw 5..=250;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Cos phi controller proportional gain.
+    ///
+    /// At parameter 002Ah (42), `u16`, raw `1..999`, one count is `0.1`, read and write.
+    CosPhiControllerProportionalGain: u16 = "cos_phi_controller_proportional_gain";
+    at Parameter 0x002A;
+    decimals 1;
+    raw 1..=999;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Active power controller.
+    ///
+    /// At parameter 0013h (19) bits 13 to 12, `u8`, raw `0, 3`, read and write.
+    ActivePowerController: u8 = "active_power_controller";
+    at Parameter 0x0013;
+    bits 12 0x3000 group;
+    raw 0..=3;
+    => value enums::Switch2 as named(u8);
+    read { count i32; }
+    write { count i32; closed true; in [0 | 3]; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Active power controller ramp.
+    ///
+    /// At parameter 0043h (67), `u16`, raw `0..100`, read and write.
+    ActivePowerControllerRamp: u16 = "active_power_controller_ramp";
+    at Parameter 0x0043;
+    unit "%/s";
+    raw 0..=100;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Active power controller maximum.
+    ///
+    /// At parameter 0049h (73), `u16`, raw `100..1200`, one count is `0.1 %`, read and write.
+    ActivePowerControllerMaximum: u16 = "active_power_controller_maximum";
+    at Parameter 0x0049;
+    unit "%";
+    decimals 1;
+    raw 100..=1200;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Active power controller minimum.
+    ///
+    /// At parameter 004Ah (74), `u16`, raw `0..500`, one count is `0.1 %`, read and write.
+    ActivePowerControllerMinimum: u16 = "active_power_controller_minimum";
+    at Parameter 0x004A;
+    unit "%";
+    decimals 1;
+    raw 0..=500;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Active power controller dead band.
+    ///
+    /// At parameter 002Fh (47), `u16`, raw `1..250`, one count is `0.1 %`, read and write.
+    ActivePowerControllerDeadBand: u16 = "active_power_controller_dead_band";
+    at Parameter 0x002F;
+    unit "%";
+    decimals 1;
+    raw 1..=250;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Active power controller proportional gain.
+    ///
+    /// At parameter 0031h (49), `u16`, raw `1..999`, one count is `0.1`, read and write.
+    ActivePowerControllerProportionalGain: u16 = "active_power_controller_proportional_gain";
+    at Parameter 0x0031;
+    decimals 1;
+    raw 1..=999;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Active power controller sensitivity reduction.
+    ///
+    /// At parameter 0032h (50), `u16`, raw `10..99`, one count is `0.1`, read and write.
+    ActivePowerControllerSensitivityReduction: u16 = "active_power_controller_sensitivity_reduction";
+    at Parameter 0x0032;
+    decimals 1;
+    raw 10..=99;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Part load lead setpoint.
+    ///
+    /// At parameter 004Ch (76), `u16`, raw `50..1100`, one count is `0.1 %`, read and write.
+    PartLoadLeadSetpoint: u16 = "part_load_lead_setpoint";
+    at Parameter 0x004C;
+    unit "%";
+    decimals 1;
+    raw 50..=1100;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Part load lead time.
+    ///
+    /// At parameter 004Bh (75), `u16`, raw `0..30000`, steps of `0.02 s`, one count is `0.01 s`, read and
+    /// write.
+    PartLoadLeadTime: u16 = "part_load_lead_time";
+    at Parameter 0x004B;
+    unit "s";
+    decimals 2;
+    raw 0..=30_000;
+    => value f64 as scaled(50, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Control by interface x1 x5.
+    ///
+    /// At parameter 00C9h (201) bits 7 to 6, `u8`, raw `0, 3`, read and write.
+    ControlByInterfaceX1X5: u8 = "control_by_interface_x1_x5";
+    at Parameter 0x00C9;
+    bits 6 0x00C0 group;
+    raw 0..=3;
+    => value enums::Switch2 as named(u8);
+    read { count i32; }
+    write { count i32; closed true; in [0 | 3]; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Breaker logic.
+    ///
+    /// At parameter 0010h (16) bits 11 to 8, `u8`, raw `0, 1`, read and write.
+    BreakerLogic: u8 = "breaker_logic";
+    at Parameter 0x0010;
+    bits 8 0x0F00 group;
+    raw 0..=1;
+    => value enums::BreakerLogic as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Load ramp maximum time.
+    ///
+    /// At parameter 008Dh (141), `u16`, raw `0..49950`, steps of `0.02 s`, one count is `0.01 s`, read and
+    /// write.
+    LoadRampMaximumTime: u16 = "load_ramp_maximum_time";
+    at Parameter 0x008D;
+    unit "s";
+    decimals 2;
+    raw 0..=49_950;
+    => value f64 as scaled(50, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Generator breaker signal logic.
+    ///
+    /// At parameter 0015h (21) bits 3 to 3, `bit`, raw `0, 1`, read and write.
+    GeneratorBreakerSignalLogic: u8 = "generator_breaker_signal_logic";
+    at Parameter 0x0015;
+    bits 3 0x0008 group;
+    raw 0..=1;
+    => value enums::GeneratorBreakerSignalLogic as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Generator breaker open relay logic.
+    ///
+    /// At parameter 00F8h (248) bits 2 to 2, `bit`, raw `0, 1`, read and write.
+    GeneratorBreakerOpenRelayLogic: u8 = "generator_breaker_open_relay_logic";
+    at Parameter 0x00F8;
+    bits 2 0x0004 group;
+    raw 0..=1;
+    => value enums::ContactLogic as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Synchronisation frequency difference maximum.
+    ///
+    /// At parameter 001Ah (26), `u16`, raw `5..125`, steps of `0.00390625 Hz`, one count is `0.001 Hz`, read
+    /// and write.
+    SynchronisationFrequencyDifferenceMaximum: u16 = "synchronisation_frequency_difference_maximum";
+    at Parameter 0x001A;
+    unit "Hz";
+    decimals 3;
+    raw 5..=125;
+    => value f64 as scaled(256, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Synchronisation frequency difference minimum.
+    ///
+    /// At parameter 001Bh (27), `u16`, raw `0..125`, steps of `0.00390625 Hz`, one count is `0.001 Hz`, read
+    /// and write.
+    SynchronisationFrequencyDifferenceMinimum: u16 = "synchronisation_frequency_difference_minimum";
+    at Parameter 0x001B;
+    unit "Hz";
+    decimals 3;
+    raw 0..=125;
+    => value f64 as scaled(256, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Synchronisation voltage difference maximum.
+    ///
+    /// At parameter 001Ch (28), `u16`, raw `4..600`, steps of `0.025 %`, one count is `0.01 %`, read and write.
+    SynchronisationVoltageDifferenceMaximum: u16 = "synchronisation_voltage_difference_maximum";
+    at Parameter 0x001C;
+    unit "%";
+    decimals 2;
+    raw 4..=600;
+    => value f64 as scaled(40, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Synchronisation voltage difference minimum.
+    ///
+    /// At parameter 0135h (309), `u16`, raw `4..600`, steps of `0.025 %`, one count is `0.01 %`, read and
+    /// write.
+    SynchronisationVoltageDifferenceMinimum: u16 = "synchronisation_voltage_difference_minimum";
+    at Parameter 0x0135;
+    unit "%";
+    decimals 2;
+    raw 4..=600;
+    => value f64 as scaled(40, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Synchronisation pulse time.
+    ///
+    /// At parameter 001Fh (31), `u16`, raw `1..13`, steps of `0.02 s`, one count is `0.01 s`, read and write.
+    SynchronisationPulseTime: u16 = "synchronisation_pulse_time";
+    at Parameter 0x001F;
+    unit "s";
+    decimals 2;
+    raw 1..=13;
+    => value f64 as scaled(50, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Generator breaker pick up time.
+    ///
+    /// At parameter 0020h (32), `u16`, raw `40..300`, read and write.
+    GeneratorBreakerPickUpTime: u16 = "generator_breaker_pick_up_time";
+    at Parameter 0x0020;
+    unit "ms";
+    raw 40..=300;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Synchronisation time monitoring.
+    ///
+    /// At parameter 0015h (21) bits 0 to 0, `bit`, raw `0, 1`, read and write.
+    SynchronisationTimeMonitoring: u8 = "synchronisation_time_monitoring";
+    at Parameter 0x0015;
+    bits 0 0x0001 group;
+    raw 0..=1;
+    => value enums::OffOn as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Synchronisation time monitoring delay.
+    ///
+    /// At parameter 0022h (34), `u16`, raw `10..999`, read and write.
+    SynchronisationTimeMonitoringDelay: u16 = "synchronisation_time_monitoring_delay";
+    at Parameter 0x0022;
+    unit "s";
+    raw 10..=999;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Dead bus start.
+    ///
+    /// At parameter 0013h (19) bits 5 to 4, `u8`, raw `0, 3`, read and write.
+    DeadBusStart: u8 = "dead_bus_start";
+    at Parameter 0x0013;
+    bits 4 0x0030 group;
+    raw 0..=3;
+    => value enums::Switch2 as named(u8);
+    read { count i32; }
+    write { count i32; closed true; in [0 | 3]; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Dead bus start frequency difference maximum.
+    ///
+    /// At parameter 001Dh (29), `u16`, raw `13..1280`, steps of `0.00390625 Hz`, one count is `0.001 Hz`, read
+    /// and write.
+    DeadBusStartFrequencyDifferenceMaximum: u16 = "dead_bus_start_frequency_difference_maximum";
+    at Parameter 0x001D;
+    unit "Hz";
+    decimals 3;
+    raw 13..=1280;
+    => value f64 as scaled(256, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Dead bus start voltage difference maximum.
+    ///
+    /// At parameter 001Eh (30), `u16`, raw `4..800`, steps of `0.025 %`, one count is `0.01 %`, read and write.
+    DeadBusStartVoltageDifferenceMaximum: u16 = "dead_bus_start_voltage_difference_maximum";
+    at Parameter 0x001E;
+    unit "%";
+    decimals 2;
+    raw 4..=800;
+    => value f64 as scaled(40, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Dead bus start maximum time.
+    ///
+    /// At parameter 008Eh (142), `u16`, raw `0..999`, read and write.
+    DeadBusStartMaximumTime: u16 = "dead_bus_start_maximum_time";
+    at Parameter 0x008E;
+    unit "s";
+    raw 0..=999;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Generator breaker monitoring.
+    ///
+    /// At parameter 0011h (17) bits 12 to 12, `bit`, raw `0, 1`, read and write.
+    GeneratorBreakerMonitoring: u8 = "generator_breaker_monitoring";
+    at Parameter 0x0011;
+    bits 12 0x1000 group;
+    raw 0..=1;
+    => value enums::OffOn as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Automatic breaker unlocking.
+    ///
+    /// At parameter 00F8h (248) bits 1 to 1, `bit`, raw `0, 1`, read and write.
+    AutomaticBreakerUnlocking: u8 = "automatic_breaker_unlocking";
+    at Parameter 0x00F8;
+    bits 1 0x0002 group;
+    raw 0..=1;
+    => value enums::OffOn as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Generator overload monitoring.
+    ///
+    /// At parameter 000Fh (15) bits 11 to 11, `bit`, raw `0, 1`, read and write.
+    GeneratorOverloadMonitoring: u8 = "generator_overload_monitoring";
+    at Parameter 0x000F;
+    bits 11 0x0800 group;
+    raw 0..=1;
+    => value enums::OffOn as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Overload threshold parallel operation.
+    ///
+    /// At parameter 0070h (112), `u16`, raw `800..1500`, one count is `0.1 %`, read and write.
+    OverloadThresholdParallelOperation: u16 = "overload_threshold_parallel_operation";
+    at Parameter 0x0070;
+    unit "%";
+    decimals 1;
+    raw 800..=1500;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Overload delay parallel operation.
+    ///
+    /// At parameter 0071h (113), `u16`, raw `0..4950`, steps of `0.02 s`, one count is `0.01 s`, read and
+    /// write.
+    OverloadDelayParallelOperation: u16 = "overload_delay_parallel_operation";
+    at Parameter 0x0071;
+    unit "s";
+    decimals 2;
+    raw 0..=4950;
+    => value f64 as scaled(50, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Overload threshold isolated operation.
+    ///
+    /// At parameter 019Eh (414), `u16`, raw `800..1500`, one count is `0.1 %`, read and write.
+    OverloadThresholdIsolatedOperation: u16 = "overload_threshold_isolated_operation";
+    at Parameter 0x019E;
+    unit "%";
+    decimals 1;
+    raw 800..=1500;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Overload delay isolated operation.
+    ///
+    /// At parameter 007Eh (126), `u16`, raw `0..4950`, steps of `0.02 s`, one count is `0.01 s`, read and
+    /// write.
+    OverloadDelayIsolatedOperation: u16 = "overload_delay_isolated_operation";
+    at Parameter 0x007E;
+    unit "s";
+    decimals 2;
+    raw 0..=4950;
+    => value f64 as scaled(50, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Generator reverse power monitoring.
+    ///
+    /// At parameter 000Fh (15) bits 5 to 5, `bit`, raw `0, 1`, read and write.
+    GeneratorReversePowerMonitoring: u8 = "generator_reverse_power_monitoring";
+    at Parameter 0x000F;
+    bits 5 0x0020 group;
+    raw 0..=1;
+    => value enums::OffOn as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Reverse power threshold.
+    ///
+    /// At parameter 0072h (114), `s16`, raw `-990..990`, one count is `0.1 %`, read and write.
+    ReversePowerThreshold: i16 = "reverse_power_threshold";
+    at Parameter 0x0072;
+    unit "%";
+    decimals 1;
+    raw -990..=990;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Reverse power delay.
+    ///
+    /// At parameter 0073h (115), `u16`, raw `0..4995`, steps of `0.02 s`, one count is `0.01 s`, read and
+    /// write.
+    ReversePowerDelay: u16 = "reverse_power_delay";
+    at Parameter 0x0073;
+    unit "s";
+    decimals 2;
+    raw 0..=4995;
+    => value f64 as scaled(50, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Generator unbalanced load monitoring.
+    ///
+    /// At parameter 000Fh (15) bits 10 to 10, `bit`, raw `0, 1`, read and write.
+    GeneratorUnbalancedLoadMonitoring: u8 = "generator_unbalanced_load_monitoring";
+    at Parameter 0x000F;
+    bits 10 0x0400 group;
+    raw 0..=1;
+    => value enums::OffOn as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Unbalanced load threshold.
+    ///
+    /// At parameter 0074h (116), `u16`, raw `0..1000`, one count is `0.1 %`, read and write.
+    UnbalancedLoadThreshold: u16 = "unbalanced_load_threshold";
+    at Parameter 0x0074;
+    unit "%";
+    decimals 1;
+    raw 0..=1000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Unbalanced load delay.
+    ///
+    /// At parameter 0075h (117), `u16`, raw `1..4999`, steps of `0.02 s`, one count is `0.01 s`, read and
+    /// write.
+    UnbalancedLoadDelay: u16 = "unbalanced_load_delay";
+    at Parameter 0x0075;
+    unit "s";
+    decimals 2;
+    raw 1..=4999;
+    => value f64 as scaled(50, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Generator overcurrent monitoring.
+    ///
+    /// At parameter 000Fh (15) bits 4 to 4, `bit`, raw `0, 1`, read and write.
+    GeneratorOvercurrentMonitoring: u8 = "generator_overcurrent_monitoring";
+    at Parameter 0x000F;
+    bits 4 0x0010 group;
+    raw 0..=1;
+    => value enums::OffOn as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Overcurrent 1 threshold.
+    ///
+    /// At parameter 0076h (118), `u16`, raw `0..3000`, one count is `0.1 %`, read and write.
+    Overcurrent1Threshold: u16 = "overcurrent_1_threshold";
+    at Parameter 0x0076;
+    unit "%";
+    decimals 1;
+    raw 0..=3000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Overcurrent 1 delay.
+    ///
+    /// At parameter 0077h (119), `u16`, raw `1..4999`, steps of `0.02 s`, one count is `0.01 s`, read and
+    /// write.
+    Overcurrent1Delay: u16 = "overcurrent_1_delay";
+    at Parameter 0x0077;
+    unit "s";
+    decimals 2;
+    raw 1..=4999;
+    => value f64 as scaled(50, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Overcurrent 2 threshold.
+    ///
+    /// At parameter 01ACh (428), `u16`, raw `0..3000`, one count is `0.1 %`, read and write.
+    Overcurrent2Threshold: u16 = "overcurrent_2_threshold";
+    at Parameter 0x01AC;
+    unit "%";
+    decimals 1;
+    raw 0..=3000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Overcurrent 2 delay.
+    ///
+    /// At parameter 01ADh (429), `u16`, raw `1..4999`, steps of `0.02 s`, one count is `0.01 s`, read and
+    /// write.
+    Overcurrent2Delay: u16 = "overcurrent_2_delay";
+    at Parameter 0x01AD;
+    unit "s";
+    decimals 2;
+    raw 1..=4999;
+    => value f64 as scaled(50, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Inverse time overcurrent.
+    ///
+    /// At parameter 00F8h (248) bits 10 to 10, `bit`, raw `0, 1`, read and write.
+    InverseTimeOvercurrent: u8 = "inverse_time_overcurrent";
+    at Parameter 0x00F8;
+    bits 10 0x0400 group;
+    raw 0..=1;
+    => value enums::OffOn as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Inverse time overcurrent characteristic.
+    ///
+    /// At parameter 012Ah (298) bits 1 to 0, `u8`, raw `0..2`, read and write.
+    InverseTimeOvercurrentCharacteristic: u8 = "inverse_time_overcurrent_characteristic";
+    at Parameter 0x012A;
+    bits 0 0x0003 group;
+    raw 0..=2;
+    => value enums::InverseTimeOvercurrentCharacteristic as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Inverse time overcurrent tp.
+    ///
+    /// At parameter 012Bh (299), `u16`, raw `0..99`, steps of `0.02 s`, one count is `0.01 s`, read and write.
+    InverseTimeOvercurrentTp: u16 = "inverse_time_overcurrent_tp";
+    at Parameter 0x012B;
+    unit "s";
+    decimals 2;
+    raw 0..=99;
+    => value f64 as scaled(50, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Inverse time overcurrent ip.
+    ///
+    /// At parameter 012Ch (300), `u16`, raw `100..3000`, one count is `0.001`, read and write.
+    InverseTimeOvercurrentIp: u16 = "inverse_time_overcurrent_ip";
+    at Parameter 0x012C;
+    decimals 3;
+    raw 100..=3000;
+    => value f64 as scaled(1000, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Inverse time overcurrent istart.
+    ///
+    /// At parameter 012Dh (301), `u16`, raw `1000..3000`, one count is `0.001`, read and write.
+    InverseTimeOvercurrentIstart: u16 = "inverse_time_overcurrent_istart";
+    at Parameter 0x012D;
+    decimals 3;
+    raw 1000..=3000;
+    => value f64 as scaled(1000, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Inverse time overcurrent voltage dependence.
+    ///
+    /// At parameter 00F8h (248) bits 11 to 11, `bit`, raw `0, 1`, read and write.
+    InverseTimeOvercurrentVoltageDependence: u8 = "inverse_time_overcurrent_voltage_dependence";
+    at Parameter 0x00F8;
+    bits 11 0x0800 group;
+    raw 0..=1;
+    => value enums::OffOn as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Inverse time overcurrent voltage knee.
+    ///
+    /// At parameter 012Eh (302), `u16`, raw `10..90`, read and write.
+    InverseTimeOvercurrentVoltageKnee: u16 = "inverse_time_overcurrent_voltage_knee";
+    at Parameter 0x012E;
+    unit "%";
+    raw 10..=90;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Generator overfrequency monitoring.
+    ///
+    /// At parameter 0136h (310) bits 12 to 12, `bit`, raw `0, 1`, read and write.
+    GeneratorOverfrequencyMonitoring: u8 = "generator_overfrequency_monitoring";
+    at Parameter 0x0136;
+    bits 12 0x1000 group;
+    raw 0..=1;
+    => value enums::OffOn as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Generator overfrequency 1 threshold.
+    ///
+    /// At parameter 0068h (104), `u16`, raw `10240..21760`, steps of `0.00390625 Hz`, one count is `0.001 Hz`,
+    /// read and write.
+    GeneratorOverfrequency1Threshold: u16 = "generator_overfrequency_1_threshold";
+    at Parameter 0x0068;
+    unit "Hz";
+    decimals 3;
+    raw 10_240..=21_760;
+    => value f64 as scaled(256, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Generator overfrequency 1 delay.
+    ///
+    /// At parameter 0069h (105), `u16`, raw `1..499`, steps of `0.02 s`, one count is `0.01 s`, read and write.
+    GeneratorOverfrequency1Delay: u16 = "generator_overfrequency_1_delay";
+    at Parameter 0x0069;
+    unit "s";
+    decimals 2;
+    raw 1..=499;
+    => value f64 as scaled(50, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Generator overfrequency 2 threshold.
+    ///
+    /// At parameter 0120h (288), `u16`, raw `10240..21760`, steps of `0.00390625 Hz`, one count is `0.001 Hz`,
+    /// read and write.
+    GeneratorOverfrequency2Threshold: u16 = "generator_overfrequency_2_threshold";
+    at Parameter 0x0120;
+    unit "Hz";
+    decimals 3;
+    raw 10_240..=21_760;
+    => value f64 as scaled(256, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Generator overfrequency 2 delay.
+    ///
+    /// At parameter 0121h (289), `u16`, raw `1..499`, steps of `0.02 s`, one count is `0.01 s`, read and write.
+    GeneratorOverfrequency2Delay: u16 = "generator_overfrequency_2_delay";
+    at Parameter 0x0121;
+    unit "s";
+    decimals 2;
+    raw 1..=499;
+    => value f64 as scaled(50, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Generator underfrequency monitoring.
+    ///
+    /// At parameter 0136h (310) bits 3 to 3, `bit`, raw `0, 1`, read and write.
+    GeneratorUnderfrequencyMonitoring: u8 = "generator_underfrequency_monitoring";
+    at Parameter 0x0136;
+    bits 3 0x0008 group;
+    raw 0..=1;
+    => value enums::OffOn as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Generator underfrequency 1 threshold.
+    ///
+    /// At parameter 006Ah (106), `u16`, raw `10240..21760`, steps of `0.00390625 Hz`, one count is `0.001 Hz`,
+    /// read and write.
+    GeneratorUnderfrequency1Threshold: u16 = "generator_underfrequency_1_threshold";
+    at Parameter 0x006A;
+    unit "Hz";
+    decimals 3;
+    raw 10_240..=21_760;
+    => value f64 as scaled(256, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Generator underfrequency 1 delay.
+    ///
+    /// At parameter 006Bh (107), `u16`, raw `1..499`, steps of `0.02 s`, one count is `0.01 s`, read and write.
+    GeneratorUnderfrequency1Delay: u16 = "generator_underfrequency_1_delay";
+    at Parameter 0x006B;
+    unit "s";
+    decimals 2;
+    raw 1..=499;
+    => value f64 as scaled(50, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Generator underfrequency 2 threshold.
+    ///
+    /// At parameter 0122h (290), `u16`, raw `10240..21760`, steps of `0.00390625 Hz`, one count is `0.001 Hz`,
+    /// read and write.
+    GeneratorUnderfrequency2Threshold: u16 = "generator_underfrequency_2_threshold";
+    at Parameter 0x0122;
+    unit "Hz";
+    decimals 3;
+    raw 10_240..=21_760;
+    => value f64 as scaled(256, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Generator underfrequency 2 delay.
+    ///
+    /// At parameter 0123h (291), `u16`, raw `1..499`, steps of `0.02 s`, one count is `0.01 s`, read and write.
+    GeneratorUnderfrequency2Delay: u16 = "generator_underfrequency_2_delay";
+    at Parameter 0x0123;
+    unit "s";
+    decimals 2;
+    raw 1..=499;
+    => value f64 as scaled(50, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Generator overvoltage monitoring.
+    ///
+    /// At parameter 0136h (310) bits 1 to 1, `bit`, raw `0, 1`, read and write.
+    GeneratorOvervoltageMonitoring: u8 = "generator_overvoltage_monitoring";
+    at Parameter 0x0136;
+    bits 1 0x0002 group;
+    raw 0..=1;
+    => value enums::OffOn as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Generator overvoltage 1 threshold 100v.
+    ///
+    /// At parameter 006Ch (108), `u16`, raw `generator_voltage_factor.raw x 0.05..min(24576,
+    /// generator_voltage_factor.raw x 0.375)`, value `raw x 400 / generator_voltage_factor.raw V`, one count is
+    /// `0.001 V`, read and write, for `voltage=100V`.
+    GeneratorOvervoltage1Threshold100v: u16 = "generator_overvoltage_1_threshold_100v";
+    at Parameter 0x006C;
+    unit "V";
+    decimals 3;
+    raw 0..=24_576;
+    => value_or_error f64 as ruled(|with: with::GeneratorOvervoltage1Threshold100v|
+        runtime::Rule::new(1, 400).times(with.generator_voltage_factor));
+    read { count i64; with with::GeneratorOvervoltage1Threshold100v; }
+    write {
+        count i64;
+        with with::GeneratorOvervoltage1Threshold100v;
+        limits |with| [
+            (
+                runtime::Rule::new(1, 20).limited_by(with.generator_voltage_factor)?.limit()?.max(0),
+                runtime::Rule::new(3, 8).limited_by(with.generator_voltage_factor)?.limit()?.min(24_576),
+            ),
+        ];
+    }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Generator overvoltage 1 threshold 400v.
+    ///
+    /// At parameter 006Ch (108), `u16`, raw `generator_voltage_factor.raw x 0.05..generator_voltage_factor.raw
+    /// x 1.3`, value `raw x 400 / generator_voltage_factor.raw V`, one count is `0.001 V`, read and write, for
+    /// `voltage=400V`.
+    GeneratorOvervoltage1Threshold400v: u16 = "generator_overvoltage_1_threshold_400v";
+    at Parameter 0x006C;
+    unit "V";
+    decimals 3;
+    => value_or_error f64 as ruled(|with: with::GeneratorOvervoltage1Threshold400v|
+        runtime::Rule::new(1, 400).times(with.generator_voltage_factor));
+    read { count i64; with with::GeneratorOvervoltage1Threshold400v; }
+    write {
+        count i64;
+        with with::GeneratorOvervoltage1Threshold400v;
+        limits |with| [
+            (
+                runtime::Rule::new(1, 20).limited_by(with.generator_voltage_factor)?.limit()?.max(0),
+                runtime::Rule::new(13, 10).limited_by(with.generator_voltage_factor)?.limit()?.min(65_535),
+            ),
+        ];
+    }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Generator overvoltage 1 delay.
+    ///
+    /// At parameter 006Dh (109), `u16`, raw `1..499`, steps of `0.02 s`, one count is `0.01 s`, read and write.
+    GeneratorOvervoltage1Delay: u16 = "generator_overvoltage_1_delay";
+    at Parameter 0x006D;
+    unit "s";
+    decimals 2;
+    raw 1..=499;
+    => value f64 as scaled(50, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Generator overvoltage 2 threshold 100v.
+    ///
+    /// At parameter 0124h (292), `u16`, raw `generator_voltage_factor.raw x 0.05..min(24576,
+    /// generator_voltage_factor.raw x 0.375)`, value `raw x 400 / generator_voltage_factor.raw V`, one count is
+    /// `0.001 V`, read and write, for `voltage=100V`.
+    GeneratorOvervoltage2Threshold100v: u16 = "generator_overvoltage_2_threshold_100v";
+    at Parameter 0x0124;
+    unit "V";
+    decimals 3;
+    raw 0..=24_576;
+    => value_or_error f64 as ruled(|with: with::GeneratorOvervoltage2Threshold100v|
+        runtime::Rule::new(1, 400).times(with.generator_voltage_factor));
+    read { count i64; with with::GeneratorOvervoltage2Threshold100v; }
+    write {
+        count i64;
+        with with::GeneratorOvervoltage2Threshold100v;
+        limits |with| [
+            (
+                runtime::Rule::new(1, 20).limited_by(with.generator_voltage_factor)?.limit()?.max(0),
+                runtime::Rule::new(3, 8).limited_by(with.generator_voltage_factor)?.limit()?.min(24_576),
+            ),
+        ];
+    }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Generator overvoltage 2 threshold 400v.
+    ///
+    /// At parameter 0124h (292), `u16`, raw `generator_voltage_factor.raw x 0.05..generator_voltage_factor.raw
+    /// x 1.3`, value `raw x 400 / generator_voltage_factor.raw V`, one count is `0.001 V`, read and write, for
+    /// `voltage=400V`.
+    GeneratorOvervoltage2Threshold400v: u16 = "generator_overvoltage_2_threshold_400v";
+    at Parameter 0x0124;
+    unit "V";
+    decimals 3;
+    => value_or_error f64 as ruled(|with: with::GeneratorOvervoltage2Threshold400v|
+        runtime::Rule::new(1, 400).times(with.generator_voltage_factor));
+    read { count i64; with with::GeneratorOvervoltage2Threshold400v; }
+    write {
+        count i64;
+        with with::GeneratorOvervoltage2Threshold400v;
+        limits |with| [
+            (
+                runtime::Rule::new(1, 20).limited_by(with.generator_voltage_factor)?.limit()?.max(0),
+                runtime::Rule::new(13, 10).limited_by(with.generator_voltage_factor)?.limit()?.min(65_535),
+            ),
+        ];
+    }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Generator overvoltage 2 delay.
+    ///
+    /// At parameter 0125h (293), `u16`, raw `1..499`, steps of `0.02 s`, one count is `0.01 s`, read and write.
+    GeneratorOvervoltage2Delay: u16 = "generator_overvoltage_2_delay";
+    at Parameter 0x0125;
+    unit "s";
+    decimals 2;
+    raw 1..=499;
+    => value f64 as scaled(50, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Generator undervoltage monitoring.
+    ///
+    /// At parameter 0136h (310) bits 0 to 0, `bit`, raw `0, 1`, read and write.
+    GeneratorUndervoltageMonitoring: u8 = "generator_undervoltage_monitoring";
+    at Parameter 0x0136;
+    bits 0 0x0001 group;
+    raw 0..=1;
+    => value enums::OffOn as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Generator undervoltage 1 threshold 100v.
+    ///
+    /// At parameter 006Eh (110), `u16`, raw `generator_voltage_factor.raw x 0.05..min(24576,
+    /// generator_voltage_factor.raw x 0.375)`, value `raw x 400 / generator_voltage_factor.raw V`, one count is
+    /// `0.001 V`, read and write, for `voltage=100V`.
+    GeneratorUndervoltage1Threshold100v: u16 = "generator_undervoltage_1_threshold_100v";
+    at Parameter 0x006E;
+    unit "V";
+    decimals 3;
+    raw 0..=24_576;
+    => value_or_error f64 as ruled(|with: with::GeneratorUndervoltage1Threshold100v|
+        runtime::Rule::new(1, 400).times(with.generator_voltage_factor));
+    read { count i64; with with::GeneratorUndervoltage1Threshold100v; }
+    write {
+        count i64;
+        with with::GeneratorUndervoltage1Threshold100v;
+        limits |with| [
+            (
+                runtime::Rule::new(1, 20).limited_by(with.generator_voltage_factor)?.limit()?.max(0),
+                runtime::Rule::new(3, 8).limited_by(with.generator_voltage_factor)?.limit()?.min(24_576),
+            ),
+        ];
+    }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Generator undervoltage 1 threshold 400v.
+    ///
+    /// At parameter 006Eh (110), `u16`, raw `generator_voltage_factor.raw x 0.05..generator_voltage_factor.raw
+    /// x 1.3`, value `raw x 400 / generator_voltage_factor.raw V`, one count is `0.001 V`, read and write, for
+    /// `voltage=400V`.
+    GeneratorUndervoltage1Threshold400v: u16 = "generator_undervoltage_1_threshold_400v";
+    at Parameter 0x006E;
+    unit "V";
+    decimals 3;
+    => value_or_error f64 as ruled(|with: with::GeneratorUndervoltage1Threshold400v|
+        runtime::Rule::new(1, 400).times(with.generator_voltage_factor));
+    read { count i64; with with::GeneratorUndervoltage1Threshold400v; }
+    write {
+        count i64;
+        with with::GeneratorUndervoltage1Threshold400v;
+        limits |with| [
+            (
+                runtime::Rule::new(1, 20).limited_by(with.generator_voltage_factor)?.limit()?.max(0),
+                runtime::Rule::new(13, 10).limited_by(with.generator_voltage_factor)?.limit()?.min(65_535),
+            ),
+        ];
+    }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Generator undervoltage 1 delay.
+    ///
+    /// At parameter 006Fh (111), `u16`, raw `1..499`, steps of `0.02 s`, one count is `0.01 s`, read and write.
+    GeneratorUndervoltage1Delay: u16 = "generator_undervoltage_1_delay";
+    at Parameter 0x006F;
+    unit "s";
+    decimals 2;
+    raw 1..=499;
+    => value f64 as scaled(50, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Generator undervoltage 2 threshold 100v.
+    ///
+    /// At parameter 0126h (294), `u16`, raw `generator_voltage_factor.raw x 0.05..min(24576,
+    /// generator_voltage_factor.raw x 0.375)`, value `raw x 400 / generator_voltage_factor.raw V`, one count is
+    /// `0.001 V`, read and write, for `voltage=100V`.
+    GeneratorUndervoltage2Threshold100v: u16 = "generator_undervoltage_2_threshold_100v";
+    at Parameter 0x0126;
+    unit "V";
+    decimals 3;
+    raw 0..=24_576;
+    => value_or_error f64 as ruled(|with: with::GeneratorUndervoltage2Threshold100v|
+        runtime::Rule::new(1, 400).times(with.generator_voltage_factor));
+    read { count i64; with with::GeneratorUndervoltage2Threshold100v; }
+    write {
+        count i64;
+        with with::GeneratorUndervoltage2Threshold100v;
+        limits |with| [
+            (
+                runtime::Rule::new(1, 20).limited_by(with.generator_voltage_factor)?.limit()?.max(0),
+                runtime::Rule::new(3, 8).limited_by(with.generator_voltage_factor)?.limit()?.min(24_576),
+            ),
+        ];
+    }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Generator undervoltage 2 threshold 400v.
+    ///
+    /// At parameter 0126h (294), `u16`, raw `generator_voltage_factor.raw x 0.05..generator_voltage_factor.raw
+    /// x 1.3`, value `raw x 400 / generator_voltage_factor.raw V`, one count is `0.001 V`, read and write, for
+    /// `voltage=400V`.
+    GeneratorUndervoltage2Threshold400v: u16 = "generator_undervoltage_2_threshold_400v";
+    at Parameter 0x0126;
+    unit "V";
+    decimals 3;
+    => value_or_error f64 as ruled(|with: with::GeneratorUndervoltage2Threshold400v|
+        runtime::Rule::new(1, 400).times(with.generator_voltage_factor));
+    read { count i64; with with::GeneratorUndervoltage2Threshold400v; }
+    write {
+        count i64;
+        with with::GeneratorUndervoltage2Threshold400v;
+        limits |with| [
+            (
+                runtime::Rule::new(1, 20).limited_by(with.generator_voltage_factor)?.limit()?.max(0),
+                runtime::Rule::new(13, 10).limited_by(with.generator_voltage_factor)?.limit()?.min(65_535),
+            ),
+        ];
+    }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Generator undervoltage 2 delay.
+    ///
+    /// At parameter 0127h (295), `u16`, raw `1..499`, steps of `0.02 s`, one count is `0.01 s`, read and write.
+    GeneratorUndervoltage2Delay: u16 = "generator_undervoltage_2_delay";
+    at Parameter 0x0127;
+    unit "s";
+    decimals 2;
+    raw 1..=499;
+    => value f64 as scaled(50, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Mains frequency monitoring.
+    ///
+    /// At parameter 000Fh (15) bits 14 to 14, `bit`, raw `0, 1`, read and write.
+    MainsFrequencyMonitoring: u8 = "mains_frequency_monitoring";
+    at Parameter 0x000F;
+    bits 14 0x4000 group;
+    raw 0..=1;
+    => value enums::OffOn as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Mains overfrequency threshold.
+    ///
+    /// At parameter 0057h (87), `u16`, raw `10240..17920`, steps of `0.00390625 Hz`, one count is `0.001 Hz`,
+    /// read and write.
+    MainsOverfrequencyThreshold: u16 = "mains_overfrequency_threshold";
+    at Parameter 0x0057;
+    unit "Hz";
+    decimals 3;
+    raw 10_240..=17_920;
+    => value f64 as scaled(256, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Mains overfrequency delay.
+    ///
+    /// At parameter 0058h (88), `u16`, raw `1..499`, steps of `0.02 s`, one count is `0.01 s`, read and write.
+    MainsOverfrequencyDelay: u16 = "mains_overfrequency_delay";
+    at Parameter 0x0058;
+    unit "s";
+    decimals 2;
+    raw 1..=499;
+    => value f64 as scaled(50, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Mains underfrequency threshold.
+    ///
+    /// At parameter 0059h (89), `u16`, raw `10240..17920`, steps of `0.00390625 Hz`, one count is `0.001 Hz`,
+    /// read and write.
+    MainsUnderfrequencyThreshold: u16 = "mains_underfrequency_threshold";
+    at Parameter 0x0059;
+    unit "Hz";
+    decimals 3;
+    raw 10_240..=17_920;
+    => value f64 as scaled(256, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Mains underfrequency delay.
+    ///
+    /// At parameter 005Ah (90), `u16`, raw `1..499`, steps of `0.02 s`, one count is `0.01 s`, read and write.
+    MainsUnderfrequencyDelay: u16 = "mains_underfrequency_delay";
+    at Parameter 0x005A;
+    unit "s";
+    decimals 2;
+    raw 1..=499;
+    => value f64 as scaled(50, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Mains voltage monitoring.
+    ///
+    /// At parameter 000Fh (15) bits 15 to 15, `bit`, raw `0, 1`, read and write.
+    MainsVoltageMonitoring: u8 = "mains_voltage_monitoring";
+    at Parameter 0x000F;
+    bits 15 0x8000 group;
+    raw 0..=1;
+    => value enums::OffOn as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Mains voltage factor.
+    ///
+    /// `KWUNTSEK` at parameter 01FCh (508), `u16`, raw `0..65535`, read only.
+    #[doc(alias = "KWUNTSEK")]
+    MainsVoltageFactor: u16 = "mains_voltage_factor", "KWUNTSEK";
+    at Parameter 0x01FC;
+    => value u16 as plain();
+    read { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Mains overvoltage threshold 100v.
+    ///
+    /// At parameter 005Bh (91), `u16`, raw `mains_voltage_factor.raw x 0.05..min(24576,
+    /// mains_voltage_factor.raw x 0.375)`, value `raw x 400 / mains_voltage_factor.raw V`, one count is `0.001
+    /// V`, read and write, for `voltage=100V`.
+    MainsOvervoltageThreshold100v: u16 = "mains_overvoltage_threshold_100v";
+    at Parameter 0x005B;
+    unit "V";
+    decimals 3;
+    raw 0..=24_576;
+    => value_or_error f64 as ruled(|with: with::MainsOvervoltageThreshold100v|
+        runtime::Rule::new(1, 400).times(with.mains_voltage_factor));
+    read { count i64; with with::MainsOvervoltageThreshold100v; }
+    write {
+        count i64;
+        with with::MainsOvervoltageThreshold100v;
+        limits |with| [
+            (
+                runtime::Rule::new(1, 20).limited_by(with.mains_voltage_factor)?.limit()?.max(0),
+                runtime::Rule::new(3, 8).limited_by(with.mains_voltage_factor)?.limit()?.min(24_576),
+            ),
+        ];
+    }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Mains overvoltage threshold 400v.
+    ///
+    /// At parameter 005Bh (91), `u16`, raw `mains_voltage_factor.raw x 0.05..mains_voltage_factor.raw x 1.3`,
+    /// value `raw x 400 / mains_voltage_factor.raw V`, one count is `0.001 V`, read and write, for
+    /// `voltage=400V`.
+    MainsOvervoltageThreshold400v: u16 = "mains_overvoltage_threshold_400v";
+    at Parameter 0x005B;
+    unit "V";
+    decimals 3;
+    => value_or_error f64 as ruled(|with: with::MainsOvervoltageThreshold400v|
+        runtime::Rule::new(1, 400).times(with.mains_voltage_factor));
+    read { count i64; with with::MainsOvervoltageThreshold400v; }
+    write {
+        count i64;
+        with with::MainsOvervoltageThreshold400v;
+        limits |with| [
+            (
+                runtime::Rule::new(1, 20).limited_by(with.mains_voltage_factor)?.limit()?.max(0),
+                runtime::Rule::new(13, 10).limited_by(with.mains_voltage_factor)?.limit()?.min(65_535),
+            ),
+        ];
+    }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Mains overvoltage delay.
+    ///
+    /// At parameter 005Ch (92), `u16`, raw `1..499`, steps of `0.02 s`, one count is `0.01 s`, read and write.
+    MainsOvervoltageDelay: u16 = "mains_overvoltage_delay";
+    at Parameter 0x005C;
+    unit "s";
+    decimals 2;
+    raw 1..=499;
+    => value f64 as scaled(50, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Mains undervoltage threshold 100v.
+    ///
+    /// At parameter 005Dh (93), `u16`, raw `mains_voltage_factor.raw x 0.05..min(24576,
+    /// mains_voltage_factor.raw x 0.375)`, value `raw x 400 / mains_voltage_factor.raw V`, one count is `0.001
+    /// V`, read and write, for `voltage=100V`.
+    MainsUndervoltageThreshold100v: u16 = "mains_undervoltage_threshold_100v";
+    at Parameter 0x005D;
+    unit "V";
+    decimals 3;
+    raw 0..=24_576;
+    => value_or_error f64 as ruled(|with: with::MainsUndervoltageThreshold100v|
+        runtime::Rule::new(1, 400).times(with.mains_voltage_factor));
+    read { count i64; with with::MainsUndervoltageThreshold100v; }
+    write {
+        count i64;
+        with with::MainsUndervoltageThreshold100v;
+        limits |with| [
+            (
+                runtime::Rule::new(1, 20).limited_by(with.mains_voltage_factor)?.limit()?.max(0),
+                runtime::Rule::new(3, 8).limited_by(with.mains_voltage_factor)?.limit()?.min(24_576),
+            ),
+        ];
+    }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Mains undervoltage threshold 400v.
+    ///
+    /// At parameter 005Dh (93), `u16`, raw `mains_voltage_factor.raw x 0.05..mains_voltage_factor.raw x 1.3`,
+    /// value `raw x 400 / mains_voltage_factor.raw V`, one count is `0.001 V`, read and write, for
+    /// `voltage=400V`.
+    MainsUndervoltageThreshold400v: u16 = "mains_undervoltage_threshold_400v";
+    at Parameter 0x005D;
+    unit "V";
+    decimals 3;
+    => value_or_error f64 as ruled(|with: with::MainsUndervoltageThreshold400v|
+        runtime::Rule::new(1, 400).times(with.mains_voltage_factor));
+    read { count i64; with with::MainsUndervoltageThreshold400v; }
+    write {
+        count i64;
+        with with::MainsUndervoltageThreshold400v;
+        limits |with| [
+            (
+                runtime::Rule::new(1, 20).limited_by(with.mains_voltage_factor)?.limit()?.max(0),
+                runtime::Rule::new(13, 10).limited_by(with.mains_voltage_factor)?.limit()?.min(65_535),
+            ),
+        ];
+    }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Mains undervoltage delay.
+    ///
+    /// At parameter 005Eh (94), `u16`, raw `1..499`, steps of `0.02 s`, one count is `0.01 s`, read and write.
+    MainsUndervoltageDelay: u16 = "mains_undervoltage_delay";
+    at Parameter 0x005E;
+    unit "s";
+    decimals 2;
+    raw 1..=499;
+    => value f64 as scaled(50, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Phase shift monitoring.
+    ///
+    /// At parameter 000Fh (15) bits 1 to 1, `bit`, raw `0, 1`, read and write.
+    PhaseShiftMonitoring: u8 = "phase_shift_monitoring";
+    at Parameter 0x000F;
+    bits 1 0x0002 group;
+    raw 0..=1;
+    => value enums::OffOn as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Phase shift monitoring phases.
+    ///
+    /// At parameter 0015h (21) bits 13 to 13, `bit`, raw `0, 1`, read and write.
+    PhaseShiftMonitoringPhases: u8 = "phase_shift_monitoring_phases";
+    at Parameter 0x0015;
+    bits 13 0x2000 group;
+    raw 0..=1;
+    => value enums::PhaseShiftMonitoringPhases as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Phase shift threshold single phase.
+    ///
+    /// At parameter 0055h (85), `u16`, raw `3..30`, read and write.
+    PhaseShiftThresholdSinglePhase: u16 = "phase_shift_threshold_single_phase";
+    at Parameter 0x0055;
+    unit "°";
+    raw 3..=30;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Phase shift threshold three phase.
+    ///
+    /// At parameter 0056h (86), `u16`, raw `3..30`, read and write.
+    PhaseShiftThresholdThreePhase: u16 = "phase_shift_threshold_three_phase";
+    at Parameter 0x0056;
+    unit "°";
+    raw 3..=30;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Reactive power monitoring.
+    ///
+    /// At parameter 00F8h (248) bits 12 to 12, `bit`, raw `0, 1`, read and write.
+    ReactivePowerMonitoring: u8 = "reactive_power_monitoring";
+    at Parameter 0x00F8;
+    bits 12 0x1000 group;
+    raw 0..=1;
+    => value enums::OffOn as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Reactive power threshold inductive.
+    ///
+    /// At parameter 012Fh (303), `u16`, raw `50..1000`, one count is `0.1 %`, read and write.
+    ReactivePowerThresholdInductive: u16 = "reactive_power_threshold_inductive";
+    at Parameter 0x012F;
+    unit "%";
+    decimals 1;
+    raw 50..=1000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Reactive power delay inductive.
+    ///
+    /// At parameter 0132h (306), `u16`, raw `0..49950`, steps of `0.02 s`, one count is `0.01 s`, read and
+    /// write.
+    ReactivePowerDelayInductive: u16 = "reactive_power_delay_inductive";
+    at Parameter 0x0132;
+    unit "s";
+    decimals 2;
+    raw 0..=49_950;
+    => value f64 as scaled(50, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Reactive power threshold capacitive.
+    ///
+    /// At parameter 0130h (304), `u16`, raw `50..1000`, one count is `0.1 %`, read and write.
+    ReactivePowerThresholdCapacitive: u16 = "reactive_power_threshold_capacitive";
+    at Parameter 0x0130;
+    unit "%";
+    decimals 1;
+    raw 50..=1000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Reactive power delay capacitive.
+    ///
+    /// At parameter 0131h (305), `u16`, raw `0..49950`, steps of `0.02 s`, one count is `0.01 s`, read and
+    /// write.
+    ReactivePowerDelayCapacitive: u16 = "reactive_power_delay_capacitive";
+    at Parameter 0x0131;
+    unit "s";
+    decimals 2;
+    raw 0..=49_950;
+    => value f64 as scaled(50, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Earth fault monitoring.
+    ///
+    /// At parameter 00F8h (248) bits 9 to 9, `bit`, raw `0, 1`, read and write.
+    EarthFaultMonitoring: u8 = "earth_fault_monitoring";
+    at Parameter 0x00F8;
+    bits 9 0x0200 group;
+    raw 0..=1;
+    => value enums::OffOn as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Earth fault threshold.
+    ///
+    /// At parameter 0133h (307), `u16`, raw `50..1000`, one count is `0.1 %`, read and write.
+    EarthFaultThreshold: u16 = "earth_fault_threshold";
+    at Parameter 0x0133;
+    unit "%";
+    decimals 1;
+    raw 50..=1000;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Earth fault delay.
+    ///
+    /// At parameter 0134h (308), `u16`, raw `1..4999`, steps of `0.02 s`, one count is `0.01 s`, read and
+    /// write.
+    EarthFaultDelay: u16 = "earth_fault_delay";
+    at Parameter 0x0134;
+    unit "s";
+    decimals 2;
+    raw 1..=4999;
+    => value f64 as scaled(50, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Battery undervoltage threshold.
+    ///
+    /// At parameter 0089h (137), `u16`, raw `95..300`, one count is `0.1 V`, read and write.
+    BatteryUndervoltageThreshold: u16 = "battery_undervoltage_threshold";
+    at Parameter 0x0089;
+    unit "V";
+    decimals 1;
+    raw 95..=300;
+    => value f64 as scaled(10, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Battery undervoltage delay.
+    ///
+    /// At parameter 01A3h (419), `u16`, raw `1..4950`, steps of `0.02 s`, one count is `0.01 s`, read and
+    /// write.
+    ///
+    /// Erratum: `battery_undervoltage_delay_minimum`.
+    BatteryUndervoltageDelay: u16 = "battery_undervoltage_delay";
+    at Parameter 0x01A3;
+    unit "s";
+    decimals 2;
+    raw 1..=4950;
+    => value f64 as scaled(50, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Digital inputs 1 to 4 logic.
+    ///
+    /// At parameter 007Dh (125) bits 11 to 8, `u8`, raw `0..15`, read and write.
+    DigitalInputs1To4Logic: u8 = "digital_inputs_1_to_4_logic";
+    at Parameter 0x007D;
+    bits 8 0x0F00 group;
+    raw 0..=15;
+    => value flags::DigitalInputs1To4Logic as flags();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Digital inputs 1 to 4 delay.
+    ///
+    /// At parameter 0194h (404), `u16`, 4 decimal digits, read and write.
+    DigitalInputs1To4Delay: u16 = "digital_inputs_1_to_4_delay";
+    at Parameter 0x0194;
+    => value [enums::InputDelay; 4] as digits(u16, [0, 1, 2, 3, 4, 5, 6, 7, 8, 9]);
+    read {}
+    write { closed true; check runtime::form::digits::check::<Self, 4>; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Digital inputs 1 to 4 engine delay.
+    ///
+    /// At parameter 007Fh (127) bits 11 to 8, `u8`, raw `0..15`, read and write.
+    DigitalInputs1To4EngineDelay: u8 = "digital_inputs_1_to_4_engine_delay";
+    at Parameter 0x007F;
+    bits 8 0x0F00 group;
+    raw 0..=15;
+    => value flags::DigitalInputs1To4EngineDelay as flags();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Digital inputs 1 to 4 fault class.
+    ///
+    /// At parameter 0082h (130), `u16`, 4 decimal digits, read and write.
+    DigitalInputs1To4FaultClass: u16 = "digital_inputs_1_to_4_fault_class";
+    at Parameter 0x0082;
+    => value [enums::FaultClass; 4] as digits(u16, [0, 1, 2, 3]);
+    read {}
+    write { closed true; check runtime::form::digits::check::<Self, 4>; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Digital inputs 5 to 8 logic.
+    ///
+    /// At parameter 007Dh (125) bits 7 to 4, `u8`, raw `0..15`, read and write.
+    DigitalInputs5To8Logic: u8 = "digital_inputs_5_to_8_logic";
+    at Parameter 0x007D;
+    bits 4 0x00F0 group;
+    raw 0..=15;
+    => value flags::DigitalInputs5To8Logic as flags();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Digital inputs 5 to 8 delay.
+    ///
+    /// At parameter 0195h (405), `u16`, 4 decimal digits, read and write.
+    DigitalInputs5To8Delay: u16 = "digital_inputs_5_to_8_delay";
+    at Parameter 0x0195;
+    => value [enums::InputDelay; 4] as digits(u16, [0, 1, 2, 3, 4, 5, 6, 7, 8, 9]);
+    read {}
+    write { closed true; check runtime::form::digits::check::<Self, 4>; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Digital inputs 5 to 8 engine delay.
+    ///
+    /// At parameter 007Fh (127) bits 7 to 4, `u8`, raw `0..15`, read and write.
+    DigitalInputs5To8EngineDelay: u8 = "digital_inputs_5_to_8_engine_delay";
+    at Parameter 0x007F;
+    bits 4 0x00F0 group;
+    raw 0..=15;
+    => value flags::DigitalInputs5To8EngineDelay as flags();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Digital inputs 5 to 8 fault class.
+    ///
+    /// At parameter 0087h (135), `u16`, 4 decimal digits, read and write.
+    DigitalInputs5To8FaultClass: u16 = "digital_inputs_5_to_8_fault_class";
+    at Parameter 0x0087;
+    => value [enums::FaultClass; 4] as digits(u16, [0, 1, 2, 3]);
+    read {}
+    write { closed true; check runtime::form::digits::check::<Self, 4>; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Digital inputs 9 to 12 logic.
+    ///
+    /// At parameter 007Dh (125) bits 3 to 0, `u8`, raw `0..15`, read and write.
+    DigitalInputs9To12Logic: u8 = "digital_inputs_9_to_12_logic";
+    at Parameter 0x007D;
+    bits 0 0x000F group;
+    raw 0..=15;
+    => value flags::DigitalInputs9To12Logic as flags();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Digital inputs 9 to 12 delay.
+    ///
+    /// At parameter 0196h (406), `u16`, 4 decimal digits, read and write.
+    DigitalInputs9To12Delay: u16 = "digital_inputs_9_to_12_delay";
+    at Parameter 0x0196;
+    => value [enums::InputDelay; 4] as digits(u16, [0, 1, 2, 3, 4, 5, 6, 7, 8, 9]);
+    read {}
+    write { closed true; check runtime::form::digits::check::<Self, 4>; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Digital inputs 9 to 12 engine delay.
+    ///
+    /// At parameter 007Fh (127) bits 3 to 0, `u8`, raw `0..15`, read and write.
+    DigitalInputs9To12EngineDelay: u8 = "digital_inputs_9_to_12_engine_delay";
+    at Parameter 0x007F;
+    bits 0 0x000F group;
+    raw 0..=15;
+    => value flags::DigitalInputs9To12EngineDelay as flags();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Digital inputs 9 to 12 fault class.
+    ///
+    /// At parameter 0088h (136), `u16`, 4 decimal digits, read and write.
+    DigitalInputs9To12FaultClass: u16 = "digital_inputs_9_to_12_fault_class";
+    at Parameter 0x0088;
+    => value [enums::FaultClass; 4] as digits(u16, [0, 1, 2, 3]);
+    read {}
+    write { closed true; check runtime::form::digits::check::<Self, 4>; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Fault text terminal 62.
+    ///
+    /// At parameter 02DCh (732), `text`, 16 characters of `ascii`, read and write.
+    FaultTextTerminal62: [u16; 8] = "fault_text_terminal_62";
+    at Parameter 0x02DC;
+    addresses [0x02E3, 0x02E2, 0x02E1, 0x02E0, 0x02DF, 0x02DE, 0x02DD, 0x02DC];
+    words 8;
+    => value runtime::Text<16> as text();
+    read {}
+    write { check runtime::form::text::ascii::<Self>; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Fault text terminal 63.
+    ///
+    /// At parameter 02E4h (740), `text`, 16 characters of `ascii`, read and write.
+    FaultTextTerminal63: [u16; 8] = "fault_text_terminal_63";
+    at Parameter 0x02E4;
+    addresses [0x02EB, 0x02EA, 0x02E9, 0x02E8, 0x02E7, 0x02E6, 0x02E5, 0x02E4];
+    words 8;
+    => value runtime::Text<16> as text();
+    read {}
+    write { check runtime::form::text::ascii::<Self>; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Fault text terminal 64.
+    ///
+    /// At parameter 02ECh (748), `text`, 16 characters of `ascii`, read and write.
+    FaultTextTerminal64: [u16; 8] = "fault_text_terminal_64";
+    at Parameter 0x02EC;
+    addresses [0x02F3, 0x02F2, 0x02F1, 0x02F0, 0x02EF, 0x02EE, 0x02ED, 0x02EC];
+    words 8;
+    => value runtime::Text<16> as text();
+    read {}
+    write { check runtime::form::text::ascii::<Self>; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Fault text terminal 65.
+    ///
+    /// At parameter 02F4h (756), `text`, 16 characters of `ascii`, read and write.
+    FaultTextTerminal65: [u16; 8] = "fault_text_terminal_65";
+    at Parameter 0x02F4;
+    addresses [0x02FB, 0x02FA, 0x02F9, 0x02F8, 0x02F7, 0x02F6, 0x02F5, 0x02F4];
+    words 8;
+    => value runtime::Text<16> as text();
+    read {}
+    write { check runtime::form::text::ascii::<Self>; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Fault text terminal 66.
+    ///
+    /// At parameter 02FCh (764), `text`, 16 characters of `ascii`, read and write.
+    FaultTextTerminal66: [u16; 8] = "fault_text_terminal_66";
+    at Parameter 0x02FC;
+    addresses [0x0303, 0x0302, 0x0301, 0x0300, 0x02FF, 0x02FE, 0x02FD, 0x02FC];
+    words 8;
+    => value runtime::Text<16> as text();
+    read {}
+    write { check runtime::form::text::ascii::<Self>; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Fault text terminal 67.
+    ///
+    /// At parameter 0304h (772), `text`, 16 characters of `ascii`, read and write.
+    FaultTextTerminal67: [u16; 8] = "fault_text_terminal_67";
+    at Parameter 0x0304;
+    addresses [0x030B, 0x030A, 0x0309, 0x0308, 0x0307, 0x0306, 0x0305, 0x0304];
+    words 8;
+    => value runtime::Text<16> as text();
+    read {}
+    write { check runtime::form::text::ascii::<Self>; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Fault text terminal 68.
+    ///
+    /// At parameter 030Ch (780), `text`, 16 characters of `ascii`, read and write.
+    FaultTextTerminal68: [u16; 8] = "fault_text_terminal_68";
+    at Parameter 0x030C;
+    addresses [0x0313, 0x0312, 0x0311, 0x0310, 0x030F, 0x030E, 0x030D, 0x030C];
+    words 8;
+    => value runtime::Text<16> as text();
+    read {}
+    write { check runtime::form::text::ascii::<Self>; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Fault text terminal 69.
+    ///
+    /// At parameter 0314h (788), `text`, 16 characters of `ascii`, read and write.
+    FaultTextTerminal69: [u16; 8] = "fault_text_terminal_69";
+    at Parameter 0x0314;
+    addresses [0x031B, 0x031A, 0x0319, 0x0318, 0x0317, 0x0316, 0x0315, 0x0314];
+    words 8;
+    => value runtime::Text<16> as text();
+    read {}
+    write { check runtime::form::text::ascii::<Self>; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Fault text terminal 70.
+    ///
+    /// At parameter 031Ch (796), `text`, 16 characters of `ascii`, read and write.
+    FaultTextTerminal70: [u16; 8] = "fault_text_terminal_70";
+    at Parameter 0x031C;
+    addresses [0x0323, 0x0322, 0x0321, 0x0320, 0x031F, 0x031E, 0x031D, 0x031C];
+    words 8;
+    => value runtime::Text<16> as text();
+    read {}
+    write { check runtime::form::text::ascii::<Self>; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Fault text terminal 71.
+    ///
+    /// At parameter 0324h (804), `text`, 16 characters of `ascii`, read and write.
+    FaultTextTerminal71: [u16; 8] = "fault_text_terminal_71";
+    at Parameter 0x0324;
+    addresses [0x032B, 0x032A, 0x0329, 0x0328, 0x0327, 0x0326, 0x0325, 0x0324];
+    words 8;
+    => value runtime::Text<16> as text();
+    read {}
+    write { check runtime::form::text::ascii::<Self>; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Fault text terminal 72.
+    ///
+    /// At parameter 032Ch (812), `text`, 16 characters of `ascii`, read and write.
+    FaultTextTerminal72: [u16; 8] = "fault_text_terminal_72";
+    at Parameter 0x032C;
+    addresses [0x0333, 0x0332, 0x0331, 0x0330, 0x032F, 0x032E, 0x032D, 0x032C];
+    words 8;
+    => value runtime::Text<16> as text();
+    read {}
+    write { check runtime::form::text::ascii::<Self>; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Fault text terminal 73.
+    ///
+    /// At parameter 0334h (820), `text`, 16 characters of `ascii`, read and write.
+    FaultTextTerminal73: [u16; 8] = "fault_text_terminal_73";
+    at Parameter 0x0334;
+    addresses [0x033B, 0x033A, 0x0339, 0x0338, 0x0337, 0x0336, 0x0335, 0x0334];
+    words 8;
+    => value runtime::Text<16> as text();
+    read {}
+    write { check runtime::form::text::ascii::<Self>; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Analog output 1 source.
+    ///
+    /// At parameter 00C0h (192), `u16`, raw `0..23`, read and write.
+    AnalogOutput1Source: u16 = "analog_output_1_source";
+    at Parameter 0x00C0;
+    raw 0..=23;
+    => value enums::AnalogSource as named(u16);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Analog output 1 current range.
+    ///
+    /// At parameter 0010h (16) bits 1 to 1, `bit`, raw `0, 1`, read and write.
+    AnalogOutput1CurrentRange: u8 = "analog_output_1_current_range";
+    at Parameter 0x0010;
+    bits 1 0x0002 group;
+    raw 0..=1;
+    => value enums::CurrentRange as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Analog output 1 value at 0 percent.
+    ///
+    /// At parameter 00C1h (193), `s16`, raw `-9999..9999`, value `raw when analog_output_1_source.raw is 1; raw
+    /// x 0.01 when analog_output_1_source.raw is 2; raw x 0.01 when analog_output_1_source.raw is 3; raw when
+    /// analog_output_1_source.raw is 4; raw when analog_output_1_source.raw is 5; raw when
+    /// analog_output_1_source.raw is 6; raw when analog_output_1_source.raw is 7; raw when
+    /// analog_output_1_source.raw is 8; raw when analog_output_1_source.raw is 9; raw when
+    /// analog_output_1_source.raw is 10; raw when analog_output_1_source.raw is 19; raw when
+    /// analog_output_1_source.raw is 20; raw x 0.01 when analog_output_1_source.raw is 21; raw when
+    /// analog_output_1_source.raw is 22`, one count is `0.01`, read and write.
+    AnalogOutput1ValueAt0Percent: i16 = "analog_output_1_value_at_0_percent";
+    at Parameter 0x00C1;
+    decimals 2;
+    raw -9999..=9999;
+    => value_or_error f64 as ruled(|with: with::AnalogOutput1ValueAt0Percent|
+        match () {
+            () if matches!(runtime::Raw::to_i64(with.analog_output_1_source), 1) => {
+                Ok(runtime::Rule::new(1, 1))
+            }
+            () if matches!(runtime::Raw::to_i64(with.analog_output_1_source), 2 | 3) => {
+                Ok(runtime::Rule::new(100, 1))
+            }
+            () if matches!(runtime::Raw::to_i64(with.analog_output_1_source), 4 | 5 | 6 | 7 | 8 | 9 | 10 | 19 |
+                20) => {
+                Ok(runtime::Rule::new(1, 1))
+            }
+            () if matches!(runtime::Raw::to_i64(with.analog_output_1_source), 21) => {
+                Ok(runtime::Rule::new(100, 1))
+            }
+            () if matches!(runtime::Raw::to_i64(with.analog_output_1_source), 22) => {
+                Ok(runtime::Rule::new(1, 1))
+            }
+            () => Err(runtime::Error::NoCase),
+        });
+    read { count i64; with with::AnalogOutput1ValueAt0Percent; }
+    write { count i64; with with::AnalogOutput1ValueAt0Percent; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Analog output 1 value at 100 percent.
+    ///
+    /// At parameter 00C2h (194), `s16`, raw `-9999..9999`, value `raw when analog_output_1_source.raw is 1; raw
+    /// x 0.01 when analog_output_1_source.raw is 2; raw x 0.01 when analog_output_1_source.raw is 3; raw when
+    /// analog_output_1_source.raw is 4; raw when analog_output_1_source.raw is 5; raw when
+    /// analog_output_1_source.raw is 6; raw when analog_output_1_source.raw is 7; raw when
+    /// analog_output_1_source.raw is 8; raw when analog_output_1_source.raw is 9; raw when
+    /// analog_output_1_source.raw is 10; raw when analog_output_1_source.raw is 19; raw when
+    /// analog_output_1_source.raw is 20; raw x 0.01 when analog_output_1_source.raw is 21; raw when
+    /// analog_output_1_source.raw is 22`, one count is `0.01`, read and write.
+    AnalogOutput1ValueAt100Percent: i16 = "analog_output_1_value_at_100_percent";
+    at Parameter 0x00C2;
+    decimals 2;
+    raw -9999..=9999;
+    => value_or_error f64 as ruled(|with: with::AnalogOutput1ValueAt100Percent|
+        match () {
+            () if matches!(runtime::Raw::to_i64(with.analog_output_1_source), 1) => {
+                Ok(runtime::Rule::new(1, 1))
+            }
+            () if matches!(runtime::Raw::to_i64(with.analog_output_1_source), 2 | 3) => {
+                Ok(runtime::Rule::new(100, 1))
+            }
+            () if matches!(runtime::Raw::to_i64(with.analog_output_1_source), 4 | 5 | 6 | 7 | 8 | 9 | 10 | 19 |
+                20) => {
+                Ok(runtime::Rule::new(1, 1))
+            }
+            () if matches!(runtime::Raw::to_i64(with.analog_output_1_source), 21) => {
+                Ok(runtime::Rule::new(100, 1))
+            }
+            () if matches!(runtime::Raw::to_i64(with.analog_output_1_source), 22) => {
+                Ok(runtime::Rule::new(1, 1))
+            }
+            () => Err(runtime::Error::NoCase),
+        });
+    read { count i64; with with::AnalogOutput1ValueAt100Percent; }
+    write { count i64; with with::AnalogOutput1ValueAt100Percent; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Analog output 2 source.
+    ///
+    /// At parameter 00C3h (195), `u16`, raw `0..23`, read and write.
+    AnalogOutput2Source: u16 = "analog_output_2_source";
+    at Parameter 0x00C3;
+    raw 0..=23;
+    => value enums::AnalogSource as named(u16);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Analog output 2 current range.
+    ///
+    /// At parameter 0010h (16) bits 3 to 3, `bit`, raw `0, 1`, read and write.
+    AnalogOutput2CurrentRange: u8 = "analog_output_2_current_range";
+    at Parameter 0x0010;
+    bits 3 0x0008 group;
+    raw 0..=1;
+    => value enums::CurrentRange as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Analog output 2 value at 0 percent.
+    ///
+    /// At parameter 00C4h (196), `s16`, raw `-9999..9999`, value `raw when analog_output_2_source.raw is 1; raw
+    /// x 0.01 when analog_output_2_source.raw is 2; raw x 0.01 when analog_output_2_source.raw is 3; raw when
+    /// analog_output_2_source.raw is 4; raw when analog_output_2_source.raw is 5; raw when
+    /// analog_output_2_source.raw is 6; raw when analog_output_2_source.raw is 7; raw when
+    /// analog_output_2_source.raw is 8; raw when analog_output_2_source.raw is 9; raw when
+    /// analog_output_2_source.raw is 10; raw when analog_output_2_source.raw is 19; raw when
+    /// analog_output_2_source.raw is 20; raw x 0.01 when analog_output_2_source.raw is 21; raw when
+    /// analog_output_2_source.raw is 22`, one count is `0.01`, read and write.
+    AnalogOutput2ValueAt0Percent: i16 = "analog_output_2_value_at_0_percent";
+    at Parameter 0x00C4;
+    decimals 2;
+    raw -9999..=9999;
+    => value_or_error f64 as ruled(|with: with::AnalogOutput2ValueAt0Percent|
+        match () {
+            () if matches!(runtime::Raw::to_i64(with.analog_output_2_source), 1) => {
+                Ok(runtime::Rule::new(1, 1))
+            }
+            () if matches!(runtime::Raw::to_i64(with.analog_output_2_source), 2 | 3) => {
+                Ok(runtime::Rule::new(100, 1))
+            }
+            () if matches!(runtime::Raw::to_i64(with.analog_output_2_source), 4 | 5 | 6 | 7 | 8 | 9 | 10 | 19 |
+                20) => {
+                Ok(runtime::Rule::new(1, 1))
+            }
+            () if matches!(runtime::Raw::to_i64(with.analog_output_2_source), 21) => {
+                Ok(runtime::Rule::new(100, 1))
+            }
+            () if matches!(runtime::Raw::to_i64(with.analog_output_2_source), 22) => {
+                Ok(runtime::Rule::new(1, 1))
+            }
+            () => Err(runtime::Error::NoCase),
+        });
+    read { count i64; with with::AnalogOutput2ValueAt0Percent; }
+    write { count i64; with with::AnalogOutput2ValueAt0Percent; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Analog output 2 value at 100 percent.
+    ///
+    /// At parameter 00C5h (197), `s16`, raw `-9999..9999`, value `raw when analog_output_2_source.raw is 1; raw
+    /// x 0.01 when analog_output_2_source.raw is 2; raw x 0.01 when analog_output_2_source.raw is 3; raw when
+    /// analog_output_2_source.raw is 4; raw when analog_output_2_source.raw is 5; raw when
+    /// analog_output_2_source.raw is 6; raw when analog_output_2_source.raw is 7; raw when
+    /// analog_output_2_source.raw is 8; raw when analog_output_2_source.raw is 9; raw when
+    /// analog_output_2_source.raw is 10; raw when analog_output_2_source.raw is 19; raw when
+    /// analog_output_2_source.raw is 20; raw x 0.01 when analog_output_2_source.raw is 21; raw when
+    /// analog_output_2_source.raw is 22`, one count is `0.01`, read and write.
+    AnalogOutput2ValueAt100Percent: i16 = "analog_output_2_value_at_100_percent";
+    at Parameter 0x00C5;
+    decimals 2;
+    raw -9999..=9999;
+    => value_or_error f64 as ruled(|with: with::AnalogOutput2ValueAt100Percent|
+        match () {
+            () if matches!(runtime::Raw::to_i64(with.analog_output_2_source), 1) => {
+                Ok(runtime::Rule::new(1, 1))
+            }
+            () if matches!(runtime::Raw::to_i64(with.analog_output_2_source), 2 | 3) => {
+                Ok(runtime::Rule::new(100, 1))
+            }
+            () if matches!(runtime::Raw::to_i64(with.analog_output_2_source), 4 | 5 | 6 | 7 | 8 | 9 | 10 | 19 |
+                20) => {
+                Ok(runtime::Rule::new(1, 1))
+            }
+            () if matches!(runtime::Raw::to_i64(with.analog_output_2_source), 21) => {
+                Ok(runtime::Rule::new(100, 1))
+            }
+            () if matches!(runtime::Raw::to_i64(with.analog_output_2_source), 22) => {
+                Ok(runtime::Rule::new(1, 1))
+            }
+            () => Err(runtime::Error::NoCase),
+        });
+    read { count i64; with with::AnalogOutput2ValueAt100Percent; }
+    write { count i64; with with::AnalogOutput2ValueAt100Percent; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Relay 1 event 1.
+    ///
+    /// At parameter 01B4h (436) bits 15 to 8, `u8`, raw `1..98`, read and write.
+    Relay1Event1: u8 = "relay_1_event_1";
+    at Parameter 0x01B4;
+    bits 8 0xFF00 group;
+    fixed 0x00F8 0x0000;
+    raw 1..=98;
+    => value enums::RelayEvent as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Relay 1 logic 1.
+    ///
+    /// At parameter 01B4h (436) bits 2 to 0, `u8`, raw `0..7`, read and write.
+    Relay1Logic1: u8 = "relay_1_logic_1";
+    at Parameter 0x01B4;
+    bits 0 0x0007 group;
+    fixed 0x00F8 0x0000;
+    raw 0..=7;
+    => value flags::Relay1Logic1 as flags();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Relay 1 event 2.
+    ///
+    /// At parameter 01B5h (437) bits 15 to 8, `u8`, raw `1..98`, read and write.
+    Relay1Event2: u8 = "relay_1_event_2";
+    at Parameter 0x01B5;
+    bits 8 0xFF00 group;
+    fixed 0x00F8 0x0000;
+    raw 1..=98;
+    => value enums::RelayEvent as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Relay 1 logic 2.
+    ///
+    /// At parameter 01B5h (437) bits 2 to 0, `u8`, raw `0..7`, read and write.
+    Relay1Logic2: u8 = "relay_1_logic_2";
+    at Parameter 0x01B5;
+    bits 0 0x0007 group;
+    fixed 0x00F8 0x0000;
+    raw 0..=7;
+    => value flags::Relay1Logic2 as flags();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Relay 1 event 3.
+    ///
+    /// At parameter 01B6h (438) bits 15 to 8, `u8`, raw `1..98`, read and write.
+    Relay1Event3: u8 = "relay_1_event_3";
+    at Parameter 0x01B6;
+    bits 8 0xFF00 group;
+    fixed 0x00F8 0x0000;
+    raw 1..=98;
+    => value enums::RelayEvent as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Relay 1 logic 3.
+    ///
+    /// At parameter 01B6h (438) bits 2 to 0, `u8`, raw `0..7`, read and write.
+    Relay1Logic3: u8 = "relay_1_logic_3";
+    at Parameter 0x01B6;
+    bits 0 0x0007 group;
+    fixed 0x00F8 0x0000;
+    raw 0..=7;
+    => value flags::Relay1Logic3 as flags();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Relay 2 event 1.
+    ///
+    /// At parameter 01B7h (439) bits 15 to 8, `u8`, raw `1..98`, read and write.
+    Relay2Event1: u8 = "relay_2_event_1";
+    at Parameter 0x01B7;
+    bits 8 0xFF00 group;
+    fixed 0x00F8 0x0000;
+    raw 1..=98;
+    => value enums::RelayEvent as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Relay 2 logic 1.
+    ///
+    /// At parameter 01B7h (439) bits 2 to 0, `u8`, raw `0..7`, read and write.
+    Relay2Logic1: u8 = "relay_2_logic_1";
+    at Parameter 0x01B7;
+    bits 0 0x0007 group;
+    fixed 0x00F8 0x0000;
+    raw 0..=7;
+    => value flags::Relay2Logic1 as flags();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Relay 2 event 2.
+    ///
+    /// At parameter 01B8h (440) bits 15 to 8, `u8`, raw `1..98`, read and write.
+    Relay2Event2: u8 = "relay_2_event_2";
+    at Parameter 0x01B8;
+    bits 8 0xFF00 group;
+    fixed 0x00F8 0x0000;
+    raw 1..=98;
+    => value enums::RelayEvent as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Relay 2 logic 2.
+    ///
+    /// At parameter 01B8h (440) bits 2 to 0, `u8`, raw `0..7`, read and write.
+    Relay2Logic2: u8 = "relay_2_logic_2";
+    at Parameter 0x01B8;
+    bits 0 0x0007 group;
+    fixed 0x00F8 0x0000;
+    raw 0..=7;
+    => value flags::Relay2Logic2 as flags();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Relay 2 event 3.
+    ///
+    /// At parameter 01B9h (441) bits 15 to 8, `u8`, raw `1..98`, read and write.
+    Relay2Event3: u8 = "relay_2_event_3";
+    at Parameter 0x01B9;
+    bits 8 0xFF00 group;
+    fixed 0x00F8 0x0000;
+    raw 1..=98;
+    => value enums::RelayEvent as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Relay 2 logic 3.
+    ///
+    /// At parameter 01B9h (441) bits 2 to 0, `u8`, raw `0..7`, read and write.
+    Relay2Logic3: u8 = "relay_2_logic_3";
+    at Parameter 0x01B9;
+    bits 0 0x0007 group;
+    fixed 0x00F8 0x0000;
+    raw 0..=7;
+    => value flags::Relay2Logic3 as flags();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Relay 3 event 1.
+    ///
+    /// At parameter 01BAh (442) bits 15 to 8, `u8`, raw `1..98`, read and write.
+    Relay3Event1: u8 = "relay_3_event_1";
+    at Parameter 0x01BA;
+    bits 8 0xFF00 group;
+    fixed 0x00F8 0x0000;
+    raw 1..=98;
+    => value enums::RelayEvent as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Relay 3 logic 1.
+    ///
+    /// At parameter 01BAh (442) bits 2 to 0, `u8`, raw `0..7`, read and write.
+    Relay3Logic1: u8 = "relay_3_logic_1";
+    at Parameter 0x01BA;
+    bits 0 0x0007 group;
+    fixed 0x00F8 0x0000;
+    raw 0..=7;
+    => value flags::Relay3Logic1 as flags();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Relay 3 event 2.
+    ///
+    /// At parameter 01BBh (443) bits 15 to 8, `u8`, raw `1..98`, read and write.
+    Relay3Event2: u8 = "relay_3_event_2";
+    at Parameter 0x01BB;
+    bits 8 0xFF00 group;
+    fixed 0x00F8 0x0000;
+    raw 1..=98;
+    => value enums::RelayEvent as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Relay 3 logic 2.
+    ///
+    /// At parameter 01BBh (443) bits 2 to 0, `u8`, raw `0..7`, read and write.
+    Relay3Logic2: u8 = "relay_3_logic_2";
+    at Parameter 0x01BB;
+    bits 0 0x0007 group;
+    fixed 0x00F8 0x0000;
+    raw 0..=7;
+    => value flags::Relay3Logic2 as flags();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Relay 3 event 3.
+    ///
+    /// At parameter 01BCh (444) bits 15 to 8, `u8`, raw `1..98`, read and write.
+    Relay3Event3: u8 = "relay_3_event_3";
+    at Parameter 0x01BC;
+    bits 8 0xFF00 group;
+    fixed 0x00F8 0x0000;
+    raw 1..=98;
+    => value enums::RelayEvent as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Relay 3 logic 3.
+    ///
+    /// At parameter 01BCh (444) bits 2 to 0, `u8`, raw `0..7`, read and write.
+    Relay3Logic3: u8 = "relay_3_logic_3";
+    at Parameter 0x01BC;
+    bits 0 0x0007 group;
+    fixed 0x00F8 0x0000;
+    raw 0..=7;
+    => value flags::Relay3Logic3 as flags();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Relay 4 event 1.
+    ///
+    /// At parameter 01BDh (445) bits 15 to 8, `u8`, raw `1..98`, read and write.
+    Relay4Event1: u8 = "relay_4_event_1";
+    at Parameter 0x01BD;
+    bits 8 0xFF00 group;
+    fixed 0x00F8 0x0000;
+    raw 1..=98;
+    => value enums::RelayEvent as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Relay 4 logic 1.
+    ///
+    /// At parameter 01BDh (445) bits 2 to 0, `u8`, raw `0..7`, read and write.
+    Relay4Logic1: u8 = "relay_4_logic_1";
+    at Parameter 0x01BD;
+    bits 0 0x0007 group;
+    fixed 0x00F8 0x0000;
+    raw 0..=7;
+    => value flags::Relay4Logic1 as flags();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Relay 4 event 2.
+    ///
+    /// At parameter 01BEh (446) bits 15 to 8, `u8`, raw `1..98`, read and write.
+    Relay4Event2: u8 = "relay_4_event_2";
+    at Parameter 0x01BE;
+    bits 8 0xFF00 group;
+    fixed 0x00F8 0x0000;
+    raw 1..=98;
+    => value enums::RelayEvent as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Relay 4 logic 2.
+    ///
+    /// At parameter 01BEh (446) bits 2 to 0, `u8`, raw `0..7`, read and write.
+    Relay4Logic2: u8 = "relay_4_logic_2";
+    at Parameter 0x01BE;
+    bits 0 0x0007 group;
+    fixed 0x00F8 0x0000;
+    raw 0..=7;
+    => value flags::Relay4Logic2 as flags();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Relay 4 event 3.
+    ///
+    /// At parameter 01BFh (447) bits 15 to 8, `u8`, raw `1..98`, read and write.
+    Relay4Event3: u8 = "relay_4_event_3";
+    at Parameter 0x01BF;
+    bits 8 0xFF00 group;
+    fixed 0x00F8 0x0000;
+    raw 1..=98;
+    => value enums::RelayEvent as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Relay 4 logic 3.
+    ///
+    /// At parameter 01BFh (447) bits 2 to 0, `u8`, raw `0..7`, read and write.
+    Relay4Logic3: u8 = "relay_4_logic_3";
+    at Parameter 0x01BF;
+    bits 0 0x0007 group;
+    fixed 0x00F8 0x0000;
+    raw 0..=7;
+    => value flags::Relay4Logic3 as flags();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Relay 5 event 1.
+    ///
+    /// At parameter 01C0h (448) bits 15 to 8, `u8`, raw `1..98`, read and write.
+    Relay5Event1: u8 = "relay_5_event_1";
+    at Parameter 0x01C0;
+    bits 8 0xFF00 group;
+    fixed 0x00F8 0x0000;
+    raw 1..=98;
+    => value enums::RelayEvent as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Relay 5 logic 1.
+    ///
+    /// At parameter 01C0h (448) bits 2 to 0, `u8`, raw `0..7`, read and write.
+    Relay5Logic1: u8 = "relay_5_logic_1";
+    at Parameter 0x01C0;
+    bits 0 0x0007 group;
+    fixed 0x00F8 0x0000;
+    raw 0..=7;
+    => value flags::Relay5Logic1 as flags();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Relay 5 event 2.
+    ///
+    /// At parameter 01C1h (449) bits 15 to 8, `u8`, raw `1..98`, read and write.
+    Relay5Event2: u8 = "relay_5_event_2";
+    at Parameter 0x01C1;
+    bits 8 0xFF00 group;
+    fixed 0x00F8 0x0000;
+    raw 1..=98;
+    => value enums::RelayEvent as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Relay 5 logic 2.
+    ///
+    /// At parameter 01C1h (449) bits 2 to 0, `u8`, raw `0..7`, read and write.
+    Relay5Logic2: u8 = "relay_5_logic_2";
+    at Parameter 0x01C1;
+    bits 0 0x0007 group;
+    fixed 0x00F8 0x0000;
+    raw 0..=7;
+    => value flags::Relay5Logic2 as flags();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Relay 5 event 3.
+    ///
+    /// At parameter 01C2h (450) bits 15 to 8, `u8`, raw `1..98`, read and write.
+    Relay5Event3: u8 = "relay_5_event_3";
+    at Parameter 0x01C2;
+    bits 8 0xFF00 group;
+    fixed 0x00F8 0x0000;
+    raw 1..=98;
+    => value enums::RelayEvent as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Relay 5 logic 3.
+    ///
+    /// At parameter 01C2h (450) bits 2 to 0, `u8`, raw `0..7`, read and write.
+    Relay5Logic3: u8 = "relay_5_logic_3";
+    at Parameter 0x01C2;
+    bits 0 0x0007 group;
+    fixed 0x00F8 0x0000;
+    raw 0..=7;
+    => value flags::Relay5Logic3 as flags();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Relay 6 event 1.
+    ///
+    /// At parameter 01C3h (451) bits 15 to 8, `u8`, raw `1..98`, read and write.
+    Relay6Event1: u8 = "relay_6_event_1";
+    at Parameter 0x01C3;
+    bits 8 0xFF00 group;
+    fixed 0x00F8 0x0000;
+    raw 1..=98;
+    => value enums::RelayEvent as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Relay 6 logic 1.
+    ///
+    /// At parameter 01C3h (451) bits 2 to 0, `u8`, raw `0..7`, read and write.
+    Relay6Logic1: u8 = "relay_6_logic_1";
+    at Parameter 0x01C3;
+    bits 0 0x0007 group;
+    fixed 0x00F8 0x0000;
+    raw 0..=7;
+    => value flags::Relay6Logic1 as flags();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Relay 6 event 2.
+    ///
+    /// At parameter 01C4h (452) bits 15 to 8, `u8`, raw `1..98`, read and write.
+    Relay6Event2: u8 = "relay_6_event_2";
+    at Parameter 0x01C4;
+    bits 8 0xFF00 group;
+    fixed 0x00F8 0x0000;
+    raw 1..=98;
+    => value enums::RelayEvent as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Relay 6 logic 2.
+    ///
+    /// At parameter 01C4h (452) bits 2 to 0, `u8`, raw `0..7`, read and write.
+    Relay6Logic2: u8 = "relay_6_logic_2";
+    at Parameter 0x01C4;
+    bits 0 0x0007 group;
+    fixed 0x00F8 0x0000;
+    raw 0..=7;
+    => value flags::Relay6Logic2 as flags();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Relay 6 event 3.
+    ///
+    /// At parameter 01C5h (453) bits 15 to 8, `u8`, raw `1..98`, read and write.
+    Relay6Event3: u8 = "relay_6_event_3";
+    at Parameter 0x01C5;
+    bits 8 0xFF00 group;
+    fixed 0x00F8 0x0000;
+    raw 1..=98;
+    => value enums::RelayEvent as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Relay 6 logic 3.
+    ///
+    /// At parameter 01C5h (453) bits 2 to 0, `u8`, raw `0..7`, read and write.
+    Relay6Logic3: u8 = "relay_6_logic_3";
+    at Parameter 0x01C5;
+    bits 0 0x0007 group;
+    fixed 0x00F8 0x0000;
+    raw 0..=7;
+    => value flags::Relay6Logic3 as flags();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Relay 7 event 1.
+    ///
+    /// At parameter 01C6h (454) bits 15 to 8, `u8`, raw `1..98`, read and write.
+    Relay7Event1: u8 = "relay_7_event_1";
+    at Parameter 0x01C6;
+    bits 8 0xFF00 group;
+    fixed 0x00F8 0x0000;
+    raw 1..=98;
+    => value enums::RelayEvent as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Relay 7 logic 1.
+    ///
+    /// At parameter 01C6h (454) bits 2 to 0, `u8`, raw `0..7`, read and write.
+    Relay7Logic1: u8 = "relay_7_logic_1";
+    at Parameter 0x01C6;
+    bits 0 0x0007 group;
+    fixed 0x00F8 0x0000;
+    raw 0..=7;
+    => value flags::Relay7Logic1 as flags();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Relay 7 event 2.
+    ///
+    /// At parameter 01C7h (455) bits 15 to 8, `u8`, raw `1..98`, read and write.
+    Relay7Event2: u8 = "relay_7_event_2";
+    at Parameter 0x01C7;
+    bits 8 0xFF00 group;
+    fixed 0x00F8 0x0000;
+    raw 1..=98;
+    => value enums::RelayEvent as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Relay 7 logic 2.
+    ///
+    /// At parameter 01C7h (455) bits 2 to 0, `u8`, raw `0..7`, read and write.
+    Relay7Logic2: u8 = "relay_7_logic_2";
+    at Parameter 0x01C7;
+    bits 0 0x0007 group;
+    fixed 0x00F8 0x0000;
+    raw 0..=7;
+    => value flags::Relay7Logic2 as flags();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Relay 7 event 3.
+    ///
+    /// At parameter 01C8h (456) bits 15 to 8, `u8`, raw `1..98`, read and write.
+    Relay7Event3: u8 = "relay_7_event_3";
+    at Parameter 0x01C8;
+    bits 8 0xFF00 group;
+    fixed 0x00F8 0x0000;
+    raw 1..=98;
+    => value enums::RelayEvent as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Relay 7 logic 3.
+    ///
+    /// At parameter 01C8h (456) bits 2 to 0, `u8`, raw `0..7`, read and write.
+    Relay7Logic3: u8 = "relay_7_logic_3";
+    at Parameter 0x01C8;
+    bits 0 0x0007 group;
+    fixed 0x00F8 0x0000;
+    raw 0..=7;
+    => value flags::Relay7Logic3 as flags();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Automatic idle control.
+    ///
+    /// At parameter 0012h (18) bits 0 to 0, `bit`, raw `0, 1`, read and write.
+    AutomaticIdleControl: u8 = "automatic_idle_control";
+    at Parameter 0x0012;
+    bits 0 0x0001 group;
+    raw 0..=1;
+    => value enums::OffOn as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Shutdown.
+    ///
+    /// At parameter 00C9h (201) bits 11 to 11, `bit`, raw `0, 1`, read and write.
+    Shutdown: u8 = "shutdown";
+    at Parameter 0x00C9;
+    bits 11 0x0800 group;
+    raw 0..=1;
+    => value enums::OffOn as named(u8);
+    read { count i32; }
+    write { count i32; closed true; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Engine monitoring delay.
+    ///
+    /// At parameter 007Ah (122), `u16`, raw `1..99`, read and write.
+    EngineMonitoringDelay: u16 = "engine_monitoring_delay";
+    at Parameter 0x007A;
+    unit "s";
+    raw 1..=99;
+    => value u16 as plain();
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
+}
+
+point! {
+    /// Monitoring start frequency.
+    ///
+    /// At parameter 0019h (25), `u16`, raw `3840..17920`, steps of `0.00390625 Hz`, one count is `0.001 Hz`,
+    /// read and write.
+    MonitoringStartFrequency: u16 = "monitoring_start_frequency";
+    at Parameter 0x0019;
+    unit "Hz";
+    decimals 3;
+    raw 3840..=17_920;
+    => value f64 as scaled(256, 1);
+    read { count i32; }
+    write { count i32; }
+    impl runtime::can::Parameter {}
 }

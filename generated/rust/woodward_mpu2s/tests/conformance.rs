@@ -4,32 +4,46 @@
 
 //! Runs the conformance vectors of the device: `cargo test`, or with `FIELDSCRIBE_VECTORS` the vectors of that file.
 
+use fieldscribe_conformance::can as frames;
+use fieldscribe_conformance::{self as runner, table};
+
 use woodward_mpu2s as device;
-
-#[macro_use]
-mod runner;
-
-use runner::frames;
 
 table! { decode decode {
     "generator_frequency" GeneratorFrequency ();
-    "generator_active_power" GeneratorActivePower (GeneratorActivePower: generator_power_exponent "generator_power_exponent");
-    "present_active_power_setpoint" PresentActivePowerSetpoint (PresentActivePowerSetpoint: active_power_setpoint_factor "active_power_setpoint_factor" generator_power_exponent "generator_power_exponent");
-    "busbar_voltage_l1_l2" BusbarVoltageL1L2 (BusbarVoltageL1L2: busbar_voltage_exponent "busbar_voltage_exponent");
-    "mains_voltage_l1_l2" MainsVoltageL1L2 (MainsVoltageL1L2: mains_voltage_exponent "mains_voltage_exponent");
-    "generator_voltage_l2_l3" GeneratorVoltageL2L3 (GeneratorVoltageL2L3: generator_voltage_exponent "generator_voltage_exponent");
-    "generator_voltage_l3_l1" GeneratorVoltageL3L1 (GeneratorVoltageL3L1: generator_voltage_exponent "generator_voltage_exponent");
-    "generator_voltage_l1_n" GeneratorVoltageL1N (GeneratorVoltageL1N: generator_voltage_exponent "generator_voltage_exponent");
-    "generator_voltage_l2_n" GeneratorVoltageL2N (GeneratorVoltageL2N: generator_voltage_exponent "generator_voltage_exponent");
-    "generator_voltage_l3_n" GeneratorVoltageL3N (GeneratorVoltageL3N: generator_voltage_exponent "generator_voltage_exponent");
-    "generator_voltage_l1_l2" GeneratorVoltageL1L2 (GeneratorVoltageL1L2: generator_voltage_exponent "generator_voltage_exponent");
-    "generator_current_l1" GeneratorCurrentL1 (GeneratorCurrentL1: generator_current_exponent "generator_current_exponent");
-    "generator_current_l2" GeneratorCurrentL2 (GeneratorCurrentL2: generator_current_exponent "generator_current_exponent");
-    "generator_current_l3" GeneratorCurrentL3 (GeneratorCurrentL3: generator_current_exponent "generator_current_exponent");
+    "generator_active_power" GeneratorActivePower (GeneratorActivePower: generator_power_exponent
+        "generator_power_exponent");
+    "present_active_power_setpoint" PresentActivePowerSetpoint (PresentActivePowerSetpoint:
+        active_power_setpoint_factor "active_power_setpoint_factor" generator_power_exponent
+        "generator_power_exponent");
+    "busbar_voltage_l1_l2" BusbarVoltageL1L2 (BusbarVoltageL1L2: busbar_voltage_exponent
+        "busbar_voltage_exponent");
+    "mains_voltage_l1_l2" MainsVoltageL1L2 (MainsVoltageL1L2: mains_voltage_exponent
+        "mains_voltage_exponent");
+    "generator_voltage_l2_l3" GeneratorVoltageL2L3 (GeneratorVoltageL2L3: generator_voltage_exponent
+        "generator_voltage_exponent");
+    "generator_voltage_l3_l1" GeneratorVoltageL3L1 (GeneratorVoltageL3L1: generator_voltage_exponent
+        "generator_voltage_exponent");
+    "generator_voltage_l1_n" GeneratorVoltageL1N (GeneratorVoltageL1N: generator_voltage_exponent
+        "generator_voltage_exponent");
+    "generator_voltage_l2_n" GeneratorVoltageL2N (GeneratorVoltageL2N: generator_voltage_exponent
+        "generator_voltage_exponent");
+    "generator_voltage_l3_n" GeneratorVoltageL3N (GeneratorVoltageL3N: generator_voltage_exponent
+        "generator_voltage_exponent");
+    "generator_voltage_l1_l2" GeneratorVoltageL1L2 (GeneratorVoltageL1L2: generator_voltage_exponent
+        "generator_voltage_exponent");
+    "generator_current_l1" GeneratorCurrentL1 (GeneratorCurrentL1: generator_current_exponent
+        "generator_current_exponent");
+    "generator_current_l2" GeneratorCurrentL2 (GeneratorCurrentL2: generator_current_exponent
+        "generator_current_exponent");
+    "generator_current_l3" GeneratorCurrentL3 (GeneratorCurrentL3: generator_current_exponent
+        "generator_current_exponent");
     "generator_cos_phi" GeneratorCosPhi ();
     "busbar_frequency" BusbarFrequency ();
-    "mains_voltage_l2_l3" MainsVoltageL2L3 (MainsVoltageL2L3: mains_voltage_exponent "mains_voltage_exponent");
-    "mains_voltage_l3_l1" MainsVoltageL3L1 (MainsVoltageL3L1: mains_voltage_exponent "mains_voltage_exponent");
+    "mains_voltage_l2_l3" MainsVoltageL2L3 (MainsVoltageL2L3: mains_voltage_exponent
+        "mains_voltage_exponent");
+    "mains_voltage_l3_l1" MainsVoltageL3L1 (MainsVoltageL3L1: mains_voltage_exponent
+        "mains_voltage_exponent");
     "mains_voltage_l1_n" MainsVoltageL1N (MainsVoltageL1N: mains_voltage_exponent "mains_voltage_exponent");
     "mains_voltage_l2_n" MainsVoltageL2N (MainsVoltageL2N: mains_voltage_exponent "mains_voltage_exponent");
     "mains_voltage_l3_n" MainsVoltageL3N (MainsVoltageL3N: mains_voltage_exponent "mains_voltage_exponent");
@@ -37,10 +51,14 @@ table! { decode decode {
     "battery_voltage" BatteryVoltage ();
     "generator_frequency_setpoint" GeneratorFrequencySetpoint ();
     "generator_rated_frequency" GeneratorRatedFrequency ();
-    "generator_voltage_setpoint_100v" GeneratorVoltageSetpoint100v (GeneratorVoltageSetpoint100v: generator_voltage_factor "generator_voltage_factor");
-    "generator_voltage_setpoint_400v" GeneratorVoltageSetpoint400v (GeneratorVoltageSetpoint400v: generator_voltage_factor "generator_voltage_factor");
-    "generator_rated_voltage_100v" GeneratorRatedVoltage100v (GeneratorRatedVoltage100v: generator_voltage_factor "generator_voltage_factor");
-    "generator_rated_voltage_400v" GeneratorRatedVoltage400v (GeneratorRatedVoltage400v: generator_voltage_factor "generator_voltage_factor");
+    "generator_voltage_setpoint_100v" GeneratorVoltageSetpoint100v (GeneratorVoltageSetpoint100v:
+        generator_voltage_factor "generator_voltage_factor");
+    "generator_voltage_setpoint_400v" GeneratorVoltageSetpoint400v (GeneratorVoltageSetpoint400v:
+        generator_voltage_factor "generator_voltage_factor");
+    "generator_rated_voltage_100v" GeneratorRatedVoltage100v (GeneratorRatedVoltage100v:
+        generator_voltage_factor "generator_voltage_factor");
+    "generator_rated_voltage_400v" GeneratorRatedVoltage400v (GeneratorRatedVoltage400v:
+        generator_voltage_factor "generator_voltage_factor");
     "frequency_controller_start_frequency" FrequencyControllerStartFrequency ();
     "frequency_controller_start_delay" FrequencyControllerStartDelay ();
     "frequency_controller_dead_band" FrequencyControllerDeadBand ();
@@ -90,27 +108,39 @@ table! { decode decode {
     "generator_underfrequency_1_delay" GeneratorUnderfrequency1Delay ();
     "generator_underfrequency_2_threshold" GeneratorUnderfrequency2Threshold ();
     "generator_underfrequency_2_delay" GeneratorUnderfrequency2Delay ();
-    "generator_overvoltage_1_threshold_100v" GeneratorOvervoltage1Threshold100v (GeneratorOvervoltage1Threshold100v: generator_voltage_factor "generator_voltage_factor");
-    "generator_overvoltage_1_threshold_400v" GeneratorOvervoltage1Threshold400v (GeneratorOvervoltage1Threshold400v: generator_voltage_factor "generator_voltage_factor");
+    "generator_overvoltage_1_threshold_100v" GeneratorOvervoltage1Threshold100v
+        (GeneratorOvervoltage1Threshold100v: generator_voltage_factor "generator_voltage_factor");
+    "generator_overvoltage_1_threshold_400v" GeneratorOvervoltage1Threshold400v
+        (GeneratorOvervoltage1Threshold400v: generator_voltage_factor "generator_voltage_factor");
     "generator_overvoltage_1_delay" GeneratorOvervoltage1Delay ();
-    "generator_overvoltage_2_threshold_100v" GeneratorOvervoltage2Threshold100v (GeneratorOvervoltage2Threshold100v: generator_voltage_factor "generator_voltage_factor");
-    "generator_overvoltage_2_threshold_400v" GeneratorOvervoltage2Threshold400v (GeneratorOvervoltage2Threshold400v: generator_voltage_factor "generator_voltage_factor");
+    "generator_overvoltage_2_threshold_100v" GeneratorOvervoltage2Threshold100v
+        (GeneratorOvervoltage2Threshold100v: generator_voltage_factor "generator_voltage_factor");
+    "generator_overvoltage_2_threshold_400v" GeneratorOvervoltage2Threshold400v
+        (GeneratorOvervoltage2Threshold400v: generator_voltage_factor "generator_voltage_factor");
     "generator_overvoltage_2_delay" GeneratorOvervoltage2Delay ();
-    "generator_undervoltage_1_threshold_100v" GeneratorUndervoltage1Threshold100v (GeneratorUndervoltage1Threshold100v: generator_voltage_factor "generator_voltage_factor");
-    "generator_undervoltage_1_threshold_400v" GeneratorUndervoltage1Threshold400v (GeneratorUndervoltage1Threshold400v: generator_voltage_factor "generator_voltage_factor");
+    "generator_undervoltage_1_threshold_100v" GeneratorUndervoltage1Threshold100v
+        (GeneratorUndervoltage1Threshold100v: generator_voltage_factor "generator_voltage_factor");
+    "generator_undervoltage_1_threshold_400v" GeneratorUndervoltage1Threshold400v
+        (GeneratorUndervoltage1Threshold400v: generator_voltage_factor "generator_voltage_factor");
     "generator_undervoltage_1_delay" GeneratorUndervoltage1Delay ();
-    "generator_undervoltage_2_threshold_100v" GeneratorUndervoltage2Threshold100v (GeneratorUndervoltage2Threshold100v: generator_voltage_factor "generator_voltage_factor");
-    "generator_undervoltage_2_threshold_400v" GeneratorUndervoltage2Threshold400v (GeneratorUndervoltage2Threshold400v: generator_voltage_factor "generator_voltage_factor");
+    "generator_undervoltage_2_threshold_100v" GeneratorUndervoltage2Threshold100v
+        (GeneratorUndervoltage2Threshold100v: generator_voltage_factor "generator_voltage_factor");
+    "generator_undervoltage_2_threshold_400v" GeneratorUndervoltage2Threshold400v
+        (GeneratorUndervoltage2Threshold400v: generator_voltage_factor "generator_voltage_factor");
     "generator_undervoltage_2_delay" GeneratorUndervoltage2Delay ();
     "mains_overfrequency_threshold" MainsOverfrequencyThreshold ();
     "mains_overfrequency_delay" MainsOverfrequencyDelay ();
     "mains_underfrequency_threshold" MainsUnderfrequencyThreshold ();
     "mains_underfrequency_delay" MainsUnderfrequencyDelay ();
-    "mains_overvoltage_threshold_100v" MainsOvervoltageThreshold100v (MainsOvervoltageThreshold100v: mains_voltage_factor "mains_voltage_factor");
-    "mains_overvoltage_threshold_400v" MainsOvervoltageThreshold400v (MainsOvervoltageThreshold400v: mains_voltage_factor "mains_voltage_factor");
+    "mains_overvoltage_threshold_100v" MainsOvervoltageThreshold100v (MainsOvervoltageThreshold100v:
+        mains_voltage_factor "mains_voltage_factor");
+    "mains_overvoltage_threshold_400v" MainsOvervoltageThreshold400v (MainsOvervoltageThreshold400v:
+        mains_voltage_factor "mains_voltage_factor");
     "mains_overvoltage_delay" MainsOvervoltageDelay ();
-    "mains_undervoltage_threshold_100v" MainsUndervoltageThreshold100v (MainsUndervoltageThreshold100v: mains_voltage_factor "mains_voltage_factor");
-    "mains_undervoltage_threshold_400v" MainsUndervoltageThreshold400v (MainsUndervoltageThreshold400v: mains_voltage_factor "mains_voltage_factor");
+    "mains_undervoltage_threshold_100v" MainsUndervoltageThreshold100v (MainsUndervoltageThreshold100v:
+        mains_voltage_factor "mains_voltage_factor");
+    "mains_undervoltage_threshold_400v" MainsUndervoltageThreshold400v (MainsUndervoltageThreshold400v:
+        mains_voltage_factor "mains_voltage_factor");
     "mains_undervoltage_delay" MainsUndervoltageDelay ();
     "reactive_power_threshold_inductive" ReactivePowerThresholdInductive ();
     "reactive_power_delay_inductive" ReactivePowerDelayInductive ();
@@ -120,20 +150,28 @@ table! { decode decode {
     "earth_fault_delay" EarthFaultDelay ();
     "battery_undervoltage_threshold" BatteryUndervoltageThreshold ();
     "battery_undervoltage_delay" BatteryUndervoltageDelay ();
-    "analog_output_1_value_at_0_percent" AnalogOutput1ValueAt0Percent (AnalogOutput1ValueAt0Percent: analog_output_1_source "analog_output_1_source");
-    "analog_output_1_value_at_100_percent" AnalogOutput1ValueAt100Percent (AnalogOutput1ValueAt100Percent: analog_output_1_source "analog_output_1_source");
-    "analog_output_2_value_at_0_percent" AnalogOutput2ValueAt0Percent (AnalogOutput2ValueAt0Percent: analog_output_2_source "analog_output_2_source");
-    "analog_output_2_value_at_100_percent" AnalogOutput2ValueAt100Percent (AnalogOutput2ValueAt100Percent: analog_output_2_source "analog_output_2_source");
+    "analog_output_1_value_at_0_percent" AnalogOutput1ValueAt0Percent (AnalogOutput1ValueAt0Percent:
+        analog_output_1_source "analog_output_1_source");
+    "analog_output_1_value_at_100_percent" AnalogOutput1ValueAt100Percent (AnalogOutput1ValueAt100Percent:
+        analog_output_1_source "analog_output_1_source");
+    "analog_output_2_value_at_0_percent" AnalogOutput2ValueAt0Percent (AnalogOutput2ValueAt0Percent:
+        analog_output_2_source "analog_output_2_source");
+    "analog_output_2_value_at_100_percent" AnalogOutput2ValueAt100Percent (AnalogOutput2ValueAt100Percent:
+        analog_output_2_source "analog_output_2_source");
     "monitoring_start_frequency" MonitoringStartFrequency ();
 } }
 
 table! { encode encode {
     "generator_frequency_setpoint" GeneratorFrequencySetpoint ();
     "generator_rated_frequency" GeneratorRatedFrequency ();
-    "generator_voltage_setpoint_100v" GeneratorVoltageSetpoint100v (GeneratorVoltageSetpoint100v: generator_voltage_factor "generator_voltage_factor");
-    "generator_voltage_setpoint_400v" GeneratorVoltageSetpoint400v (GeneratorVoltageSetpoint400v: generator_voltage_factor "generator_voltage_factor");
-    "generator_rated_voltage_100v" GeneratorRatedVoltage100v (GeneratorRatedVoltage100v: generator_voltage_factor "generator_voltage_factor");
-    "generator_rated_voltage_400v" GeneratorRatedVoltage400v (GeneratorRatedVoltage400v: generator_voltage_factor "generator_voltage_factor");
+    "generator_voltage_setpoint_100v" GeneratorVoltageSetpoint100v (GeneratorVoltageSetpoint100v:
+        generator_voltage_factor "generator_voltage_factor");
+    "generator_voltage_setpoint_400v" GeneratorVoltageSetpoint400v (GeneratorVoltageSetpoint400v:
+        generator_voltage_factor "generator_voltage_factor");
+    "generator_rated_voltage_100v" GeneratorRatedVoltage100v (GeneratorRatedVoltage100v:
+        generator_voltage_factor "generator_voltage_factor");
+    "generator_rated_voltage_400v" GeneratorRatedVoltage400v (GeneratorRatedVoltage400v:
+        generator_voltage_factor "generator_voltage_factor");
     "frequency_controller_start_frequency" FrequencyControllerStartFrequency ();
     "frequency_controller_start_delay" FrequencyControllerStartDelay ();
     "frequency_controller_dead_band" FrequencyControllerDeadBand ();
@@ -183,27 +221,39 @@ table! { encode encode {
     "generator_underfrequency_1_delay" GeneratorUnderfrequency1Delay ();
     "generator_underfrequency_2_threshold" GeneratorUnderfrequency2Threshold ();
     "generator_underfrequency_2_delay" GeneratorUnderfrequency2Delay ();
-    "generator_overvoltage_1_threshold_100v" GeneratorOvervoltage1Threshold100v (GeneratorOvervoltage1Threshold100v: generator_voltage_factor "generator_voltage_factor");
-    "generator_overvoltage_1_threshold_400v" GeneratorOvervoltage1Threshold400v (GeneratorOvervoltage1Threshold400v: generator_voltage_factor "generator_voltage_factor");
+    "generator_overvoltage_1_threshold_100v" GeneratorOvervoltage1Threshold100v
+        (GeneratorOvervoltage1Threshold100v: generator_voltage_factor "generator_voltage_factor");
+    "generator_overvoltage_1_threshold_400v" GeneratorOvervoltage1Threshold400v
+        (GeneratorOvervoltage1Threshold400v: generator_voltage_factor "generator_voltage_factor");
     "generator_overvoltage_1_delay" GeneratorOvervoltage1Delay ();
-    "generator_overvoltage_2_threshold_100v" GeneratorOvervoltage2Threshold100v (GeneratorOvervoltage2Threshold100v: generator_voltage_factor "generator_voltage_factor");
-    "generator_overvoltage_2_threshold_400v" GeneratorOvervoltage2Threshold400v (GeneratorOvervoltage2Threshold400v: generator_voltage_factor "generator_voltage_factor");
+    "generator_overvoltage_2_threshold_100v" GeneratorOvervoltage2Threshold100v
+        (GeneratorOvervoltage2Threshold100v: generator_voltage_factor "generator_voltage_factor");
+    "generator_overvoltage_2_threshold_400v" GeneratorOvervoltage2Threshold400v
+        (GeneratorOvervoltage2Threshold400v: generator_voltage_factor "generator_voltage_factor");
     "generator_overvoltage_2_delay" GeneratorOvervoltage2Delay ();
-    "generator_undervoltage_1_threshold_100v" GeneratorUndervoltage1Threshold100v (GeneratorUndervoltage1Threshold100v: generator_voltage_factor "generator_voltage_factor");
-    "generator_undervoltage_1_threshold_400v" GeneratorUndervoltage1Threshold400v (GeneratorUndervoltage1Threshold400v: generator_voltage_factor "generator_voltage_factor");
+    "generator_undervoltage_1_threshold_100v" GeneratorUndervoltage1Threshold100v
+        (GeneratorUndervoltage1Threshold100v: generator_voltage_factor "generator_voltage_factor");
+    "generator_undervoltage_1_threshold_400v" GeneratorUndervoltage1Threshold400v
+        (GeneratorUndervoltage1Threshold400v: generator_voltage_factor "generator_voltage_factor");
     "generator_undervoltage_1_delay" GeneratorUndervoltage1Delay ();
-    "generator_undervoltage_2_threshold_100v" GeneratorUndervoltage2Threshold100v (GeneratorUndervoltage2Threshold100v: generator_voltage_factor "generator_voltage_factor");
-    "generator_undervoltage_2_threshold_400v" GeneratorUndervoltage2Threshold400v (GeneratorUndervoltage2Threshold400v: generator_voltage_factor "generator_voltage_factor");
+    "generator_undervoltage_2_threshold_100v" GeneratorUndervoltage2Threshold100v
+        (GeneratorUndervoltage2Threshold100v: generator_voltage_factor "generator_voltage_factor");
+    "generator_undervoltage_2_threshold_400v" GeneratorUndervoltage2Threshold400v
+        (GeneratorUndervoltage2Threshold400v: generator_voltage_factor "generator_voltage_factor");
     "generator_undervoltage_2_delay" GeneratorUndervoltage2Delay ();
     "mains_overfrequency_threshold" MainsOverfrequencyThreshold ();
     "mains_overfrequency_delay" MainsOverfrequencyDelay ();
     "mains_underfrequency_threshold" MainsUnderfrequencyThreshold ();
     "mains_underfrequency_delay" MainsUnderfrequencyDelay ();
-    "mains_overvoltage_threshold_100v" MainsOvervoltageThreshold100v (MainsOvervoltageThreshold100v: mains_voltage_factor "mains_voltage_factor");
-    "mains_overvoltage_threshold_400v" MainsOvervoltageThreshold400v (MainsOvervoltageThreshold400v: mains_voltage_factor "mains_voltage_factor");
+    "mains_overvoltage_threshold_100v" MainsOvervoltageThreshold100v (MainsOvervoltageThreshold100v:
+        mains_voltage_factor "mains_voltage_factor");
+    "mains_overvoltage_threshold_400v" MainsOvervoltageThreshold400v (MainsOvervoltageThreshold400v:
+        mains_voltage_factor "mains_voltage_factor");
     "mains_overvoltage_delay" MainsOvervoltageDelay ();
-    "mains_undervoltage_threshold_100v" MainsUndervoltageThreshold100v (MainsUndervoltageThreshold100v: mains_voltage_factor "mains_voltage_factor");
-    "mains_undervoltage_threshold_400v" MainsUndervoltageThreshold400v (MainsUndervoltageThreshold400v: mains_voltage_factor "mains_voltage_factor");
+    "mains_undervoltage_threshold_100v" MainsUndervoltageThreshold100v (MainsUndervoltageThreshold100v:
+        mains_voltage_factor "mains_voltage_factor");
+    "mains_undervoltage_threshold_400v" MainsUndervoltageThreshold400v (MainsUndervoltageThreshold400v:
+        mains_voltage_factor "mains_voltage_factor");
     "mains_undervoltage_delay" MainsUndervoltageDelay ();
     "reactive_power_threshold_inductive" ReactivePowerThresholdInductive ();
     "reactive_power_delay_inductive" ReactivePowerDelayInductive ();
@@ -213,32 +263,52 @@ table! { encode encode {
     "earth_fault_delay" EarthFaultDelay ();
     "battery_undervoltage_threshold" BatteryUndervoltageThreshold ();
     "battery_undervoltage_delay" BatteryUndervoltageDelay ();
-    "analog_output_1_value_at_0_percent" AnalogOutput1ValueAt0Percent (AnalogOutput1ValueAt0Percent: analog_output_1_source "analog_output_1_source");
-    "analog_output_1_value_at_100_percent" AnalogOutput1ValueAt100Percent (AnalogOutput1ValueAt100Percent: analog_output_1_source "analog_output_1_source");
-    "analog_output_2_value_at_0_percent" AnalogOutput2ValueAt0Percent (AnalogOutput2ValueAt0Percent: analog_output_2_source "analog_output_2_source");
-    "analog_output_2_value_at_100_percent" AnalogOutput2ValueAt100Percent (AnalogOutput2ValueAt100Percent: analog_output_2_source "analog_output_2_source");
+    "analog_output_1_value_at_0_percent" AnalogOutput1ValueAt0Percent (AnalogOutput1ValueAt0Percent:
+        analog_output_1_source "analog_output_1_source");
+    "analog_output_1_value_at_100_percent" AnalogOutput1ValueAt100Percent (AnalogOutput1ValueAt100Percent:
+        analog_output_1_source "analog_output_1_source");
+    "analog_output_2_value_at_0_percent" AnalogOutput2ValueAt0Percent (AnalogOutput2ValueAt0Percent:
+        analog_output_2_source "analog_output_2_source");
+    "analog_output_2_value_at_100_percent" AnalogOutput2ValueAt100Percent (AnalogOutput2ValueAt100Percent:
+        analog_output_2_source "analog_output_2_source");
     "monitoring_start_frequency" MonitoringStartFrequency ();
 } }
 
 table! { decode_count decode_count {
     "generator_frequency" GeneratorFrequency ();
-    "generator_active_power" GeneratorActivePower (GeneratorActivePower: generator_power_exponent "generator_power_exponent");
-    "present_active_power_setpoint" PresentActivePowerSetpoint (PresentActivePowerSetpoint: active_power_setpoint_factor "active_power_setpoint_factor" generator_power_exponent "generator_power_exponent");
-    "busbar_voltage_l1_l2" BusbarVoltageL1L2 (BusbarVoltageL1L2: busbar_voltage_exponent "busbar_voltage_exponent");
-    "mains_voltage_l1_l2" MainsVoltageL1L2 (MainsVoltageL1L2: mains_voltage_exponent "mains_voltage_exponent");
-    "generator_voltage_l2_l3" GeneratorVoltageL2L3 (GeneratorVoltageL2L3: generator_voltage_exponent "generator_voltage_exponent");
-    "generator_voltage_l3_l1" GeneratorVoltageL3L1 (GeneratorVoltageL3L1: generator_voltage_exponent "generator_voltage_exponent");
-    "generator_voltage_l1_n" GeneratorVoltageL1N (GeneratorVoltageL1N: generator_voltage_exponent "generator_voltage_exponent");
-    "generator_voltage_l2_n" GeneratorVoltageL2N (GeneratorVoltageL2N: generator_voltage_exponent "generator_voltage_exponent");
-    "generator_voltage_l3_n" GeneratorVoltageL3N (GeneratorVoltageL3N: generator_voltage_exponent "generator_voltage_exponent");
-    "generator_voltage_l1_l2" GeneratorVoltageL1L2 (GeneratorVoltageL1L2: generator_voltage_exponent "generator_voltage_exponent");
-    "generator_current_l1" GeneratorCurrentL1 (GeneratorCurrentL1: generator_current_exponent "generator_current_exponent");
-    "generator_current_l2" GeneratorCurrentL2 (GeneratorCurrentL2: generator_current_exponent "generator_current_exponent");
-    "generator_current_l3" GeneratorCurrentL3 (GeneratorCurrentL3: generator_current_exponent "generator_current_exponent");
+    "generator_active_power" GeneratorActivePower (GeneratorActivePower: generator_power_exponent
+        "generator_power_exponent");
+    "present_active_power_setpoint" PresentActivePowerSetpoint (PresentActivePowerSetpoint:
+        active_power_setpoint_factor "active_power_setpoint_factor" generator_power_exponent
+        "generator_power_exponent");
+    "busbar_voltage_l1_l2" BusbarVoltageL1L2 (BusbarVoltageL1L2: busbar_voltage_exponent
+        "busbar_voltage_exponent");
+    "mains_voltage_l1_l2" MainsVoltageL1L2 (MainsVoltageL1L2: mains_voltage_exponent
+        "mains_voltage_exponent");
+    "generator_voltage_l2_l3" GeneratorVoltageL2L3 (GeneratorVoltageL2L3: generator_voltage_exponent
+        "generator_voltage_exponent");
+    "generator_voltage_l3_l1" GeneratorVoltageL3L1 (GeneratorVoltageL3L1: generator_voltage_exponent
+        "generator_voltage_exponent");
+    "generator_voltage_l1_n" GeneratorVoltageL1N (GeneratorVoltageL1N: generator_voltage_exponent
+        "generator_voltage_exponent");
+    "generator_voltage_l2_n" GeneratorVoltageL2N (GeneratorVoltageL2N: generator_voltage_exponent
+        "generator_voltage_exponent");
+    "generator_voltage_l3_n" GeneratorVoltageL3N (GeneratorVoltageL3N: generator_voltage_exponent
+        "generator_voltage_exponent");
+    "generator_voltage_l1_l2" GeneratorVoltageL1L2 (GeneratorVoltageL1L2: generator_voltage_exponent
+        "generator_voltage_exponent");
+    "generator_current_l1" GeneratorCurrentL1 (GeneratorCurrentL1: generator_current_exponent
+        "generator_current_exponent");
+    "generator_current_l2" GeneratorCurrentL2 (GeneratorCurrentL2: generator_current_exponent
+        "generator_current_exponent");
+    "generator_current_l3" GeneratorCurrentL3 (GeneratorCurrentL3: generator_current_exponent
+        "generator_current_exponent");
     "generator_cos_phi" GeneratorCosPhi ();
     "busbar_frequency" BusbarFrequency ();
-    "mains_voltage_l2_l3" MainsVoltageL2L3 (MainsVoltageL2L3: mains_voltage_exponent "mains_voltage_exponent");
-    "mains_voltage_l3_l1" MainsVoltageL3L1 (MainsVoltageL3L1: mains_voltage_exponent "mains_voltage_exponent");
+    "mains_voltage_l2_l3" MainsVoltageL2L3 (MainsVoltageL2L3: mains_voltage_exponent
+        "mains_voltage_exponent");
+    "mains_voltage_l3_l1" MainsVoltageL3L1 (MainsVoltageL3L1: mains_voltage_exponent
+        "mains_voltage_exponent");
     "mains_voltage_l1_n" MainsVoltageL1N (MainsVoltageL1N: mains_voltage_exponent "mains_voltage_exponent");
     "mains_voltage_l2_n" MainsVoltageL2N (MainsVoltageL2N: mains_voltage_exponent "mains_voltage_exponent");
     "mains_voltage_l3_n" MainsVoltageL3N (MainsVoltageL3N: mains_voltage_exponent "mains_voltage_exponent");
@@ -246,10 +316,14 @@ table! { decode_count decode_count {
     "battery_voltage" BatteryVoltage ();
     "generator_frequency_setpoint" GeneratorFrequencySetpoint ();
     "generator_rated_frequency" GeneratorRatedFrequency ();
-    "generator_voltage_setpoint_100v" GeneratorVoltageSetpoint100v (GeneratorVoltageSetpoint100v: generator_voltage_factor "generator_voltage_factor");
-    "generator_voltage_setpoint_400v" GeneratorVoltageSetpoint400v (GeneratorVoltageSetpoint400v: generator_voltage_factor "generator_voltage_factor");
-    "generator_rated_voltage_100v" GeneratorRatedVoltage100v (GeneratorRatedVoltage100v: generator_voltage_factor "generator_voltage_factor");
-    "generator_rated_voltage_400v" GeneratorRatedVoltage400v (GeneratorRatedVoltage400v: generator_voltage_factor "generator_voltage_factor");
+    "generator_voltage_setpoint_100v" GeneratorVoltageSetpoint100v (GeneratorVoltageSetpoint100v:
+        generator_voltage_factor "generator_voltage_factor");
+    "generator_voltage_setpoint_400v" GeneratorVoltageSetpoint400v (GeneratorVoltageSetpoint400v:
+        generator_voltage_factor "generator_voltage_factor");
+    "generator_rated_voltage_100v" GeneratorRatedVoltage100v (GeneratorRatedVoltage100v:
+        generator_voltage_factor "generator_voltage_factor");
+    "generator_rated_voltage_400v" GeneratorRatedVoltage400v (GeneratorRatedVoltage400v:
+        generator_voltage_factor "generator_voltage_factor");
     "frequency_controller_start_frequency" FrequencyControllerStartFrequency ();
     "frequency_controller_start_delay" FrequencyControllerStartDelay ();
     "frequency_controller_dead_band" FrequencyControllerDeadBand ();
@@ -299,27 +373,39 @@ table! { decode_count decode_count {
     "generator_underfrequency_1_delay" GeneratorUnderfrequency1Delay ();
     "generator_underfrequency_2_threshold" GeneratorUnderfrequency2Threshold ();
     "generator_underfrequency_2_delay" GeneratorUnderfrequency2Delay ();
-    "generator_overvoltage_1_threshold_100v" GeneratorOvervoltage1Threshold100v (GeneratorOvervoltage1Threshold100v: generator_voltage_factor "generator_voltage_factor");
-    "generator_overvoltage_1_threshold_400v" GeneratorOvervoltage1Threshold400v (GeneratorOvervoltage1Threshold400v: generator_voltage_factor "generator_voltage_factor");
+    "generator_overvoltage_1_threshold_100v" GeneratorOvervoltage1Threshold100v
+        (GeneratorOvervoltage1Threshold100v: generator_voltage_factor "generator_voltage_factor");
+    "generator_overvoltage_1_threshold_400v" GeneratorOvervoltage1Threshold400v
+        (GeneratorOvervoltage1Threshold400v: generator_voltage_factor "generator_voltage_factor");
     "generator_overvoltage_1_delay" GeneratorOvervoltage1Delay ();
-    "generator_overvoltage_2_threshold_100v" GeneratorOvervoltage2Threshold100v (GeneratorOvervoltage2Threshold100v: generator_voltage_factor "generator_voltage_factor");
-    "generator_overvoltage_2_threshold_400v" GeneratorOvervoltage2Threshold400v (GeneratorOvervoltage2Threshold400v: generator_voltage_factor "generator_voltage_factor");
+    "generator_overvoltage_2_threshold_100v" GeneratorOvervoltage2Threshold100v
+        (GeneratorOvervoltage2Threshold100v: generator_voltage_factor "generator_voltage_factor");
+    "generator_overvoltage_2_threshold_400v" GeneratorOvervoltage2Threshold400v
+        (GeneratorOvervoltage2Threshold400v: generator_voltage_factor "generator_voltage_factor");
     "generator_overvoltage_2_delay" GeneratorOvervoltage2Delay ();
-    "generator_undervoltage_1_threshold_100v" GeneratorUndervoltage1Threshold100v (GeneratorUndervoltage1Threshold100v: generator_voltage_factor "generator_voltage_factor");
-    "generator_undervoltage_1_threshold_400v" GeneratorUndervoltage1Threshold400v (GeneratorUndervoltage1Threshold400v: generator_voltage_factor "generator_voltage_factor");
+    "generator_undervoltage_1_threshold_100v" GeneratorUndervoltage1Threshold100v
+        (GeneratorUndervoltage1Threshold100v: generator_voltage_factor "generator_voltage_factor");
+    "generator_undervoltage_1_threshold_400v" GeneratorUndervoltage1Threshold400v
+        (GeneratorUndervoltage1Threshold400v: generator_voltage_factor "generator_voltage_factor");
     "generator_undervoltage_1_delay" GeneratorUndervoltage1Delay ();
-    "generator_undervoltage_2_threshold_100v" GeneratorUndervoltage2Threshold100v (GeneratorUndervoltage2Threshold100v: generator_voltage_factor "generator_voltage_factor");
-    "generator_undervoltage_2_threshold_400v" GeneratorUndervoltage2Threshold400v (GeneratorUndervoltage2Threshold400v: generator_voltage_factor "generator_voltage_factor");
+    "generator_undervoltage_2_threshold_100v" GeneratorUndervoltage2Threshold100v
+        (GeneratorUndervoltage2Threshold100v: generator_voltage_factor "generator_voltage_factor");
+    "generator_undervoltage_2_threshold_400v" GeneratorUndervoltage2Threshold400v
+        (GeneratorUndervoltage2Threshold400v: generator_voltage_factor "generator_voltage_factor");
     "generator_undervoltage_2_delay" GeneratorUndervoltage2Delay ();
     "mains_overfrequency_threshold" MainsOverfrequencyThreshold ();
     "mains_overfrequency_delay" MainsOverfrequencyDelay ();
     "mains_underfrequency_threshold" MainsUnderfrequencyThreshold ();
     "mains_underfrequency_delay" MainsUnderfrequencyDelay ();
-    "mains_overvoltage_threshold_100v" MainsOvervoltageThreshold100v (MainsOvervoltageThreshold100v: mains_voltage_factor "mains_voltage_factor");
-    "mains_overvoltage_threshold_400v" MainsOvervoltageThreshold400v (MainsOvervoltageThreshold400v: mains_voltage_factor "mains_voltage_factor");
+    "mains_overvoltage_threshold_100v" MainsOvervoltageThreshold100v (MainsOvervoltageThreshold100v:
+        mains_voltage_factor "mains_voltage_factor");
+    "mains_overvoltage_threshold_400v" MainsOvervoltageThreshold400v (MainsOvervoltageThreshold400v:
+        mains_voltage_factor "mains_voltage_factor");
     "mains_overvoltage_delay" MainsOvervoltageDelay ();
-    "mains_undervoltage_threshold_100v" MainsUndervoltageThreshold100v (MainsUndervoltageThreshold100v: mains_voltage_factor "mains_voltage_factor");
-    "mains_undervoltage_threshold_400v" MainsUndervoltageThreshold400v (MainsUndervoltageThreshold400v: mains_voltage_factor "mains_voltage_factor");
+    "mains_undervoltage_threshold_100v" MainsUndervoltageThreshold100v (MainsUndervoltageThreshold100v:
+        mains_voltage_factor "mains_voltage_factor");
+    "mains_undervoltage_threshold_400v" MainsUndervoltageThreshold400v (MainsUndervoltageThreshold400v:
+        mains_voltage_factor "mains_voltage_factor");
     "mains_undervoltage_delay" MainsUndervoltageDelay ();
     "reactive_power_threshold_inductive" ReactivePowerThresholdInductive ();
     "reactive_power_delay_inductive" ReactivePowerDelayInductive ();
@@ -329,10 +415,14 @@ table! { decode_count decode_count {
     "earth_fault_delay" EarthFaultDelay ();
     "battery_undervoltage_threshold" BatteryUndervoltageThreshold ();
     "battery_undervoltage_delay" BatteryUndervoltageDelay ();
-    "analog_output_1_value_at_0_percent" AnalogOutput1ValueAt0Percent (AnalogOutput1ValueAt0Percent: analog_output_1_source "analog_output_1_source");
-    "analog_output_1_value_at_100_percent" AnalogOutput1ValueAt100Percent (AnalogOutput1ValueAt100Percent: analog_output_1_source "analog_output_1_source");
-    "analog_output_2_value_at_0_percent" AnalogOutput2ValueAt0Percent (AnalogOutput2ValueAt0Percent: analog_output_2_source "analog_output_2_source");
-    "analog_output_2_value_at_100_percent" AnalogOutput2ValueAt100Percent (AnalogOutput2ValueAt100Percent: analog_output_2_source "analog_output_2_source");
+    "analog_output_1_value_at_0_percent" AnalogOutput1ValueAt0Percent (AnalogOutput1ValueAt0Percent:
+        analog_output_1_source "analog_output_1_source");
+    "analog_output_1_value_at_100_percent" AnalogOutput1ValueAt100Percent (AnalogOutput1ValueAt100Percent:
+        analog_output_1_source "analog_output_1_source");
+    "analog_output_2_value_at_0_percent" AnalogOutput2ValueAt0Percent (AnalogOutput2ValueAt0Percent:
+        analog_output_2_source "analog_output_2_source");
+    "analog_output_2_value_at_100_percent" AnalogOutput2ValueAt100Percent (AnalogOutput2ValueAt100Percent:
+        analog_output_2_source "analog_output_2_source");
     "monitoring_start_frequency" MonitoringStartFrequency ();
 } }
 
@@ -485,10 +575,14 @@ table! { decode_mixed decode_count {
 table! { encode_count encode_count {
     "generator_frequency_setpoint" GeneratorFrequencySetpoint ();
     "generator_rated_frequency" GeneratorRatedFrequency ();
-    "generator_voltage_setpoint_100v" GeneratorVoltageSetpoint100v (GeneratorVoltageSetpoint100v: generator_voltage_factor "generator_voltage_factor");
-    "generator_voltage_setpoint_400v" GeneratorVoltageSetpoint400v (GeneratorVoltageSetpoint400v: generator_voltage_factor "generator_voltage_factor");
-    "generator_rated_voltage_100v" GeneratorRatedVoltage100v (GeneratorRatedVoltage100v: generator_voltage_factor "generator_voltage_factor");
-    "generator_rated_voltage_400v" GeneratorRatedVoltage400v (GeneratorRatedVoltage400v: generator_voltage_factor "generator_voltage_factor");
+    "generator_voltage_setpoint_100v" GeneratorVoltageSetpoint100v (GeneratorVoltageSetpoint100v:
+        generator_voltage_factor "generator_voltage_factor");
+    "generator_voltage_setpoint_400v" GeneratorVoltageSetpoint400v (GeneratorVoltageSetpoint400v:
+        generator_voltage_factor "generator_voltage_factor");
+    "generator_rated_voltage_100v" GeneratorRatedVoltage100v (GeneratorRatedVoltage100v:
+        generator_voltage_factor "generator_voltage_factor");
+    "generator_rated_voltage_400v" GeneratorRatedVoltage400v (GeneratorRatedVoltage400v:
+        generator_voltage_factor "generator_voltage_factor");
     "frequency_controller_start_frequency" FrequencyControllerStartFrequency ();
     "frequency_controller_start_delay" FrequencyControllerStartDelay ();
     "frequency_controller_dead_band" FrequencyControllerDeadBand ();
@@ -538,27 +632,39 @@ table! { encode_count encode_count {
     "generator_underfrequency_1_delay" GeneratorUnderfrequency1Delay ();
     "generator_underfrequency_2_threshold" GeneratorUnderfrequency2Threshold ();
     "generator_underfrequency_2_delay" GeneratorUnderfrequency2Delay ();
-    "generator_overvoltage_1_threshold_100v" GeneratorOvervoltage1Threshold100v (GeneratorOvervoltage1Threshold100v: generator_voltage_factor "generator_voltage_factor");
-    "generator_overvoltage_1_threshold_400v" GeneratorOvervoltage1Threshold400v (GeneratorOvervoltage1Threshold400v: generator_voltage_factor "generator_voltage_factor");
+    "generator_overvoltage_1_threshold_100v" GeneratorOvervoltage1Threshold100v
+        (GeneratorOvervoltage1Threshold100v: generator_voltage_factor "generator_voltage_factor");
+    "generator_overvoltage_1_threshold_400v" GeneratorOvervoltage1Threshold400v
+        (GeneratorOvervoltage1Threshold400v: generator_voltage_factor "generator_voltage_factor");
     "generator_overvoltage_1_delay" GeneratorOvervoltage1Delay ();
-    "generator_overvoltage_2_threshold_100v" GeneratorOvervoltage2Threshold100v (GeneratorOvervoltage2Threshold100v: generator_voltage_factor "generator_voltage_factor");
-    "generator_overvoltage_2_threshold_400v" GeneratorOvervoltage2Threshold400v (GeneratorOvervoltage2Threshold400v: generator_voltage_factor "generator_voltage_factor");
+    "generator_overvoltage_2_threshold_100v" GeneratorOvervoltage2Threshold100v
+        (GeneratorOvervoltage2Threshold100v: generator_voltage_factor "generator_voltage_factor");
+    "generator_overvoltage_2_threshold_400v" GeneratorOvervoltage2Threshold400v
+        (GeneratorOvervoltage2Threshold400v: generator_voltage_factor "generator_voltage_factor");
     "generator_overvoltage_2_delay" GeneratorOvervoltage2Delay ();
-    "generator_undervoltage_1_threshold_100v" GeneratorUndervoltage1Threshold100v (GeneratorUndervoltage1Threshold100v: generator_voltage_factor "generator_voltage_factor");
-    "generator_undervoltage_1_threshold_400v" GeneratorUndervoltage1Threshold400v (GeneratorUndervoltage1Threshold400v: generator_voltage_factor "generator_voltage_factor");
+    "generator_undervoltage_1_threshold_100v" GeneratorUndervoltage1Threshold100v
+        (GeneratorUndervoltage1Threshold100v: generator_voltage_factor "generator_voltage_factor");
+    "generator_undervoltage_1_threshold_400v" GeneratorUndervoltage1Threshold400v
+        (GeneratorUndervoltage1Threshold400v: generator_voltage_factor "generator_voltage_factor");
     "generator_undervoltage_1_delay" GeneratorUndervoltage1Delay ();
-    "generator_undervoltage_2_threshold_100v" GeneratorUndervoltage2Threshold100v (GeneratorUndervoltage2Threshold100v: generator_voltage_factor "generator_voltage_factor");
-    "generator_undervoltage_2_threshold_400v" GeneratorUndervoltage2Threshold400v (GeneratorUndervoltage2Threshold400v: generator_voltage_factor "generator_voltage_factor");
+    "generator_undervoltage_2_threshold_100v" GeneratorUndervoltage2Threshold100v
+        (GeneratorUndervoltage2Threshold100v: generator_voltage_factor "generator_voltage_factor");
+    "generator_undervoltage_2_threshold_400v" GeneratorUndervoltage2Threshold400v
+        (GeneratorUndervoltage2Threshold400v: generator_voltage_factor "generator_voltage_factor");
     "generator_undervoltage_2_delay" GeneratorUndervoltage2Delay ();
     "mains_overfrequency_threshold" MainsOverfrequencyThreshold ();
     "mains_overfrequency_delay" MainsOverfrequencyDelay ();
     "mains_underfrequency_threshold" MainsUnderfrequencyThreshold ();
     "mains_underfrequency_delay" MainsUnderfrequencyDelay ();
-    "mains_overvoltage_threshold_100v" MainsOvervoltageThreshold100v (MainsOvervoltageThreshold100v: mains_voltage_factor "mains_voltage_factor");
-    "mains_overvoltage_threshold_400v" MainsOvervoltageThreshold400v (MainsOvervoltageThreshold400v: mains_voltage_factor "mains_voltage_factor");
+    "mains_overvoltage_threshold_100v" MainsOvervoltageThreshold100v (MainsOvervoltageThreshold100v:
+        mains_voltage_factor "mains_voltage_factor");
+    "mains_overvoltage_threshold_400v" MainsOvervoltageThreshold400v (MainsOvervoltageThreshold400v:
+        mains_voltage_factor "mains_voltage_factor");
     "mains_overvoltage_delay" MainsOvervoltageDelay ();
-    "mains_undervoltage_threshold_100v" MainsUndervoltageThreshold100v (MainsUndervoltageThreshold100v: mains_voltage_factor "mains_voltage_factor");
-    "mains_undervoltage_threshold_400v" MainsUndervoltageThreshold400v (MainsUndervoltageThreshold400v: mains_voltage_factor "mains_voltage_factor");
+    "mains_undervoltage_threshold_100v" MainsUndervoltageThreshold100v (MainsUndervoltageThreshold100v:
+        mains_voltage_factor "mains_voltage_factor");
+    "mains_undervoltage_threshold_400v" MainsUndervoltageThreshold400v (MainsUndervoltageThreshold400v:
+        mains_voltage_factor "mains_voltage_factor");
     "mains_undervoltage_delay" MainsUndervoltageDelay ();
     "reactive_power_threshold_inductive" ReactivePowerThresholdInductive ();
     "reactive_power_delay_inductive" ReactivePowerDelayInductive ();
@@ -568,10 +674,14 @@ table! { encode_count encode_count {
     "earth_fault_delay" EarthFaultDelay ();
     "battery_undervoltage_threshold" BatteryUndervoltageThreshold ();
     "battery_undervoltage_delay" BatteryUndervoltageDelay ();
-    "analog_output_1_value_at_0_percent" AnalogOutput1ValueAt0Percent (AnalogOutput1ValueAt0Percent: analog_output_1_source "analog_output_1_source");
-    "analog_output_1_value_at_100_percent" AnalogOutput1ValueAt100Percent (AnalogOutput1ValueAt100Percent: analog_output_1_source "analog_output_1_source");
-    "analog_output_2_value_at_0_percent" AnalogOutput2ValueAt0Percent (AnalogOutput2ValueAt0Percent: analog_output_2_source "analog_output_2_source");
-    "analog_output_2_value_at_100_percent" AnalogOutput2ValueAt100Percent (AnalogOutput2ValueAt100Percent: analog_output_2_source "analog_output_2_source");
+    "analog_output_1_value_at_0_percent" AnalogOutput1ValueAt0Percent (AnalogOutput1ValueAt0Percent:
+        analog_output_1_source "analog_output_1_source");
+    "analog_output_1_value_at_100_percent" AnalogOutput1ValueAt100Percent (AnalogOutput1ValueAt100Percent:
+        analog_output_1_source "analog_output_1_source");
+    "analog_output_2_value_at_0_percent" AnalogOutput2ValueAt0Percent (AnalogOutput2ValueAt0Percent:
+        analog_output_2_source "analog_output_2_source");
+    "analog_output_2_value_at_100_percent" AnalogOutput2ValueAt100Percent (AnalogOutput2ValueAt100Percent:
+        analog_output_2_source "analog_output_2_source");
     "monitoring_start_frequency" MonitoringStartFrequency ();
 } }
 
@@ -694,10 +804,14 @@ table! { encode_mixed encode_count {
 table! { check check {
     "generator_frequency_setpoint" GeneratorFrequencySetpoint ();
     "generator_rated_frequency" GeneratorRatedFrequency ();
-    "generator_voltage_setpoint_100v" GeneratorVoltageSetpoint100v (GeneratorVoltageSetpoint100v: generator_voltage_factor "generator_voltage_factor");
-    "generator_voltage_setpoint_400v" GeneratorVoltageSetpoint400v (GeneratorVoltageSetpoint400v: generator_voltage_factor "generator_voltage_factor");
-    "generator_rated_voltage_100v" GeneratorRatedVoltage100v (GeneratorRatedVoltage100v: generator_voltage_factor "generator_voltage_factor");
-    "generator_rated_voltage_400v" GeneratorRatedVoltage400v (GeneratorRatedVoltage400v: generator_voltage_factor "generator_voltage_factor");
+    "generator_voltage_setpoint_100v" GeneratorVoltageSetpoint100v (GeneratorVoltageSetpoint100v:
+        generator_voltage_factor "generator_voltage_factor");
+    "generator_voltage_setpoint_400v" GeneratorVoltageSetpoint400v (GeneratorVoltageSetpoint400v:
+        generator_voltage_factor "generator_voltage_factor");
+    "generator_rated_voltage_100v" GeneratorRatedVoltage100v (GeneratorRatedVoltage100v:
+        generator_voltage_factor "generator_voltage_factor");
+    "generator_rated_voltage_400v" GeneratorRatedVoltage400v (GeneratorRatedVoltage400v:
+        generator_voltage_factor "generator_voltage_factor");
     "frequency_controller_start_frequency" FrequencyControllerStartFrequency ();
     "frequency_controller_start_delay" FrequencyControllerStartDelay ();
     "frequency_controller_dead_band" FrequencyControllerDeadBand ();
@@ -747,27 +861,39 @@ table! { check check {
     "generator_underfrequency_1_delay" GeneratorUnderfrequency1Delay ();
     "generator_underfrequency_2_threshold" GeneratorUnderfrequency2Threshold ();
     "generator_underfrequency_2_delay" GeneratorUnderfrequency2Delay ();
-    "generator_overvoltage_1_threshold_100v" GeneratorOvervoltage1Threshold100v (GeneratorOvervoltage1Threshold100v: generator_voltage_factor "generator_voltage_factor");
-    "generator_overvoltage_1_threshold_400v" GeneratorOvervoltage1Threshold400v (GeneratorOvervoltage1Threshold400v: generator_voltage_factor "generator_voltage_factor");
+    "generator_overvoltage_1_threshold_100v" GeneratorOvervoltage1Threshold100v
+        (GeneratorOvervoltage1Threshold100v: generator_voltage_factor "generator_voltage_factor");
+    "generator_overvoltage_1_threshold_400v" GeneratorOvervoltage1Threshold400v
+        (GeneratorOvervoltage1Threshold400v: generator_voltage_factor "generator_voltage_factor");
     "generator_overvoltage_1_delay" GeneratorOvervoltage1Delay ();
-    "generator_overvoltage_2_threshold_100v" GeneratorOvervoltage2Threshold100v (GeneratorOvervoltage2Threshold100v: generator_voltage_factor "generator_voltage_factor");
-    "generator_overvoltage_2_threshold_400v" GeneratorOvervoltage2Threshold400v (GeneratorOvervoltage2Threshold400v: generator_voltage_factor "generator_voltage_factor");
+    "generator_overvoltage_2_threshold_100v" GeneratorOvervoltage2Threshold100v
+        (GeneratorOvervoltage2Threshold100v: generator_voltage_factor "generator_voltage_factor");
+    "generator_overvoltage_2_threshold_400v" GeneratorOvervoltage2Threshold400v
+        (GeneratorOvervoltage2Threshold400v: generator_voltage_factor "generator_voltage_factor");
     "generator_overvoltage_2_delay" GeneratorOvervoltage2Delay ();
-    "generator_undervoltage_1_threshold_100v" GeneratorUndervoltage1Threshold100v (GeneratorUndervoltage1Threshold100v: generator_voltage_factor "generator_voltage_factor");
-    "generator_undervoltage_1_threshold_400v" GeneratorUndervoltage1Threshold400v (GeneratorUndervoltage1Threshold400v: generator_voltage_factor "generator_voltage_factor");
+    "generator_undervoltage_1_threshold_100v" GeneratorUndervoltage1Threshold100v
+        (GeneratorUndervoltage1Threshold100v: generator_voltage_factor "generator_voltage_factor");
+    "generator_undervoltage_1_threshold_400v" GeneratorUndervoltage1Threshold400v
+        (GeneratorUndervoltage1Threshold400v: generator_voltage_factor "generator_voltage_factor");
     "generator_undervoltage_1_delay" GeneratorUndervoltage1Delay ();
-    "generator_undervoltage_2_threshold_100v" GeneratorUndervoltage2Threshold100v (GeneratorUndervoltage2Threshold100v: generator_voltage_factor "generator_voltage_factor");
-    "generator_undervoltage_2_threshold_400v" GeneratorUndervoltage2Threshold400v (GeneratorUndervoltage2Threshold400v: generator_voltage_factor "generator_voltage_factor");
+    "generator_undervoltage_2_threshold_100v" GeneratorUndervoltage2Threshold100v
+        (GeneratorUndervoltage2Threshold100v: generator_voltage_factor "generator_voltage_factor");
+    "generator_undervoltage_2_threshold_400v" GeneratorUndervoltage2Threshold400v
+        (GeneratorUndervoltage2Threshold400v: generator_voltage_factor "generator_voltage_factor");
     "generator_undervoltage_2_delay" GeneratorUndervoltage2Delay ();
     "mains_overfrequency_threshold" MainsOverfrequencyThreshold ();
     "mains_overfrequency_delay" MainsOverfrequencyDelay ();
     "mains_underfrequency_threshold" MainsUnderfrequencyThreshold ();
     "mains_underfrequency_delay" MainsUnderfrequencyDelay ();
-    "mains_overvoltage_threshold_100v" MainsOvervoltageThreshold100v (MainsOvervoltageThreshold100v: mains_voltage_factor "mains_voltage_factor");
-    "mains_overvoltage_threshold_400v" MainsOvervoltageThreshold400v (MainsOvervoltageThreshold400v: mains_voltage_factor "mains_voltage_factor");
+    "mains_overvoltage_threshold_100v" MainsOvervoltageThreshold100v (MainsOvervoltageThreshold100v:
+        mains_voltage_factor "mains_voltage_factor");
+    "mains_overvoltage_threshold_400v" MainsOvervoltageThreshold400v (MainsOvervoltageThreshold400v:
+        mains_voltage_factor "mains_voltage_factor");
     "mains_overvoltage_delay" MainsOvervoltageDelay ();
-    "mains_undervoltage_threshold_100v" MainsUndervoltageThreshold100v (MainsUndervoltageThreshold100v: mains_voltage_factor "mains_voltage_factor");
-    "mains_undervoltage_threshold_400v" MainsUndervoltageThreshold400v (MainsUndervoltageThreshold400v: mains_voltage_factor "mains_voltage_factor");
+    "mains_undervoltage_threshold_100v" MainsUndervoltageThreshold100v (MainsUndervoltageThreshold100v:
+        mains_voltage_factor "mains_voltage_factor");
+    "mains_undervoltage_threshold_400v" MainsUndervoltageThreshold400v (MainsUndervoltageThreshold400v:
+        mains_voltage_factor "mains_voltage_factor");
     "mains_undervoltage_delay" MainsUndervoltageDelay ();
     "reactive_power_threshold_inductive" ReactivePowerThresholdInductive ();
     "reactive_power_delay_inductive" ReactivePowerDelayInductive ();
@@ -777,10 +903,14 @@ table! { check check {
     "earth_fault_delay" EarthFaultDelay ();
     "battery_undervoltage_threshold" BatteryUndervoltageThreshold ();
     "battery_undervoltage_delay" BatteryUndervoltageDelay ();
-    "analog_output_1_value_at_0_percent" AnalogOutput1ValueAt0Percent (AnalogOutput1ValueAt0Percent: analog_output_1_source "analog_output_1_source");
-    "analog_output_1_value_at_100_percent" AnalogOutput1ValueAt100Percent (AnalogOutput1ValueAt100Percent: analog_output_1_source "analog_output_1_source");
-    "analog_output_2_value_at_0_percent" AnalogOutput2ValueAt0Percent (AnalogOutput2ValueAt0Percent: analog_output_2_source "analog_output_2_source");
-    "analog_output_2_value_at_100_percent" AnalogOutput2ValueAt100Percent (AnalogOutput2ValueAt100Percent: analog_output_2_source "analog_output_2_source");
+    "analog_output_1_value_at_0_percent" AnalogOutput1ValueAt0Percent (AnalogOutput1ValueAt0Percent:
+        analog_output_1_source "analog_output_1_source");
+    "analog_output_1_value_at_100_percent" AnalogOutput1ValueAt100Percent (AnalogOutput1ValueAt100Percent:
+        analog_output_1_source "analog_output_1_source");
+    "analog_output_2_value_at_0_percent" AnalogOutput2ValueAt0Percent (AnalogOutput2ValueAt0Percent:
+        analog_output_2_source "analog_output_2_source");
+    "analog_output_2_value_at_100_percent" AnalogOutput2ValueAt100Percent (AnalogOutput2ValueAt100Percent:
+        analog_output_2_source "analog_output_2_source");
     "monitoring_start_frequency" MonitoringStartFrequency ();
     "password_level_2" PasswordLevel2 ();
     "generator_voltage_transformer_secondary_100v" GeneratorVoltageTransformerSecondary100v ();
@@ -977,104 +1107,183 @@ table! { flag flag {
     "present_fault_classes fault_class_2" PresentFaultClasses (flag u16 fault_class_2 with_fault_class_2);
     "present_fault_classes fault_class_1" PresentFaultClasses (flag u16 fault_class_1 with_fault_class_1);
     "present_fault_classes fault_class_0" PresentFaultClasses (flag u16 fault_class_0 with_fault_class_0);
-    "control_register_2 terminal_3_generator_breaker_enable" ControlRegister2 (flag u16 terminal_3_generator_breaker_enable with_terminal_3_generator_breaker_enable);
-    "control_register_2 terminal_5_generator_breaker_closed" ControlRegister2 (flag u16 terminal_5_generator_breaker_closed with_terminal_5_generator_breaker_closed);
-    "control_register_2 terminal_4_breaker_open" ControlRegister2 (flag u16 terminal_4_breaker_open with_terminal_4_breaker_open);
-    "control_register_2 terminal_54_mains_parallel" ControlRegister2 (flag u16 terminal_54_mains_parallel with_terminal_54_mains_parallel);
-    "control_register_2 terminal_6_synchronisation_on" ControlRegister2 (flag u16 terminal_6_synchronisation_on with_terminal_6_synchronisation_on);
-    "control_register_1 acknowledge_f2_f3" ControlRegister1 (flag u16 acknowledge_f2_f3 with_acknowledge_f2_f3);
+    "control_register_2 terminal_3_generator_breaker_enable" ControlRegister2 (flag u16
+        terminal_3_generator_breaker_enable with_terminal_3_generator_breaker_enable);
+    "control_register_2 terminal_5_generator_breaker_closed" ControlRegister2 (flag u16
+        terminal_5_generator_breaker_closed with_terminal_5_generator_breaker_closed);
+    "control_register_2 terminal_4_breaker_open" ControlRegister2 (flag u16 terminal_4_breaker_open
+        with_terminal_4_breaker_open);
+    "control_register_2 terminal_54_mains_parallel" ControlRegister2 (flag u16 terminal_54_mains_parallel
+        with_terminal_54_mains_parallel);
+    "control_register_2 terminal_6_synchronisation_on" ControlRegister2 (flag u16
+        terminal_6_synchronisation_on with_terminal_6_synchronisation_on);
+    "control_register_1 acknowledge_f2_f3" ControlRegister1 (flag u16 acknowledge_f2_f3
+        with_acknowledge_f2_f3);
     "control_register_1 acknowledge_f1" ControlRegister1 (flag u16 acknowledge_f1 with_acknowledge_f1);
-    "internal_faults_8 generator_overfrequency_stage_2" InternalFaults8 (flag u16 generator_overfrequency_stage_2 with_generator_overfrequency_stage_2);
-    "internal_faults_8 generator_underfrequency_stage_2" InternalFaults8 (flag u16 generator_underfrequency_stage_2 with_generator_underfrequency_stage_2);
-    "internal_faults_8 generator_overvoltage_stage_2" InternalFaults8 (flag u16 generator_overvoltage_stage_2 with_generator_overvoltage_stage_2);
-    "internal_faults_8 generator_undervoltage_stage_2" InternalFaults8 (flag u16 generator_undervoltage_stage_2 with_generator_undervoltage_stage_2);
-    "internal_faults_8 reactive_power_inductive" InternalFaults8 (flag u16 reactive_power_inductive with_reactive_power_inductive);
-    "internal_faults_8 reactive_power_capacitive" InternalFaults8 (flag u16 reactive_power_capacitive with_reactive_power_capacitive);
-    "internal_faults_6 analog_input_8_wire_break" InternalFaults6 (flag u16 analog_input_8_wire_break with_analog_input_8_wire_break);
-    "internal_faults_6 analog_input_7_wire_break" InternalFaults6 (flag u16 analog_input_7_wire_break with_analog_input_7_wire_break);
-    "internal_faults_6 analog_input_6_wire_break" InternalFaults6 (flag u16 analog_input_6_wire_break with_analog_input_6_wire_break);
-    "internal_faults_6 analog_input_5_wire_break" InternalFaults6 (flag u16 analog_input_5_wire_break with_analog_input_5_wire_break);
-    "internal_faults_6 analog_input_4_wire_break" InternalFaults6 (flag u16 analog_input_4_wire_break with_analog_input_4_wire_break);
-    "internal_faults_6 analog_input_3_wire_break" InternalFaults6 (flag u16 analog_input_3_wire_break with_analog_input_3_wire_break);
-    "internal_faults_6 analog_input_2_wire_break" InternalFaults6 (flag u16 analog_input_2_wire_break with_analog_input_2_wire_break);
-    "internal_faults_6 analog_input_1_wire_break" InternalFaults6 (flag u16 analog_input_1_wire_break with_analog_input_1_wire_break);
-    "internal_faults_1 generator_overfrequency_1" InternalFaults1 (flag u16 generator_overfrequency_1 with_generator_overfrequency_1);
-    "internal_faults_1 generator_underfrequency_1" InternalFaults1 (flag u16 generator_underfrequency_1 with_generator_underfrequency_1);
-    "internal_faults_1 generator_overvoltage_1" InternalFaults1 (flag u16 generator_overvoltage_1 with_generator_overvoltage_1);
-    "internal_faults_1 generator_undervoltage_1" InternalFaults1 (flag u16 generator_undervoltage_1 with_generator_undervoltage_1);
-    "internal_faults_1 battery_undervoltage" InternalFaults1 (flag u16 battery_undervoltage with_battery_undervoltage);
+    "internal_faults_8 generator_overfrequency_stage_2" InternalFaults8 (flag u16
+        generator_overfrequency_stage_2 with_generator_overfrequency_stage_2);
+    "internal_faults_8 generator_underfrequency_stage_2" InternalFaults8 (flag u16
+        generator_underfrequency_stage_2 with_generator_underfrequency_stage_2);
+    "internal_faults_8 generator_overvoltage_stage_2" InternalFaults8 (flag u16
+        generator_overvoltage_stage_2 with_generator_overvoltage_stage_2);
+    "internal_faults_8 generator_undervoltage_stage_2" InternalFaults8 (flag u16
+        generator_undervoltage_stage_2 with_generator_undervoltage_stage_2);
+    "internal_faults_8 reactive_power_inductive" InternalFaults8 (flag u16 reactive_power_inductive
+        with_reactive_power_inductive);
+    "internal_faults_8 reactive_power_capacitive" InternalFaults8 (flag u16 reactive_power_capacitive
+        with_reactive_power_capacitive);
+    "internal_faults_6 analog_input_8_wire_break" InternalFaults6 (flag u16 analog_input_8_wire_break
+        with_analog_input_8_wire_break);
+    "internal_faults_6 analog_input_7_wire_break" InternalFaults6 (flag u16 analog_input_7_wire_break
+        with_analog_input_7_wire_break);
+    "internal_faults_6 analog_input_6_wire_break" InternalFaults6 (flag u16 analog_input_6_wire_break
+        with_analog_input_6_wire_break);
+    "internal_faults_6 analog_input_5_wire_break" InternalFaults6 (flag u16 analog_input_5_wire_break
+        with_analog_input_5_wire_break);
+    "internal_faults_6 analog_input_4_wire_break" InternalFaults6 (flag u16 analog_input_4_wire_break
+        with_analog_input_4_wire_break);
+    "internal_faults_6 analog_input_3_wire_break" InternalFaults6 (flag u16 analog_input_3_wire_break
+        with_analog_input_3_wire_break);
+    "internal_faults_6 analog_input_2_wire_break" InternalFaults6 (flag u16 analog_input_2_wire_break
+        with_analog_input_2_wire_break);
+    "internal_faults_6 analog_input_1_wire_break" InternalFaults6 (flag u16 analog_input_1_wire_break
+        with_analog_input_1_wire_break);
+    "internal_faults_1 generator_overfrequency_1" InternalFaults1 (flag u16 generator_overfrequency_1
+        with_generator_overfrequency_1);
+    "internal_faults_1 generator_underfrequency_1" InternalFaults1 (flag u16 generator_underfrequency_1
+        with_generator_underfrequency_1);
+    "internal_faults_1 generator_overvoltage_1" InternalFaults1 (flag u16 generator_overvoltage_1
+        with_generator_overvoltage_1);
+    "internal_faults_1 generator_undervoltage_1" InternalFaults1 (flag u16 generator_undervoltage_1
+        with_generator_undervoltage_1);
+    "internal_faults_1 battery_undervoltage" InternalFaults1 (flag u16 battery_undervoltage
+        with_battery_undervoltage);
     "internal_faults_1 overload" InternalFaults1 (flag u16 overload with_overload);
     "internal_faults_1 reverse_power" InternalFaults1 (flag u16 reverse_power with_reverse_power);
-    "internal_faults_2 mains_overfrequency" InternalFaults2 (flag u16 mains_overfrequency with_mains_overfrequency);
-    "internal_faults_2 mains_underfrequency" InternalFaults2 (flag u16 mains_underfrequency with_mains_underfrequency);
-    "internal_faults_2 mains_overvoltage" InternalFaults2 (flag u16 mains_overvoltage with_mains_overvoltage);
-    "internal_faults_2 mains_undervoltage" InternalFaults2 (flag u16 mains_undervoltage with_mains_undervoltage);
-    "internal_faults_2 interface_x1_x5_fault" InternalFaults2 (flag u16 interface_x1_x5_fault with_interface_x1_x5_fault);
-    "internal_faults_2 frequency_gradient_fault" InternalFaults2 (flag u16 frequency_gradient_fault with_frequency_gradient_fault);
+    "internal_faults_2 mains_overfrequency" InternalFaults2 (flag u16 mains_overfrequency
+        with_mains_overfrequency);
+    "internal_faults_2 mains_underfrequency" InternalFaults2 (flag u16 mains_underfrequency
+        with_mains_underfrequency);
+    "internal_faults_2 mains_overvoltage" InternalFaults2 (flag u16 mains_overvoltage
+        with_mains_overvoltage);
+    "internal_faults_2 mains_undervoltage" InternalFaults2 (flag u16 mains_undervoltage
+        with_mains_undervoltage);
+    "internal_faults_2 interface_x1_x5_fault" InternalFaults2 (flag u16 interface_x1_x5_fault
+        with_interface_x1_x5_fault);
+    "internal_faults_2 frequency_gradient_fault" InternalFaults2 (flag u16 frequency_gradient_fault
+        with_frequency_gradient_fault);
     "internal_faults_2 phase_shift" InternalFaults2 (flag u16 phase_shift with_phase_shift);
-    "internal_faults_3 generator_overcurrent_stage_1" InternalFaults3 (flag u16 generator_overcurrent_stage_1 with_generator_overcurrent_stage_1);
+    "internal_faults_3 generator_overcurrent_stage_1" InternalFaults3 (flag u16
+        generator_overcurrent_stage_1 with_generator_overcurrent_stage_1);
     "internal_faults_3 unbalanced_load" InternalFaults3 (flag u16 unbalanced_load with_unbalanced_load);
-    "internal_faults_3 generator_overcurrent_stage_2" InternalFaults3 (flag u16 generator_overcurrent_stage_2 with_generator_overcurrent_stage_2);
-    "internal_faults_3 interface_y1_y5_fault" InternalFaults3 (flag u16 interface_y1_y5_fault with_interface_y1_y5_fault);
+    "internal_faults_3 generator_overcurrent_stage_2" InternalFaults3 (flag u16
+        generator_overcurrent_stage_2 with_generator_overcurrent_stage_2);
+    "internal_faults_3 interface_y1_y5_fault" InternalFaults3 (flag u16 interface_y1_y5_fault
+        with_interface_y1_y5_fault);
     "internal_faults_3 maintenance_call" InternalFaults3 (flag u16 maintenance_call with_maintenance_call);
-    "internal_faults_4 analog_input_1_stage_1" InternalFaults4 (flag u16 analog_input_1_stage_1 with_analog_input_1_stage_1);
-    "internal_faults_4 analog_input_1_stage_2" InternalFaults4 (flag u16 analog_input_1_stage_2 with_analog_input_1_stage_2);
-    "internal_faults_4 analog_input_2_stage_1" InternalFaults4 (flag u16 analog_input_2_stage_1 with_analog_input_2_stage_1);
-    "internal_faults_4 analog_input_2_stage_2" InternalFaults4 (flag u16 analog_input_2_stage_2 with_analog_input_2_stage_2);
-    "internal_faults_4 analog_input_3_stage_1" InternalFaults4 (flag u16 analog_input_3_stage_1 with_analog_input_3_stage_1);
-    "internal_faults_4 analog_input_3_stage_2" InternalFaults4 (flag u16 analog_input_3_stage_2 with_analog_input_3_stage_2);
-    "internal_faults_4 analog_input_4_stage_1" InternalFaults4 (flag u16 analog_input_4_stage_1 with_analog_input_4_stage_1);
-    "internal_faults_4 analog_input_4_stage_2" InternalFaults4 (flag u16 analog_input_4_stage_2 with_analog_input_4_stage_2);
-    "internal_faults_5 analog_input_5_stage_1" InternalFaults5 (flag u16 analog_input_5_stage_1 with_analog_input_5_stage_1);
-    "internal_faults_5 analog_input_5_stage_2" InternalFaults5 (flag u16 analog_input_5_stage_2 with_analog_input_5_stage_2);
-    "internal_faults_5 analog_input_6_stage_1" InternalFaults5 (flag u16 analog_input_6_stage_1 with_analog_input_6_stage_1);
-    "internal_faults_5 analog_input_6_stage_2" InternalFaults5 (flag u16 analog_input_6_stage_2 with_analog_input_6_stage_2);
-    "internal_faults_5 analog_input_7_stage_1" InternalFaults5 (flag u16 analog_input_7_stage_1 with_analog_input_7_stage_1);
-    "internal_faults_5 analog_input_7_stage_2" InternalFaults5 (flag u16 analog_input_7_stage_2 with_analog_input_7_stage_2);
-    "internal_faults_5 analog_input_8_stage_1" InternalFaults5 (flag u16 analog_input_8_stage_1 with_analog_input_8_stage_1);
-    "internal_faults_5 analog_input_8_stage_2" InternalFaults5 (flag u16 analog_input_8_stage_2 with_analog_input_8_stage_2);
-    "digital_input_faults_1_to_8 digital_input_1" DigitalInputFaults1To8 (flag u16 digital_input_1 with_digital_input_1);
-    "digital_input_faults_1_to_8 digital_input_2" DigitalInputFaults1To8 (flag u16 digital_input_2 with_digital_input_2);
-    "digital_input_faults_1_to_8 digital_input_3" DigitalInputFaults1To8 (flag u16 digital_input_3 with_digital_input_3);
-    "digital_input_faults_1_to_8 digital_input_4" DigitalInputFaults1To8 (flag u16 digital_input_4 with_digital_input_4);
-    "digital_input_faults_1_to_8 digital_input_5" DigitalInputFaults1To8 (flag u16 digital_input_5 with_digital_input_5);
-    "digital_input_faults_1_to_8 digital_input_6" DigitalInputFaults1To8 (flag u16 digital_input_6 with_digital_input_6);
-    "digital_input_faults_1_to_8 digital_input_7" DigitalInputFaults1To8 (flag u16 digital_input_7 with_digital_input_7);
-    "digital_input_faults_1_to_8 digital_input_8" DigitalInputFaults1To8 (flag u16 digital_input_8 with_digital_input_8);
-    "digital_input_faults_9_to_16 digital_input_9" DigitalInputFaults9To16 (flag u16 digital_input_9 with_digital_input_9);
-    "digital_input_faults_9_to_16 digital_input_10" DigitalInputFaults9To16 (flag u16 digital_input_10 with_digital_input_10);
-    "digital_input_faults_9_to_16 digital_input_11" DigitalInputFaults9To16 (flag u16 digital_input_11 with_digital_input_11);
-    "digital_input_faults_9_to_16 digital_input_12" DigitalInputFaults9To16 (flag u16 digital_input_12 with_digital_input_12);
-    "digital_input_faults_9_to_16 digital_input_13" DigitalInputFaults9To16 (flag u16 digital_input_13 with_digital_input_13);
-    "digital_input_faults_9_to_16 digital_input_14" DigitalInputFaults9To16 (flag u16 digital_input_14 with_digital_input_14);
-    "digital_input_faults_9_to_16 digital_input_15" DigitalInputFaults9To16 (flag u16 digital_input_15 with_digital_input_15);
-    "digital_input_faults_9_to_16 digital_input_16" DigitalInputFaults9To16 (flag u16 digital_input_16 with_digital_input_16);
+    "internal_faults_4 analog_input_1_stage_1" InternalFaults4 (flag u16 analog_input_1_stage_1
+        with_analog_input_1_stage_1);
+    "internal_faults_4 analog_input_1_stage_2" InternalFaults4 (flag u16 analog_input_1_stage_2
+        with_analog_input_1_stage_2);
+    "internal_faults_4 analog_input_2_stage_1" InternalFaults4 (flag u16 analog_input_2_stage_1
+        with_analog_input_2_stage_1);
+    "internal_faults_4 analog_input_2_stage_2" InternalFaults4 (flag u16 analog_input_2_stage_2
+        with_analog_input_2_stage_2);
+    "internal_faults_4 analog_input_3_stage_1" InternalFaults4 (flag u16 analog_input_3_stage_1
+        with_analog_input_3_stage_1);
+    "internal_faults_4 analog_input_3_stage_2" InternalFaults4 (flag u16 analog_input_3_stage_2
+        with_analog_input_3_stage_2);
+    "internal_faults_4 analog_input_4_stage_1" InternalFaults4 (flag u16 analog_input_4_stage_1
+        with_analog_input_4_stage_1);
+    "internal_faults_4 analog_input_4_stage_2" InternalFaults4 (flag u16 analog_input_4_stage_2
+        with_analog_input_4_stage_2);
+    "internal_faults_5 analog_input_5_stage_1" InternalFaults5 (flag u16 analog_input_5_stage_1
+        with_analog_input_5_stage_1);
+    "internal_faults_5 analog_input_5_stage_2" InternalFaults5 (flag u16 analog_input_5_stage_2
+        with_analog_input_5_stage_2);
+    "internal_faults_5 analog_input_6_stage_1" InternalFaults5 (flag u16 analog_input_6_stage_1
+        with_analog_input_6_stage_1);
+    "internal_faults_5 analog_input_6_stage_2" InternalFaults5 (flag u16 analog_input_6_stage_2
+        with_analog_input_6_stage_2);
+    "internal_faults_5 analog_input_7_stage_1" InternalFaults5 (flag u16 analog_input_7_stage_1
+        with_analog_input_7_stage_1);
+    "internal_faults_5 analog_input_7_stage_2" InternalFaults5 (flag u16 analog_input_7_stage_2
+        with_analog_input_7_stage_2);
+    "internal_faults_5 analog_input_8_stage_1" InternalFaults5 (flag u16 analog_input_8_stage_1
+        with_analog_input_8_stage_1);
+    "internal_faults_5 analog_input_8_stage_2" InternalFaults5 (flag u16 analog_input_8_stage_2
+        with_analog_input_8_stage_2);
+    "digital_input_faults_1_to_8 digital_input_1" DigitalInputFaults1To8 (flag u16 digital_input_1
+        with_digital_input_1);
+    "digital_input_faults_1_to_8 digital_input_2" DigitalInputFaults1To8 (flag u16 digital_input_2
+        with_digital_input_2);
+    "digital_input_faults_1_to_8 digital_input_3" DigitalInputFaults1To8 (flag u16 digital_input_3
+        with_digital_input_3);
+    "digital_input_faults_1_to_8 digital_input_4" DigitalInputFaults1To8 (flag u16 digital_input_4
+        with_digital_input_4);
+    "digital_input_faults_1_to_8 digital_input_5" DigitalInputFaults1To8 (flag u16 digital_input_5
+        with_digital_input_5);
+    "digital_input_faults_1_to_8 digital_input_6" DigitalInputFaults1To8 (flag u16 digital_input_6
+        with_digital_input_6);
+    "digital_input_faults_1_to_8 digital_input_7" DigitalInputFaults1To8 (flag u16 digital_input_7
+        with_digital_input_7);
+    "digital_input_faults_1_to_8 digital_input_8" DigitalInputFaults1To8 (flag u16 digital_input_8
+        with_digital_input_8);
+    "digital_input_faults_9_to_16 digital_input_9" DigitalInputFaults9To16 (flag u16 digital_input_9
+        with_digital_input_9);
+    "digital_input_faults_9_to_16 digital_input_10" DigitalInputFaults9To16 (flag u16 digital_input_10
+        with_digital_input_10);
+    "digital_input_faults_9_to_16 digital_input_11" DigitalInputFaults9To16 (flag u16 digital_input_11
+        with_digital_input_11);
+    "digital_input_faults_9_to_16 digital_input_12" DigitalInputFaults9To16 (flag u16 digital_input_12
+        with_digital_input_12);
+    "digital_input_faults_9_to_16 digital_input_13" DigitalInputFaults9To16 (flag u16 digital_input_13
+        with_digital_input_13);
+    "digital_input_faults_9_to_16 digital_input_14" DigitalInputFaults9To16 (flag u16 digital_input_14
+        with_digital_input_14);
+    "digital_input_faults_9_to_16 digital_input_15" DigitalInputFaults9To16 (flag u16 digital_input_15
+        with_digital_input_15);
+    "digital_input_faults_9_to_16 digital_input_16" DigitalInputFaults9To16 (flag u16 digital_input_16
+        with_digital_input_16);
     "internal_faults_7 earth_fault" InternalFaults7 (flag u16 earth_fault with_earth_fault);
-    "internal_faults_7 overcurrent_inverse_time" InternalFaults7 (flag u16 overcurrent_inverse_time with_overcurrent_inverse_time);
+    "internal_faults_7 overcurrent_inverse_time" InternalFaults7 (flag u16 overcurrent_inverse_time
+        with_overcurrent_inverse_time);
     "digital_inputs_1_to_4_logic input_1" DigitalInputs1To4Logic (flag u8 input_1 with_input_1);
     "digital_inputs_1_to_4_logic input_2" DigitalInputs1To4Logic (flag u8 input_2 with_input_2);
     "digital_inputs_1_to_4_logic input_3" DigitalInputs1To4Logic (flag u8 input_3 with_input_3);
     "digital_inputs_1_to_4_logic input_4" DigitalInputs1To4Logic (flag u8 input_4 with_input_4);
-    "digital_inputs_1_to_4_engine_delay input_1" DigitalInputs1To4EngineDelay (flag u8 input_1 with_input_1);
-    "digital_inputs_1_to_4_engine_delay input_2" DigitalInputs1To4EngineDelay (flag u8 input_2 with_input_2);
-    "digital_inputs_1_to_4_engine_delay input_3" DigitalInputs1To4EngineDelay (flag u8 input_3 with_input_3);
-    "digital_inputs_1_to_4_engine_delay input_4" DigitalInputs1To4EngineDelay (flag u8 input_4 with_input_4);
+    "digital_inputs_1_to_4_engine_delay input_1" DigitalInputs1To4EngineDelay (flag u8 input_1
+        with_input_1);
+    "digital_inputs_1_to_4_engine_delay input_2" DigitalInputs1To4EngineDelay (flag u8 input_2
+        with_input_2);
+    "digital_inputs_1_to_4_engine_delay input_3" DigitalInputs1To4EngineDelay (flag u8 input_3
+        with_input_3);
+    "digital_inputs_1_to_4_engine_delay input_4" DigitalInputs1To4EngineDelay (flag u8 input_4
+        with_input_4);
     "digital_inputs_5_to_8_logic input_5" DigitalInputs5To8Logic (flag u8 input_5 with_input_5);
     "digital_inputs_5_to_8_logic input_6" DigitalInputs5To8Logic (flag u8 input_6 with_input_6);
     "digital_inputs_5_to_8_logic input_7" DigitalInputs5To8Logic (flag u8 input_7 with_input_7);
     "digital_inputs_5_to_8_logic input_8" DigitalInputs5To8Logic (flag u8 input_8 with_input_8);
-    "digital_inputs_5_to_8_engine_delay input_5" DigitalInputs5To8EngineDelay (flag u8 input_5 with_input_5);
-    "digital_inputs_5_to_8_engine_delay input_6" DigitalInputs5To8EngineDelay (flag u8 input_6 with_input_6);
-    "digital_inputs_5_to_8_engine_delay input_7" DigitalInputs5To8EngineDelay (flag u8 input_7 with_input_7);
-    "digital_inputs_5_to_8_engine_delay input_8" DigitalInputs5To8EngineDelay (flag u8 input_8 with_input_8);
+    "digital_inputs_5_to_8_engine_delay input_5" DigitalInputs5To8EngineDelay (flag u8 input_5
+        with_input_5);
+    "digital_inputs_5_to_8_engine_delay input_6" DigitalInputs5To8EngineDelay (flag u8 input_6
+        with_input_6);
+    "digital_inputs_5_to_8_engine_delay input_7" DigitalInputs5To8EngineDelay (flag u8 input_7
+        with_input_7);
+    "digital_inputs_5_to_8_engine_delay input_8" DigitalInputs5To8EngineDelay (flag u8 input_8
+        with_input_8);
     "digital_inputs_9_to_12_logic input_9" DigitalInputs9To12Logic (flag u8 input_9 with_input_9);
     "digital_inputs_9_to_12_logic input_10" DigitalInputs9To12Logic (flag u8 input_10 with_input_10);
     "digital_inputs_9_to_12_logic input_11" DigitalInputs9To12Logic (flag u8 input_11 with_input_11);
     "digital_inputs_9_to_12_logic input_12" DigitalInputs9To12Logic (flag u8 input_12 with_input_12);
-    "digital_inputs_9_to_12_engine_delay input_9" DigitalInputs9To12EngineDelay (flag u8 input_9 with_input_9);
-    "digital_inputs_9_to_12_engine_delay input_10" DigitalInputs9To12EngineDelay (flag u8 input_10 with_input_10);
-    "digital_inputs_9_to_12_engine_delay input_11" DigitalInputs9To12EngineDelay (flag u8 input_11 with_input_11);
-    "digital_inputs_9_to_12_engine_delay input_12" DigitalInputs9To12EngineDelay (flag u8 input_12 with_input_12);
+    "digital_inputs_9_to_12_engine_delay input_9" DigitalInputs9To12EngineDelay (flag u8 input_9
+        with_input_9);
+    "digital_inputs_9_to_12_engine_delay input_10" DigitalInputs9To12EngineDelay (flag u8 input_10
+        with_input_10);
+    "digital_inputs_9_to_12_engine_delay input_11" DigitalInputs9To12EngineDelay (flag u8 input_11
+        with_input_11);
+    "digital_inputs_9_to_12_engine_delay input_12" DigitalInputs9To12EngineDelay (flag u8 input_12
+        with_input_12);
     "relay_1_logic_1 last" Relay1Logic1 (flag u8 last with_last);
     "relay_1_logic_1 inverted" Relay1Logic1 (flag u8 inverted with_inverted);
     "relay_1_logic_1 and_with_next" Relay1Logic1 (flag u8 and_with_next with_and_with_next);
@@ -1149,28 +1358,46 @@ table! { flag_name flag_name {
     "present_fault_classes fault_class_1 active" PresentFaultClasses (value FAULT_CLASS_1_ACTIVE);
     "present_fault_classes fault_class_0 inactive" PresentFaultClasses (value FAULT_CLASS_0_INACTIVE);
     "present_fault_classes fault_class_0 active" PresentFaultClasses (value FAULT_CLASS_0_ACTIVE);
-    "control_register_2 terminal_3_generator_breaker_enable inactive" ControlRegister2 (value TERMINAL_3_GENERATOR_BREAKER_ENABLE_INACTIVE);
-    "control_register_2 terminal_3_generator_breaker_enable active" ControlRegister2 (value TERMINAL_3_GENERATOR_BREAKER_ENABLE_ACTIVE);
-    "control_register_2 terminal_5_generator_breaker_closed inactive" ControlRegister2 (value TERMINAL_5_GENERATOR_BREAKER_CLOSED_INACTIVE);
-    "control_register_2 terminal_5_generator_breaker_closed active" ControlRegister2 (value TERMINAL_5_GENERATOR_BREAKER_CLOSED_ACTIVE);
-    "control_register_2 terminal_4_breaker_open inactive" ControlRegister2 (value TERMINAL_4_BREAKER_OPEN_INACTIVE);
-    "control_register_2 terminal_4_breaker_open active" ControlRegister2 (value TERMINAL_4_BREAKER_OPEN_ACTIVE);
-    "control_register_2 terminal_54_mains_parallel inactive" ControlRegister2 (value TERMINAL_54_MAINS_PARALLEL_INACTIVE);
-    "control_register_2 terminal_54_mains_parallel active" ControlRegister2 (value TERMINAL_54_MAINS_PARALLEL_ACTIVE);
-    "control_register_2 terminal_6_synchronisation_on inactive" ControlRegister2 (value TERMINAL_6_SYNCHRONISATION_ON_INACTIVE);
-    "control_register_2 terminal_6_synchronisation_on active" ControlRegister2 (value TERMINAL_6_SYNCHRONISATION_ON_ACTIVE);
+    "control_register_2 terminal_3_generator_breaker_enable inactive" ControlRegister2 (value
+        TERMINAL_3_GENERATOR_BREAKER_ENABLE_INACTIVE);
+    "control_register_2 terminal_3_generator_breaker_enable active" ControlRegister2 (value
+        TERMINAL_3_GENERATOR_BREAKER_ENABLE_ACTIVE);
+    "control_register_2 terminal_5_generator_breaker_closed inactive" ControlRegister2 (value
+        TERMINAL_5_GENERATOR_BREAKER_CLOSED_INACTIVE);
+    "control_register_2 terminal_5_generator_breaker_closed active" ControlRegister2 (value
+        TERMINAL_5_GENERATOR_BREAKER_CLOSED_ACTIVE);
+    "control_register_2 terminal_4_breaker_open inactive" ControlRegister2 (value
+        TERMINAL_4_BREAKER_OPEN_INACTIVE);
+    "control_register_2 terminal_4_breaker_open active" ControlRegister2 (value
+        TERMINAL_4_BREAKER_OPEN_ACTIVE);
+    "control_register_2 terminal_54_mains_parallel inactive" ControlRegister2 (value
+        TERMINAL_54_MAINS_PARALLEL_INACTIVE);
+    "control_register_2 terminal_54_mains_parallel active" ControlRegister2 (value
+        TERMINAL_54_MAINS_PARALLEL_ACTIVE);
+    "control_register_2 terminal_6_synchronisation_on inactive" ControlRegister2 (value
+        TERMINAL_6_SYNCHRONISATION_ON_INACTIVE);
+    "control_register_2 terminal_6_synchronisation_on active" ControlRegister2 (value
+        TERMINAL_6_SYNCHRONISATION_ON_ACTIVE);
     "control_register_1 acknowledge_f2_f3 inactive" ControlRegister1 (value ACKNOWLEDGE_F2_F3_INACTIVE);
     "control_register_1 acknowledge_f2_f3 active" ControlRegister1 (value ACKNOWLEDGE_F2_F3_ACTIVE);
     "control_register_1 acknowledge_f1 inactive" ControlRegister1 (value ACKNOWLEDGE_F1_INACTIVE);
     "control_register_1 acknowledge_f1 active" ControlRegister1 (value ACKNOWLEDGE_F1_ACTIVE);
-    "internal_faults_1 generator_overfrequency_1 inactive" InternalFaults1 (value GENERATOR_OVERFREQUENCY_1_INACTIVE);
-    "internal_faults_1 generator_overfrequency_1 active" InternalFaults1 (value GENERATOR_OVERFREQUENCY_1_ACTIVE);
-    "internal_faults_1 generator_underfrequency_1 inactive" InternalFaults1 (value GENERATOR_UNDERFREQUENCY_1_INACTIVE);
-    "internal_faults_1 generator_underfrequency_1 active" InternalFaults1 (value GENERATOR_UNDERFREQUENCY_1_ACTIVE);
-    "internal_faults_1 generator_overvoltage_1 inactive" InternalFaults1 (value GENERATOR_OVERVOLTAGE_1_INACTIVE);
-    "internal_faults_1 generator_overvoltage_1 active" InternalFaults1 (value GENERATOR_OVERVOLTAGE_1_ACTIVE);
-    "internal_faults_1 generator_undervoltage_1 inactive" InternalFaults1 (value GENERATOR_UNDERVOLTAGE_1_INACTIVE);
-    "internal_faults_1 generator_undervoltage_1 active" InternalFaults1 (value GENERATOR_UNDERVOLTAGE_1_ACTIVE);
+    "internal_faults_1 generator_overfrequency_1 inactive" InternalFaults1 (value
+        GENERATOR_OVERFREQUENCY_1_INACTIVE);
+    "internal_faults_1 generator_overfrequency_1 active" InternalFaults1 (value
+        GENERATOR_OVERFREQUENCY_1_ACTIVE);
+    "internal_faults_1 generator_underfrequency_1 inactive" InternalFaults1 (value
+        GENERATOR_UNDERFREQUENCY_1_INACTIVE);
+    "internal_faults_1 generator_underfrequency_1 active" InternalFaults1 (value
+        GENERATOR_UNDERFREQUENCY_1_ACTIVE);
+    "internal_faults_1 generator_overvoltage_1 inactive" InternalFaults1 (value
+        GENERATOR_OVERVOLTAGE_1_INACTIVE);
+    "internal_faults_1 generator_overvoltage_1 active" InternalFaults1 (value
+        GENERATOR_OVERVOLTAGE_1_ACTIVE);
+    "internal_faults_1 generator_undervoltage_1 inactive" InternalFaults1 (value
+        GENERATOR_UNDERVOLTAGE_1_INACTIVE);
+    "internal_faults_1 generator_undervoltage_1 active" InternalFaults1 (value
+        GENERATOR_UNDERVOLTAGE_1_ACTIVE);
     "internal_faults_1 battery_undervoltage inactive" InternalFaults1 (value BATTERY_UNDERVOLTAGE_INACTIVE);
     "internal_faults_1 battery_undervoltage active" InternalFaults1 (value BATTERY_UNDERVOLTAGE_ACTIVE);
     "internal_faults_1 overload inactive" InternalFaults1 (value OVERLOAD_INACTIVE);
@@ -1185,86 +1412,142 @@ table! { flag_name flag_name {
     "internal_faults_2 mains_overvoltage active" InternalFaults2 (value MAINS_OVERVOLTAGE_ACTIVE);
     "internal_faults_2 mains_undervoltage inactive" InternalFaults2 (value MAINS_UNDERVOLTAGE_INACTIVE);
     "internal_faults_2 mains_undervoltage active" InternalFaults2 (value MAINS_UNDERVOLTAGE_ACTIVE);
-    "internal_faults_2 interface_x1_x5_fault inactive" InternalFaults2 (value INTERFACE_X1_X5_FAULT_INACTIVE);
+    "internal_faults_2 interface_x1_x5_fault inactive" InternalFaults2 (value
+        INTERFACE_X1_X5_FAULT_INACTIVE);
     "internal_faults_2 interface_x1_x5_fault active" InternalFaults2 (value INTERFACE_X1_X5_FAULT_ACTIVE);
-    "internal_faults_2 frequency_gradient_fault inactive" InternalFaults2 (value FREQUENCY_GRADIENT_FAULT_INACTIVE);
-    "internal_faults_2 frequency_gradient_fault active" InternalFaults2 (value FREQUENCY_GRADIENT_FAULT_ACTIVE);
+    "internal_faults_2 frequency_gradient_fault inactive" InternalFaults2 (value
+        FREQUENCY_GRADIENT_FAULT_INACTIVE);
+    "internal_faults_2 frequency_gradient_fault active" InternalFaults2 (value
+        FREQUENCY_GRADIENT_FAULT_ACTIVE);
     "internal_faults_2 phase_shift inactive" InternalFaults2 (value PHASE_SHIFT_INACTIVE);
     "internal_faults_2 phase_shift active" InternalFaults2 (value PHASE_SHIFT_ACTIVE);
-    "internal_faults_3 generator_overcurrent_stage_1 inactive" InternalFaults3 (value GENERATOR_OVERCURRENT_STAGE_1_INACTIVE);
-    "internal_faults_3 generator_overcurrent_stage_1 active" InternalFaults3 (value GENERATOR_OVERCURRENT_STAGE_1_ACTIVE);
+    "internal_faults_3 generator_overcurrent_stage_1 inactive" InternalFaults3 (value
+        GENERATOR_OVERCURRENT_STAGE_1_INACTIVE);
+    "internal_faults_3 generator_overcurrent_stage_1 active" InternalFaults3 (value
+        GENERATOR_OVERCURRENT_STAGE_1_ACTIVE);
     "internal_faults_3 unbalanced_load inactive" InternalFaults3 (value UNBALANCED_LOAD_INACTIVE);
     "internal_faults_3 unbalanced_load active" InternalFaults3 (value UNBALANCED_LOAD_ACTIVE);
-    "internal_faults_3 generator_overcurrent_stage_2 inactive" InternalFaults3 (value GENERATOR_OVERCURRENT_STAGE_2_INACTIVE);
-    "internal_faults_3 generator_overcurrent_stage_2 active" InternalFaults3 (value GENERATOR_OVERCURRENT_STAGE_2_ACTIVE);
-    "internal_faults_3 interface_y1_y5_fault inactive" InternalFaults3 (value INTERFACE_Y1_Y5_FAULT_INACTIVE);
+    "internal_faults_3 generator_overcurrent_stage_2 inactive" InternalFaults3 (value
+        GENERATOR_OVERCURRENT_STAGE_2_INACTIVE);
+    "internal_faults_3 generator_overcurrent_stage_2 active" InternalFaults3 (value
+        GENERATOR_OVERCURRENT_STAGE_2_ACTIVE);
+    "internal_faults_3 interface_y1_y5_fault inactive" InternalFaults3 (value
+        INTERFACE_Y1_Y5_FAULT_INACTIVE);
     "internal_faults_3 interface_y1_y5_fault active" InternalFaults3 (value INTERFACE_Y1_Y5_FAULT_ACTIVE);
     "internal_faults_3 maintenance_call inactive" InternalFaults3 (value MAINTENANCE_CALL_INACTIVE);
     "internal_faults_3 maintenance_call active" InternalFaults3 (value MAINTENANCE_CALL_ACTIVE);
-    "internal_faults_4 analog_input_1_stage_1 inactive" InternalFaults4 (value ANALOG_INPUT_1_STAGE_1_INACTIVE);
+    "internal_faults_4 analog_input_1_stage_1 inactive" InternalFaults4 (value
+        ANALOG_INPUT_1_STAGE_1_INACTIVE);
     "internal_faults_4 analog_input_1_stage_1 active" InternalFaults4 (value ANALOG_INPUT_1_STAGE_1_ACTIVE);
-    "internal_faults_4 analog_input_1_stage_2 inactive" InternalFaults4 (value ANALOG_INPUT_1_STAGE_2_INACTIVE);
+    "internal_faults_4 analog_input_1_stage_2 inactive" InternalFaults4 (value
+        ANALOG_INPUT_1_STAGE_2_INACTIVE);
     "internal_faults_4 analog_input_1_stage_2 active" InternalFaults4 (value ANALOG_INPUT_1_STAGE_2_ACTIVE);
-    "internal_faults_4 analog_input_2_stage_1 inactive" InternalFaults4 (value ANALOG_INPUT_2_STAGE_1_INACTIVE);
+    "internal_faults_4 analog_input_2_stage_1 inactive" InternalFaults4 (value
+        ANALOG_INPUT_2_STAGE_1_INACTIVE);
     "internal_faults_4 analog_input_2_stage_1 active" InternalFaults4 (value ANALOG_INPUT_2_STAGE_1_ACTIVE);
-    "internal_faults_4 analog_input_2_stage_2 inactive" InternalFaults4 (value ANALOG_INPUT_2_STAGE_2_INACTIVE);
+    "internal_faults_4 analog_input_2_stage_2 inactive" InternalFaults4 (value
+        ANALOG_INPUT_2_STAGE_2_INACTIVE);
     "internal_faults_4 analog_input_2_stage_2 active" InternalFaults4 (value ANALOG_INPUT_2_STAGE_2_ACTIVE);
-    "internal_faults_4 analog_input_3_stage_1 inactive" InternalFaults4 (value ANALOG_INPUT_3_STAGE_1_INACTIVE);
+    "internal_faults_4 analog_input_3_stage_1 inactive" InternalFaults4 (value
+        ANALOG_INPUT_3_STAGE_1_INACTIVE);
     "internal_faults_4 analog_input_3_stage_1 active" InternalFaults4 (value ANALOG_INPUT_3_STAGE_1_ACTIVE);
-    "internal_faults_4 analog_input_3_stage_2 inactive" InternalFaults4 (value ANALOG_INPUT_3_STAGE_2_INACTIVE);
+    "internal_faults_4 analog_input_3_stage_2 inactive" InternalFaults4 (value
+        ANALOG_INPUT_3_STAGE_2_INACTIVE);
     "internal_faults_4 analog_input_3_stage_2 active" InternalFaults4 (value ANALOG_INPUT_3_STAGE_2_ACTIVE);
-    "internal_faults_4 analog_input_4_stage_1 inactive" InternalFaults4 (value ANALOG_INPUT_4_STAGE_1_INACTIVE);
+    "internal_faults_4 analog_input_4_stage_1 inactive" InternalFaults4 (value
+        ANALOG_INPUT_4_STAGE_1_INACTIVE);
     "internal_faults_4 analog_input_4_stage_1 active" InternalFaults4 (value ANALOG_INPUT_4_STAGE_1_ACTIVE);
-    "internal_faults_4 analog_input_4_stage_2 inactive" InternalFaults4 (value ANALOG_INPUT_4_STAGE_2_INACTIVE);
+    "internal_faults_4 analog_input_4_stage_2 inactive" InternalFaults4 (value
+        ANALOG_INPUT_4_STAGE_2_INACTIVE);
     "internal_faults_4 analog_input_4_stage_2 active" InternalFaults4 (value ANALOG_INPUT_4_STAGE_2_ACTIVE);
-    "internal_faults_5 analog_input_5_stage_1 inactive" InternalFaults5 (value ANALOG_INPUT_5_STAGE_1_INACTIVE);
+    "internal_faults_5 analog_input_5_stage_1 inactive" InternalFaults5 (value
+        ANALOG_INPUT_5_STAGE_1_INACTIVE);
     "internal_faults_5 analog_input_5_stage_1 active" InternalFaults5 (value ANALOG_INPUT_5_STAGE_1_ACTIVE);
-    "internal_faults_5 analog_input_5_stage_2 inactive" InternalFaults5 (value ANALOG_INPUT_5_STAGE_2_INACTIVE);
+    "internal_faults_5 analog_input_5_stage_2 inactive" InternalFaults5 (value
+        ANALOG_INPUT_5_STAGE_2_INACTIVE);
     "internal_faults_5 analog_input_5_stage_2 active" InternalFaults5 (value ANALOG_INPUT_5_STAGE_2_ACTIVE);
-    "internal_faults_5 analog_input_6_stage_1 inactive" InternalFaults5 (value ANALOG_INPUT_6_STAGE_1_INACTIVE);
+    "internal_faults_5 analog_input_6_stage_1 inactive" InternalFaults5 (value
+        ANALOG_INPUT_6_STAGE_1_INACTIVE);
     "internal_faults_5 analog_input_6_stage_1 active" InternalFaults5 (value ANALOG_INPUT_6_STAGE_1_ACTIVE);
-    "internal_faults_5 analog_input_6_stage_2 inactive" InternalFaults5 (value ANALOG_INPUT_6_STAGE_2_INACTIVE);
+    "internal_faults_5 analog_input_6_stage_2 inactive" InternalFaults5 (value
+        ANALOG_INPUT_6_STAGE_2_INACTIVE);
     "internal_faults_5 analog_input_6_stage_2 active" InternalFaults5 (value ANALOG_INPUT_6_STAGE_2_ACTIVE);
-    "internal_faults_5 analog_input_7_stage_1 inactive" InternalFaults5 (value ANALOG_INPUT_7_STAGE_1_INACTIVE);
+    "internal_faults_5 analog_input_7_stage_1 inactive" InternalFaults5 (value
+        ANALOG_INPUT_7_STAGE_1_INACTIVE);
     "internal_faults_5 analog_input_7_stage_1 active" InternalFaults5 (value ANALOG_INPUT_7_STAGE_1_ACTIVE);
-    "internal_faults_5 analog_input_7_stage_2 inactive" InternalFaults5 (value ANALOG_INPUT_7_STAGE_2_INACTIVE);
+    "internal_faults_5 analog_input_7_stage_2 inactive" InternalFaults5 (value
+        ANALOG_INPUT_7_STAGE_2_INACTIVE);
     "internal_faults_5 analog_input_7_stage_2 active" InternalFaults5 (value ANALOG_INPUT_7_STAGE_2_ACTIVE);
-    "internal_faults_5 analog_input_8_stage_1 inactive" InternalFaults5 (value ANALOG_INPUT_8_STAGE_1_INACTIVE);
+    "internal_faults_5 analog_input_8_stage_1 inactive" InternalFaults5 (value
+        ANALOG_INPUT_8_STAGE_1_INACTIVE);
     "internal_faults_5 analog_input_8_stage_1 active" InternalFaults5 (value ANALOG_INPUT_8_STAGE_1_ACTIVE);
-    "internal_faults_5 analog_input_8_stage_2 inactive" InternalFaults5 (value ANALOG_INPUT_8_STAGE_2_INACTIVE);
+    "internal_faults_5 analog_input_8_stage_2 inactive" InternalFaults5 (value
+        ANALOG_INPUT_8_STAGE_2_INACTIVE);
     "internal_faults_5 analog_input_8_stage_2 active" InternalFaults5 (value ANALOG_INPUT_8_STAGE_2_ACTIVE);
-    "digital_input_faults_1_to_8 digital_input_1 inactive" DigitalInputFaults1To8 (value DIGITAL_INPUT_1_INACTIVE);
-    "digital_input_faults_1_to_8 digital_input_1 active" DigitalInputFaults1To8 (value DIGITAL_INPUT_1_ACTIVE);
-    "digital_input_faults_1_to_8 digital_input_2 inactive" DigitalInputFaults1To8 (value DIGITAL_INPUT_2_INACTIVE);
-    "digital_input_faults_1_to_8 digital_input_2 active" DigitalInputFaults1To8 (value DIGITAL_INPUT_2_ACTIVE);
-    "digital_input_faults_1_to_8 digital_input_3 inactive" DigitalInputFaults1To8 (value DIGITAL_INPUT_3_INACTIVE);
-    "digital_input_faults_1_to_8 digital_input_3 active" DigitalInputFaults1To8 (value DIGITAL_INPUT_3_ACTIVE);
-    "digital_input_faults_1_to_8 digital_input_4 inactive" DigitalInputFaults1To8 (value DIGITAL_INPUT_4_INACTIVE);
-    "digital_input_faults_1_to_8 digital_input_4 active" DigitalInputFaults1To8 (value DIGITAL_INPUT_4_ACTIVE);
-    "digital_input_faults_1_to_8 digital_input_5 inactive" DigitalInputFaults1To8 (value DIGITAL_INPUT_5_INACTIVE);
-    "digital_input_faults_1_to_8 digital_input_5 active" DigitalInputFaults1To8 (value DIGITAL_INPUT_5_ACTIVE);
-    "digital_input_faults_1_to_8 digital_input_6 inactive" DigitalInputFaults1To8 (value DIGITAL_INPUT_6_INACTIVE);
-    "digital_input_faults_1_to_8 digital_input_6 active" DigitalInputFaults1To8 (value DIGITAL_INPUT_6_ACTIVE);
-    "digital_input_faults_1_to_8 digital_input_7 inactive" DigitalInputFaults1To8 (value DIGITAL_INPUT_7_INACTIVE);
-    "digital_input_faults_1_to_8 digital_input_7 active" DigitalInputFaults1To8 (value DIGITAL_INPUT_7_ACTIVE);
-    "digital_input_faults_1_to_8 digital_input_8 inactive" DigitalInputFaults1To8 (value DIGITAL_INPUT_8_INACTIVE);
-    "digital_input_faults_1_to_8 digital_input_8 active" DigitalInputFaults1To8 (value DIGITAL_INPUT_8_ACTIVE);
-    "digital_input_faults_9_to_16 digital_input_9 inactive" DigitalInputFaults9To16 (value DIGITAL_INPUT_9_INACTIVE);
-    "digital_input_faults_9_to_16 digital_input_9 active" DigitalInputFaults9To16 (value DIGITAL_INPUT_9_ACTIVE);
-    "digital_input_faults_9_to_16 digital_input_10 inactive" DigitalInputFaults9To16 (value DIGITAL_INPUT_10_INACTIVE);
-    "digital_input_faults_9_to_16 digital_input_10 active" DigitalInputFaults9To16 (value DIGITAL_INPUT_10_ACTIVE);
-    "digital_input_faults_9_to_16 digital_input_11 inactive" DigitalInputFaults9To16 (value DIGITAL_INPUT_11_INACTIVE);
-    "digital_input_faults_9_to_16 digital_input_11 active" DigitalInputFaults9To16 (value DIGITAL_INPUT_11_ACTIVE);
-    "digital_input_faults_9_to_16 digital_input_12 inactive" DigitalInputFaults9To16 (value DIGITAL_INPUT_12_INACTIVE);
-    "digital_input_faults_9_to_16 digital_input_12 active" DigitalInputFaults9To16 (value DIGITAL_INPUT_12_ACTIVE);
-    "digital_input_faults_9_to_16 digital_input_13 inactive" DigitalInputFaults9To16 (value DIGITAL_INPUT_13_INACTIVE);
-    "digital_input_faults_9_to_16 digital_input_13 active" DigitalInputFaults9To16 (value DIGITAL_INPUT_13_ACTIVE);
-    "digital_input_faults_9_to_16 digital_input_14 inactive" DigitalInputFaults9To16 (value DIGITAL_INPUT_14_INACTIVE);
-    "digital_input_faults_9_to_16 digital_input_14 active" DigitalInputFaults9To16 (value DIGITAL_INPUT_14_ACTIVE);
-    "digital_input_faults_9_to_16 digital_input_15 inactive" DigitalInputFaults9To16 (value DIGITAL_INPUT_15_INACTIVE);
-    "digital_input_faults_9_to_16 digital_input_15 active" DigitalInputFaults9To16 (value DIGITAL_INPUT_15_ACTIVE);
-    "digital_input_faults_9_to_16 digital_input_16 inactive" DigitalInputFaults9To16 (value DIGITAL_INPUT_16_INACTIVE);
-    "digital_input_faults_9_to_16 digital_input_16 active" DigitalInputFaults9To16 (value DIGITAL_INPUT_16_ACTIVE);
+    "digital_input_faults_1_to_8 digital_input_1 inactive" DigitalInputFaults1To8 (value
+        DIGITAL_INPUT_1_INACTIVE);
+    "digital_input_faults_1_to_8 digital_input_1 active" DigitalInputFaults1To8 (value
+        DIGITAL_INPUT_1_ACTIVE);
+    "digital_input_faults_1_to_8 digital_input_2 inactive" DigitalInputFaults1To8 (value
+        DIGITAL_INPUT_2_INACTIVE);
+    "digital_input_faults_1_to_8 digital_input_2 active" DigitalInputFaults1To8 (value
+        DIGITAL_INPUT_2_ACTIVE);
+    "digital_input_faults_1_to_8 digital_input_3 inactive" DigitalInputFaults1To8 (value
+        DIGITAL_INPUT_3_INACTIVE);
+    "digital_input_faults_1_to_8 digital_input_3 active" DigitalInputFaults1To8 (value
+        DIGITAL_INPUT_3_ACTIVE);
+    "digital_input_faults_1_to_8 digital_input_4 inactive" DigitalInputFaults1To8 (value
+        DIGITAL_INPUT_4_INACTIVE);
+    "digital_input_faults_1_to_8 digital_input_4 active" DigitalInputFaults1To8 (value
+        DIGITAL_INPUT_4_ACTIVE);
+    "digital_input_faults_1_to_8 digital_input_5 inactive" DigitalInputFaults1To8 (value
+        DIGITAL_INPUT_5_INACTIVE);
+    "digital_input_faults_1_to_8 digital_input_5 active" DigitalInputFaults1To8 (value
+        DIGITAL_INPUT_5_ACTIVE);
+    "digital_input_faults_1_to_8 digital_input_6 inactive" DigitalInputFaults1To8 (value
+        DIGITAL_INPUT_6_INACTIVE);
+    "digital_input_faults_1_to_8 digital_input_6 active" DigitalInputFaults1To8 (value
+        DIGITAL_INPUT_6_ACTIVE);
+    "digital_input_faults_1_to_8 digital_input_7 inactive" DigitalInputFaults1To8 (value
+        DIGITAL_INPUT_7_INACTIVE);
+    "digital_input_faults_1_to_8 digital_input_7 active" DigitalInputFaults1To8 (value
+        DIGITAL_INPUT_7_ACTIVE);
+    "digital_input_faults_1_to_8 digital_input_8 inactive" DigitalInputFaults1To8 (value
+        DIGITAL_INPUT_8_INACTIVE);
+    "digital_input_faults_1_to_8 digital_input_8 active" DigitalInputFaults1To8 (value
+        DIGITAL_INPUT_8_ACTIVE);
+    "digital_input_faults_9_to_16 digital_input_9 inactive" DigitalInputFaults9To16 (value
+        DIGITAL_INPUT_9_INACTIVE);
+    "digital_input_faults_9_to_16 digital_input_9 active" DigitalInputFaults9To16 (value
+        DIGITAL_INPUT_9_ACTIVE);
+    "digital_input_faults_9_to_16 digital_input_10 inactive" DigitalInputFaults9To16 (value
+        DIGITAL_INPUT_10_INACTIVE);
+    "digital_input_faults_9_to_16 digital_input_10 active" DigitalInputFaults9To16 (value
+        DIGITAL_INPUT_10_ACTIVE);
+    "digital_input_faults_9_to_16 digital_input_11 inactive" DigitalInputFaults9To16 (value
+        DIGITAL_INPUT_11_INACTIVE);
+    "digital_input_faults_9_to_16 digital_input_11 active" DigitalInputFaults9To16 (value
+        DIGITAL_INPUT_11_ACTIVE);
+    "digital_input_faults_9_to_16 digital_input_12 inactive" DigitalInputFaults9To16 (value
+        DIGITAL_INPUT_12_INACTIVE);
+    "digital_input_faults_9_to_16 digital_input_12 active" DigitalInputFaults9To16 (value
+        DIGITAL_INPUT_12_ACTIVE);
+    "digital_input_faults_9_to_16 digital_input_13 inactive" DigitalInputFaults9To16 (value
+        DIGITAL_INPUT_13_INACTIVE);
+    "digital_input_faults_9_to_16 digital_input_13 active" DigitalInputFaults9To16 (value
+        DIGITAL_INPUT_13_ACTIVE);
+    "digital_input_faults_9_to_16 digital_input_14 inactive" DigitalInputFaults9To16 (value
+        DIGITAL_INPUT_14_INACTIVE);
+    "digital_input_faults_9_to_16 digital_input_14 active" DigitalInputFaults9To16 (value
+        DIGITAL_INPUT_14_ACTIVE);
+    "digital_input_faults_9_to_16 digital_input_15 inactive" DigitalInputFaults9To16 (value
+        DIGITAL_INPUT_15_INACTIVE);
+    "digital_input_faults_9_to_16 digital_input_15 active" DigitalInputFaults9To16 (value
+        DIGITAL_INPUT_15_ACTIVE);
+    "digital_input_faults_9_to_16 digital_input_16 inactive" DigitalInputFaults9To16 (value
+        DIGITAL_INPUT_16_INACTIVE);
+    "digital_input_faults_9_to_16 digital_input_16 active" DigitalInputFaults9To16 (value
+        DIGITAL_INPUT_16_ACTIVE);
 } }
 
 table! { bits bits {
@@ -2209,10 +2492,18 @@ table! { write_by_write write {
     "mains_voltage_transformer_secondary_100v" MainsVoltageTransformerSecondary100v (wire () ());
     "mains_voltage_transformer_secondary_400v" MainsVoltageTransformerSecondary400v (wire () ());
     "mains_voltage_transformer_primary" MainsVoltageTransformerPrimary (wire () ());
-    "generator_voltage_setpoint_100v" GeneratorVoltageSetpoint100v (wire (GeneratorVoltageSetpoint100v: generator_voltage_factor "generator_voltage_factor") (GeneratorVoltageSetpoint100v: generator_voltage_factor "generator_voltage_factor"));
-    "generator_voltage_setpoint_400v" GeneratorVoltageSetpoint400v (wire (GeneratorVoltageSetpoint400v: generator_voltage_factor "generator_voltage_factor") (GeneratorVoltageSetpoint400v: generator_voltage_factor "generator_voltage_factor"));
-    "generator_rated_voltage_100v" GeneratorRatedVoltage100v (wire (GeneratorRatedVoltage100v: generator_voltage_factor "generator_voltage_factor") (GeneratorRatedVoltage100v: generator_voltage_factor "generator_voltage_factor"));
-    "generator_rated_voltage_400v" GeneratorRatedVoltage400v (wire (GeneratorRatedVoltage400v: generator_voltage_factor "generator_voltage_factor") (GeneratorRatedVoltage400v: generator_voltage_factor "generator_voltage_factor"));
+    "generator_voltage_setpoint_100v" GeneratorVoltageSetpoint100v (wire (GeneratorVoltageSetpoint100v:
+        generator_voltage_factor "generator_voltage_factor") (GeneratorVoltageSetpoint100v:
+        generator_voltage_factor "generator_voltage_factor"));
+    "generator_voltage_setpoint_400v" GeneratorVoltageSetpoint400v (wire (GeneratorVoltageSetpoint400v:
+        generator_voltage_factor "generator_voltage_factor") (GeneratorVoltageSetpoint400v:
+        generator_voltage_factor "generator_voltage_factor"));
+    "generator_rated_voltage_100v" GeneratorRatedVoltage100v (wire (GeneratorRatedVoltage100v:
+        generator_voltage_factor "generator_voltage_factor") (GeneratorRatedVoltage100v:
+        generator_voltage_factor "generator_voltage_factor"));
+    "generator_rated_voltage_400v" GeneratorRatedVoltage400v (wire (GeneratorRatedVoltage400v:
+        generator_voltage_factor "generator_voltage_factor") (GeneratorRatedVoltage400v:
+        generator_voltage_factor "generator_voltage_factor"));
     "generator_current_transformer_ratio" GeneratorCurrentTransformerRatio (wire () ());
     "generator_rated_power" GeneratorRatedPower (wire () ());
     "generator_rated_current" GeneratorRatedCurrent (wire () ());
@@ -2272,27 +2563,51 @@ table! { write_by_write write {
     "generator_underfrequency_1_delay" GeneratorUnderfrequency1Delay (wire () ());
     "generator_underfrequency_2_threshold" GeneratorUnderfrequency2Threshold (wire () ());
     "generator_underfrequency_2_delay" GeneratorUnderfrequency2Delay (wire () ());
-    "generator_overvoltage_1_threshold_100v" GeneratorOvervoltage1Threshold100v (wire (GeneratorOvervoltage1Threshold100v: generator_voltage_factor "generator_voltage_factor") (GeneratorOvervoltage1Threshold100v: generator_voltage_factor "generator_voltage_factor"));
-    "generator_overvoltage_1_threshold_400v" GeneratorOvervoltage1Threshold400v (wire (GeneratorOvervoltage1Threshold400v: generator_voltage_factor "generator_voltage_factor") (GeneratorOvervoltage1Threshold400v: generator_voltage_factor "generator_voltage_factor"));
+    "generator_overvoltage_1_threshold_100v" GeneratorOvervoltage1Threshold100v (wire
+        (GeneratorOvervoltage1Threshold100v: generator_voltage_factor "generator_voltage_factor")
+        (GeneratorOvervoltage1Threshold100v: generator_voltage_factor "generator_voltage_factor"));
+    "generator_overvoltage_1_threshold_400v" GeneratorOvervoltage1Threshold400v (wire
+        (GeneratorOvervoltage1Threshold400v: generator_voltage_factor "generator_voltage_factor")
+        (GeneratorOvervoltage1Threshold400v: generator_voltage_factor "generator_voltage_factor"));
     "generator_overvoltage_1_delay" GeneratorOvervoltage1Delay (wire () ());
-    "generator_overvoltage_2_threshold_100v" GeneratorOvervoltage2Threshold100v (wire (GeneratorOvervoltage2Threshold100v: generator_voltage_factor "generator_voltage_factor") (GeneratorOvervoltage2Threshold100v: generator_voltage_factor "generator_voltage_factor"));
-    "generator_overvoltage_2_threshold_400v" GeneratorOvervoltage2Threshold400v (wire (GeneratorOvervoltage2Threshold400v: generator_voltage_factor "generator_voltage_factor") (GeneratorOvervoltage2Threshold400v: generator_voltage_factor "generator_voltage_factor"));
+    "generator_overvoltage_2_threshold_100v" GeneratorOvervoltage2Threshold100v (wire
+        (GeneratorOvervoltage2Threshold100v: generator_voltage_factor "generator_voltage_factor")
+        (GeneratorOvervoltage2Threshold100v: generator_voltage_factor "generator_voltage_factor"));
+    "generator_overvoltage_2_threshold_400v" GeneratorOvervoltage2Threshold400v (wire
+        (GeneratorOvervoltage2Threshold400v: generator_voltage_factor "generator_voltage_factor")
+        (GeneratorOvervoltage2Threshold400v: generator_voltage_factor "generator_voltage_factor"));
     "generator_overvoltage_2_delay" GeneratorOvervoltage2Delay (wire () ());
-    "generator_undervoltage_1_threshold_100v" GeneratorUndervoltage1Threshold100v (wire (GeneratorUndervoltage1Threshold100v: generator_voltage_factor "generator_voltage_factor") (GeneratorUndervoltage1Threshold100v: generator_voltage_factor "generator_voltage_factor"));
-    "generator_undervoltage_1_threshold_400v" GeneratorUndervoltage1Threshold400v (wire (GeneratorUndervoltage1Threshold400v: generator_voltage_factor "generator_voltage_factor") (GeneratorUndervoltage1Threshold400v: generator_voltage_factor "generator_voltage_factor"));
+    "generator_undervoltage_1_threshold_100v" GeneratorUndervoltage1Threshold100v (wire
+        (GeneratorUndervoltage1Threshold100v: generator_voltage_factor "generator_voltage_factor")
+        (GeneratorUndervoltage1Threshold100v: generator_voltage_factor "generator_voltage_factor"));
+    "generator_undervoltage_1_threshold_400v" GeneratorUndervoltage1Threshold400v (wire
+        (GeneratorUndervoltage1Threshold400v: generator_voltage_factor "generator_voltage_factor")
+        (GeneratorUndervoltage1Threshold400v: generator_voltage_factor "generator_voltage_factor"));
     "generator_undervoltage_1_delay" GeneratorUndervoltage1Delay (wire () ());
-    "generator_undervoltage_2_threshold_100v" GeneratorUndervoltage2Threshold100v (wire (GeneratorUndervoltage2Threshold100v: generator_voltage_factor "generator_voltage_factor") (GeneratorUndervoltage2Threshold100v: generator_voltage_factor "generator_voltage_factor"));
-    "generator_undervoltage_2_threshold_400v" GeneratorUndervoltage2Threshold400v (wire (GeneratorUndervoltage2Threshold400v: generator_voltage_factor "generator_voltage_factor") (GeneratorUndervoltage2Threshold400v: generator_voltage_factor "generator_voltage_factor"));
+    "generator_undervoltage_2_threshold_100v" GeneratorUndervoltage2Threshold100v (wire
+        (GeneratorUndervoltage2Threshold100v: generator_voltage_factor "generator_voltage_factor")
+        (GeneratorUndervoltage2Threshold100v: generator_voltage_factor "generator_voltage_factor"));
+    "generator_undervoltage_2_threshold_400v" GeneratorUndervoltage2Threshold400v (wire
+        (GeneratorUndervoltage2Threshold400v: generator_voltage_factor "generator_voltage_factor")
+        (GeneratorUndervoltage2Threshold400v: generator_voltage_factor "generator_voltage_factor"));
     "generator_undervoltage_2_delay" GeneratorUndervoltage2Delay (wire () ());
     "mains_overfrequency_threshold" MainsOverfrequencyThreshold (wire () ());
     "mains_overfrequency_delay" MainsOverfrequencyDelay (wire () ());
     "mains_underfrequency_threshold" MainsUnderfrequencyThreshold (wire () ());
     "mains_underfrequency_delay" MainsUnderfrequencyDelay (wire () ());
-    "mains_overvoltage_threshold_100v" MainsOvervoltageThreshold100v (wire (MainsOvervoltageThreshold100v: mains_voltage_factor "mains_voltage_factor") (MainsOvervoltageThreshold100v: mains_voltage_factor "mains_voltage_factor"));
-    "mains_overvoltage_threshold_400v" MainsOvervoltageThreshold400v (wire (MainsOvervoltageThreshold400v: mains_voltage_factor "mains_voltage_factor") (MainsOvervoltageThreshold400v: mains_voltage_factor "mains_voltage_factor"));
+    "mains_overvoltage_threshold_100v" MainsOvervoltageThreshold100v (wire (MainsOvervoltageThreshold100v:
+        mains_voltage_factor "mains_voltage_factor") (MainsOvervoltageThreshold100v: mains_voltage_factor
+        "mains_voltage_factor"));
+    "mains_overvoltage_threshold_400v" MainsOvervoltageThreshold400v (wire (MainsOvervoltageThreshold400v:
+        mains_voltage_factor "mains_voltage_factor") (MainsOvervoltageThreshold400v: mains_voltage_factor
+        "mains_voltage_factor"));
     "mains_overvoltage_delay" MainsOvervoltageDelay (wire () ());
-    "mains_undervoltage_threshold_100v" MainsUndervoltageThreshold100v (wire (MainsUndervoltageThreshold100v: mains_voltage_factor "mains_voltage_factor") (MainsUndervoltageThreshold100v: mains_voltage_factor "mains_voltage_factor"));
-    "mains_undervoltage_threshold_400v" MainsUndervoltageThreshold400v (wire (MainsUndervoltageThreshold400v: mains_voltage_factor "mains_voltage_factor") (MainsUndervoltageThreshold400v: mains_voltage_factor "mains_voltage_factor"));
+    "mains_undervoltage_threshold_100v" MainsUndervoltageThreshold100v (wire
+        (MainsUndervoltageThreshold100v: mains_voltage_factor "mains_voltage_factor")
+        (MainsUndervoltageThreshold100v: mains_voltage_factor "mains_voltage_factor"));
+    "mains_undervoltage_threshold_400v" MainsUndervoltageThreshold400v (wire
+        (MainsUndervoltageThreshold400v: mains_voltage_factor "mains_voltage_factor")
+        (MainsUndervoltageThreshold400v: mains_voltage_factor "mains_voltage_factor"));
     "mains_undervoltage_delay" MainsUndervoltageDelay (wire () ());
     "phase_shift_threshold_single_phase" PhaseShiftThresholdSinglePhase (wire () ());
     "phase_shift_threshold_three_phase" PhaseShiftThresholdThreePhase (wire () ());
@@ -2311,11 +2626,19 @@ table! { write_by_write write {
     "digital_inputs_9_to_12_delay" DigitalInputs9To12Delay (wire () ());
     "digital_inputs_9_to_12_fault_class" DigitalInputs9To12FaultClass (wire () ());
     "analog_output_1_source" AnalogOutput1Source (wire () ());
-    "analog_output_1_value_at_0_percent" AnalogOutput1ValueAt0Percent (wire (AnalogOutput1ValueAt0Percent: analog_output_1_source "analog_output_1_source") (AnalogOutput1ValueAt0Percent: analog_output_1_source "analog_output_1_source"));
-    "analog_output_1_value_at_100_percent" AnalogOutput1ValueAt100Percent (wire (AnalogOutput1ValueAt100Percent: analog_output_1_source "analog_output_1_source") (AnalogOutput1ValueAt100Percent: analog_output_1_source "analog_output_1_source"));
+    "analog_output_1_value_at_0_percent" AnalogOutput1ValueAt0Percent (wire (AnalogOutput1ValueAt0Percent:
+        analog_output_1_source "analog_output_1_source") (AnalogOutput1ValueAt0Percent:
+        analog_output_1_source "analog_output_1_source"));
+    "analog_output_1_value_at_100_percent" AnalogOutput1ValueAt100Percent (wire
+        (AnalogOutput1ValueAt100Percent: analog_output_1_source "analog_output_1_source")
+        (AnalogOutput1ValueAt100Percent: analog_output_1_source "analog_output_1_source"));
     "analog_output_2_source" AnalogOutput2Source (wire () ());
-    "analog_output_2_value_at_0_percent" AnalogOutput2ValueAt0Percent (wire (AnalogOutput2ValueAt0Percent: analog_output_2_source "analog_output_2_source") (AnalogOutput2ValueAt0Percent: analog_output_2_source "analog_output_2_source"));
-    "analog_output_2_value_at_100_percent" AnalogOutput2ValueAt100Percent (wire (AnalogOutput2ValueAt100Percent: analog_output_2_source "analog_output_2_source") (AnalogOutput2ValueAt100Percent: analog_output_2_source "analog_output_2_source"));
+    "analog_output_2_value_at_0_percent" AnalogOutput2ValueAt0Percent (wire (AnalogOutput2ValueAt0Percent:
+        analog_output_2_source "analog_output_2_source") (AnalogOutput2ValueAt0Percent:
+        analog_output_2_source "analog_output_2_source"));
+    "analog_output_2_value_at_100_percent" AnalogOutput2ValueAt100Percent (wire
+        (AnalogOutput2ValueAt100Percent: analog_output_2_source "analog_output_2_source")
+        (AnalogOutput2ValueAt100Percent: analog_output_2_source "analog_output_2_source"));
     "engine_monitoring_delay" EngineMonitoringDelay (wire () ());
     "monitoring_start_frequency" MonitoringStartFrequency (wire () ());
 } }
@@ -2503,5 +2826,5 @@ fn main() -> std::process::ExitCode {
     let folder = env!("CARGO_MANIFEST_DIR");
     let default = format!("{folder}/../../vectors/{}.txt", device::DEVICE);
     let device = [device::DEVICE, device::VERSION, device::DIGEST];
-    runner::main(&default, device, run)
+    runner::main(&default, device, run, frames::check)
 }

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.targets.rust.conformance import arms, conformance_tables
+from fieldscribe.targets.rust.conformance import arms, conformance_tables, row_lines
 from fieldscribe.targets.rust.device import device_context
 from fieldscribe.targets.rust.identifiers import identifiers
 from fieldscribe.targets.rust.subjects import scope_of
@@ -24,10 +24,23 @@ _RUNTIME = (
     "src/can/message.rs",
     "src/can/mod.rs",
     "src/can/receiver.rs",
+    "src/check.rs",
     "src/client.rs",
     "src/digits.rs",
+    "src/error.rs",
     "src/flags.rs",
+    "src/form/digits.rs",
+    "src/form/flags.rs",
+    "src/form/floating.rs",
+    "src/form/mod.rs",
+    "src/form/named.rs",
+    "src/form/plain.rs",
+    "src/form/ruled.rs",
+    "src/form/scaled.rs",
+    "src/form/text.rs",
+    "src/form/wide.rs",
     "src/lib.rs",
+    "src/macros.rs",
     "src/modbus/client.rs",
     "src/modbus/error.rs",
     "src/modbus/function.rs",
@@ -35,10 +48,12 @@ _RUNTIME = (
     "src/modbus/profile.rs",
     "src/modbus/reply.rs",
     "src/modbus/request.rs",
+    "src/path.rs",
     "src/pattern.rs",
     "src/point.rs",
     "src/raw.rs",
     "src/rule.rs",
+    "src/scale.rs",
     "src/special.rs",
     "src/text.rs",
     "src/uss/client.rs",
@@ -47,6 +62,17 @@ _RUNTIME = (
     "src/uss/profile.rs",
     "src/uss/reply.rs",
     "src/uss/request.rs",
+)
+_CONFORMANCE = (
+    "Cargo.toml",
+    "src/can.rs",
+    "src/can_clients.rs",
+    "src/lib.rs",
+    "src/modbus.rs",
+    "src/modbus_clients.rs",
+    "src/runtime.rs",
+    "src/uss.rs",
+    "src/uss_clients.rs",
 )
 
 
@@ -59,18 +85,17 @@ def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     for name in (*_SOURCES, *(("special",) if context["codes"] else ())):
         yield f"{folder}/src/{name}.rs", render(f"rust/{name}.rs.j2", context)
     tables = conformance_tables(scope, device)
-    suite = {**context, "tables": tables, "kinds": {kind for kind, _, _ in tables}, "arms": tuple(arms(tables))}
+    lines = [(kind, run, tuple(map(row_lines, rows))) for kind, run, rows in tables]
+    suite = {**context, "tables": lines, "kinds": {kind for kind, _, _ in tables}, "arms": tuple(arms(tables))}
     yield f"{folder}/tests/conformance.rs", render("rust/conformance.rs.j2", suite)
 
 
-def runtime(device: Device) -> Iterator[tuple[str, str]]:
+def runtime(_: Device) -> Iterator[tuple[str, str]]:
     """The real source files beside the output: output path, and path under the templates."""
     for name in _RUNTIME:
         yield f"rust/fieldscribe_runtime/{name}", f"rust/runtime/fieldscribe_runtime/{name}"
-    yield f"rust/{device.id}/tests/runner/mod.rs", "rust/runtime/runner/mod.rs"
-    yield f"rust/{device.id}/tests/runner/runtime.rs", "rust/runtime/runner/runtime.rs"
-    yield f"rust/{device.id}/tests/runner/frames.rs", f"rust/runtime/runner/{device.family}.rs"
-    yield f"rust/{device.id}/tests/runner/clients.rs", f"rust/runtime/runner/{device.family}_clients.rs"
+    for name in _CONFORMANCE:
+        yield f"rust/fieldscribe_conformance/{name}", f"rust/runtime/fieldscribe_conformance/{name}"
 
 
 __all__ = ["identifiers", "outputs", "runtime"]

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING
 
 from fieldscribe.targets.rust.families import family_traits
+from fieldscribe.targets.rust.layout import filled
 from fieldscribe.targets.rust.literals import type_name, value_name
 from fieldscribe.targets.rust.words import getter_name
 from fieldscribe.text import rust_string
@@ -17,6 +19,8 @@ if TYPE_CHECKING:
 
 Needs = tuple[tuple[str, tuple[str, ...]], ...]
 """Structs and their fields."""
+
+_TOKEN = re.compile(r'(?:"(?:\\.|[^"\\])*"|[^\s"])+')
 
 _CHAIN = 60
 """As long as a chain of calls may be in one line."""
@@ -67,6 +71,11 @@ def conformance_tables(scope: Scope, device: Device) -> tuple[Table, ...]:
         *_newer(scope, texts, digits),
         *_protocol(device),
     )
+
+
+def row_lines(row: str) -> tuple[str, ...]:
+    """A row of a table in lines; it is broken between tokens alone."""
+    return filled("", " ", _TOKEN.findall(row), ";")
 
 
 def _protocol(device: Device) -> Iterator[Table]:
@@ -200,7 +209,7 @@ def _row(subject: Subject, how: str) -> str:
 
 def _is_heard(subject: Subject, scope: Scope) -> bool:
     """Whether the point comes in frames of a telegram."""
-    return any("can::Received" in lines[0] for lines in family_traits(subject, scope))
+    return any("can::Received" in line for line in family_traits(subject, scope))
 
 
 def _sizes(point: Point) -> str:

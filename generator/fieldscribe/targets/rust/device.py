@@ -10,6 +10,7 @@ from fieldscribe.names import upper
 from fieldscribe.targets.rust.documentation import left_out
 from fieldscribe.targets.rust.families import family_context
 from fieldscribe.targets.rust.families.spaces import space
+from fieldscribe.targets.rust.layout import binding
 from fieldscribe.targets.rust.points import point_view
 from fieldscribe.targets.rust.special_codes import shared_views
 from fieldscribe.targets.rust.words import arguments_views, enum_views, flags_views, is_long
@@ -17,8 +18,8 @@ from fieldscribe.text import line, rust_code, rust_string
 
 if TYPE_CHECKING:
     from fieldscribe.model import Device, Point
-    from fieldscribe.targets.rust.subjects import Scope
-    from fieldscribe.targets.rust.views import PointView
+    from fieldscribe.targets.rust.layout import Lines
+    from fieldscribe.targets.rust.subjects import Scope, Subject
 
 _SEMANTIC = re.compile(r"\d+\.\d+\.\d+(?:-[0-9A-Za-z.-]+)?")
 
@@ -34,10 +35,12 @@ def head(device: Device, comment: str) -> str:
     return "\n".join(f"{comment} {one}" for one in lines)
 
 
-def _raw_only(point: Point) -> tuple[str, str, str, int, str]:
-    """Name, space, address, words and index of a point that is reached raw only."""
+def _raw_only(point: Point) -> tuple[str, Lines]:
+    """Name and lines of the constant of a point that is reached raw only."""
     index = "None" if point.index is None else f"Some({point.index})"
-    return upper(point.item), space(point.space), f"0x{point.address or 0:04X}", point.words, index
+    where = f"{space(point.space)}, 0x{point.address or 0:04X}, {point.words}, {index}"
+    name = upper(point.item)
+    return name, binding(4, f"pub const {name}: runtime::Documented", f"runtime::Documented::new({where})")
 
 
 def device_context(device: Device, scope: Scope) -> dict[str, object]:
@@ -56,8 +59,9 @@ def device_context(device: Device, scope: Scope) -> dict[str, object]:
         "long_enums": any(map(is_long, enums)),
         "words": words,
         "structs": structs,
-        "uses_arithmetic": any(map(_computes, points)),
-        "uses_enums": any("enums::" in point.value for point in points),
+        "example": next((one.name for one in scope.subjects if _is_plainly_read(one)), ""),
+        "uses_enums": bool(enums),
+        "uses_runtime": any("runtime::" in fact for point in points for fact in point.facts),
         "uses_flags": bool(words),
         "uses_with": bool(structs),
         "title": rust_code(f"{device.vendor} {device.model}"),
@@ -72,9 +76,7 @@ def device_context(device: Device, scope: Scope) -> dict[str, object]:
     }
 
 
-def _computes(point: PointView) -> bool:
-    """Whether the point's code calls the runtime's arithmetic."""
-    factors = [factor for rule in point.rules for factor in rule.factors]
-    if point.write or any(factor.bounds or factor.line for factor in factors):
-        return True
-    return point.read is not None and any("arithmetic::" in text for text in (point.read.value, point.read.count))
+def _is_plainly_read(subject: Subject) -> bool:
+    """Whether a client reads the point by itself alone."""
+    point = subject.point
+    return point.readable and point.telegram is None and subject.factors_type == "()"

@@ -5,6 +5,7 @@ So a corrected title touches no code, as it touches no digest.
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING
 
 from fieldscribe.text import rust_code
@@ -17,12 +18,16 @@ from fieldscribe.wording import (
     resolution_text,
     scale_text,
     width_texts,
+    with_unit,
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Collection, Iterator
 
     from fieldscribe.model import Device, Point
+
+_WIDTH = 104
+_BEGINS = re.compile(r"[`(\[]|[^\W\d]|\d+(?![\d.)])")
 
 
 def sentence(name: str) -> str:
@@ -30,14 +35,28 @@ def sentence(name: str) -> str:
     return f"{name.replace('_', ' ').capitalize()}."
 
 
-def point_doc(point: Point) -> tuple[str, ...]:
-    """The lines of a point's doc comment behind `///`; an empty line parts paragraphs."""
-    lines = [f" {sentence(point.item)}", "", f" {', '.join(_facts(point))}."]
+def point_doc(point: Point, errata: Collection[str]) -> tuple[str, ...]:
+    """The lines of a point's doc comment behind `///`; an empty line parts paragraphs. These errata are named."""
+    paragraphs = [sentence(point.item), f"{', '.join(_facts(point))}."]
     if point.specials:
-        lines += ["", f" {codes_text(point, '`')}."]
-    if point.errata:
-        lines += ["", f" Errata: {', '.join(f'`{name}`' for name in point.errata)}."]
-    return tuple(lines)
+        paragraphs.append(f"{codes_text(point, '`')}.")
+    named = [f"`{name}`" for name in point.errata if name in errata]
+    if named:
+        paragraphs.append(f"Errat{'a' if len(named) > 1 else 'um'}: {', '.join(named)}.")
+    lines = [line for paragraph in paragraphs for line in ("", *(f" {one}" for one in wrapped(paragraph)))]
+    return tuple(lines[1:])
+
+
+def wrapped(text: str) -> Iterator[str]:
+    """The text in lines; one begins with what cannot be taken for the mark of a list or a heading."""
+    line = ""
+    for word in text.split(" "):
+        if len(line) + len(word) >= _WIDTH and _BEGINS.match(word):
+            yield line
+            line = word
+        else:
+            line += f" {word}" if line else word
+    yield line
 
 
 def left_out(device: Device) -> tuple[str, ...]:
@@ -76,16 +95,30 @@ def _facts(point: Point) -> Iterator[str]:
         span = raw_range_text(point)
         if span:
             yield f"raw {rust_code(span)}"
-    if point.form in ("scaled", "float"):
-        resolution = resolution_text(point)
-        scale = scale_text(point)
-        if resolution:
-            yield f"steps of {rust_code(resolution)}"
-        elif scale:
-            yield f"value {rust_code(scale)}"
-        yield from width_texts(point)
+    yield from _resolution(point)
     yield access_text(point.access)
     if point.variant:
         yield f"for {rust_code(point.variant)}"
     if point.when:
         yield f"only when {rust_code(condition_text(point.when))}"
+
+
+def _resolution(point: Point) -> Iterator[str]:
+    """What a raw step and a count are."""
+    if point.form not in ("scaled", "float"):
+        return
+    resolution, scale, count = resolution_text(point), scale_text(point), _count(point)
+    if resolution and resolution != count:
+        yield f"steps of {rust_code(resolution)}"
+    elif scale and not resolution:
+        yield f"value {rust_code(scale)}"
+    if count:
+        yield f"one count is {rust_code(count)}"
+    yield from width_texts(point)
+
+
+def _count(point: Point) -> str:
+    """What one count of a scaled point is; empty if it has none."""
+    if point.form != "scaled" or point.decimals is None:
+        return ""
+    return with_unit(f"0.{'1':0>{point.decimals}}" if point.decimals else "1", point)

@@ -19,7 +19,8 @@ if TYPE_CHECKING:
 CONSTANTS = frozenset(
     {"name", "code", "space", "address", "words", "unit", "raw_min", "raw_max", "shift", "mask"}
     | {"decimals", "read_function", "write_function", "write_address"}
-    | {"telegram", "index", "addresses", "numbers", "fixed_bits", "fixed_mask", "floating"}
+    | {"telegram", "index", "addresses", "numbers", "fixed_bits", "fixed_mask", "is_grouped", "codes", "floating"}
+    | {"is_closed", "is_contiguous", "is_wide", "raw_reach", "scale"}
 )
 """Associated constants of the point traits, which a name of the author would hide."""
 

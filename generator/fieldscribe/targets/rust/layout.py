@@ -5,6 +5,7 @@ from __future__ import annotations
 _WIDTH = 100
 _ARRAY_WIDTH = 60
 _STRUCT_WIDTH = 18
+_FREE_WIDTH = 104
 
 Lines = tuple[str, ...]
 
@@ -48,19 +49,6 @@ def array(items: list[str]) -> Lines:
     return (joined,) if len(joined) <= _ARRAY_WIDTH else tuple(f"{item}," for item in items)
 
 
-def short_array(indent: int, left: str, items: list[str]) -> Lines:
-    """`left = &[items];` of short items: one line, else lines that are filled up."""
-    joined = ", ".join(items)
-    if len(joined) <= _ARRAY_WIDTH or len(items) < 2:
-        return binding(indent, left, f"&[{joined}]")
-    lines = [""]
-    for item in items:
-        if lines[-1] and indent + 4 + len(lines[-1]) + 1 + len(item) + 1 > _WIDTH:
-            lines.append("")
-        lines[-1] += f" {item}," if lines[-1] else f"{item},"
-    return f"{left} = &[", *(f"    {line}" for line in lines), "];"
-
-
 def comparison(indent: int, left: str, right: str) -> Lines:
     """`left right`, else with `right` on a line of its own."""
     line = f"{left} {right}"
@@ -82,13 +70,33 @@ def calls(indent: int, left: str, items: list[tuple[str, Lines]]) -> Lines:
     return (*lines, "];")
 
 
-def fields_of_self(indent: int, type_: str, names: Lines) -> Lines:
-    """A struct literal that takes its fields from `self`."""
-    joined = ", ".join(f"{name}: self.{name}" for name in names)
+def fields_of(indent: int, type_: str, names: Lines) -> Lines:
+    """A struct literal that takes its fields from `all`."""
+    joined = ", ".join(f"{name}: all.{name}" for name in names)
     if len(joined) <= _STRUCT_WIDTH:
         return (f"{type_} {{ {joined} }}",)
     lines = [f"{type_} {{"]
     for name in names:
-        line = f"    {name}: self.{name},"
-        lines += [line] if indent + len(line) <= _WIDTH else [f"    {name}: self", f"        .{name},"]
+        line = f"    {name}: all.{name},"
+        lines += [line] if indent + len(line) <= _WIDTH else [f"    {name}: all", f"        .{name},"]
     return (*lines, "}")
+
+
+def filled(left: str, between: str, items: list[str], right: str) -> Lines:
+    """Items in as few lines as their width needs, where rustfmt does not look."""
+    lines = [left]
+    for place, item in enumerate(items):
+        text = item + (between if place + 1 < len(items) else right)
+        if len(lines[-1]) + len(text) > _FREE_WIDTH and lines[-1].strip():
+            lines[-1] = lines[-1].rstrip()
+            lines.append("    ")
+        lines[-1] += text
+    return tuple(lines)
+
+
+def chained(text: str) -> Lines:
+    """An expression in one line, else with a line for each step behind a question mark."""
+    if len(text) <= _FREE_WIDTH:
+        return (text,)
+    first, *others = text.split("?.")
+    return first, *(f"    ?.{one}" for one in others)

@@ -41,20 +41,33 @@ def shared_views(scope: Scope) -> Iterator[SharedView]:
         yield SharedView(type_name(of), of, tuple(code_constants(subject)), _table(subject, left))
 
 
-def coded_trait(subject: Subject) -> tuple[str, ...]:
-    """The implementation of the trait that gives a point its codes."""
-    left = f"const CODES: &'static [runtime::Code<{subject.raw}>]"
+def code_lines(subject: Subject) -> Iterator[str]:
+    """The fact that gives a point its codes: its own, or those that it shares."""
     shared = subject.point.shared_codes
-    lines = binding(4, left, f"special::{type_name(shared)}::CODES") if shared else _table(subject, left)
-    return (f"impl runtime::Coded for {subject.name} {{", *(f"    {line}" for line in lines), "}")
+    if shared:
+        yield f"codes (special::{type_name(shared)}::CODES);"
+    elif subject.point.specials:
+        yield "codes {"
+        for one in subject.point.specials:
+            name, band = one.name.upper(), one.low != one.high
+            ends = "..=".join(_literal(end, one, subject.raw) for end in ((one.low, one.high) if band else (one.low,)))
+            last = f" {name}_LAST" if band else ""
+            yield f"    /// {sentence(f'{one.name}, the first of a band' if band else one.name)}"
+            yield f"    {name}{last} = {_kind(one)}({rust_string(one.name)}, {ends});"
+        yield "};"
+
+
+def _kind(special: Special) -> str:
+    """The constructor that says what the code is."""
+    words = (word for word, holds in (("writable", special.writable), ("no_value", special.no_value)) if holds)
+    return "_".join(words) or "new"
 
 
 def code_constants(subject: Subject) -> Iterator[ConstantView]:
     """A constant for each code; of a band, its first code and the last raw number."""
     for one in subject.point.specials:
         left = f"pub const {one.name.upper()}: runtime::Special<{subject.raw}>"
-        kind = "_".join(word for word, holds in (("writable", one.writable), ("no_value", one.no_value)) if holds)
-        call = f"{kind or 'new'}({rust_string(one.name)}, {_literal(one.low, one, subject.raw)})"
+        call = f"{_kind(one)}({rust_string(one.name)}, {_literal(one.low, one, subject.raw)})"
         lines = _constant(left, f"runtime::Special::{call}")
         if one.low != one.high:
             last = binding(4, f"pub const {one.name.upper()}_LAST: {subject.raw}", _literal(one.high, one, subject.raw))

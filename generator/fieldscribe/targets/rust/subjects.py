@@ -57,7 +57,8 @@ class Subject:
 class Scope:
     """What the points of one device share: points, raw types and enums' raw types by name, the device's functions.
 
-    Points are found by item and by name; the telegrams are by name, with the messages that carry them.
+    Points are found by item and by name; the telegrams are by name, with the messages that carry them. The errata are
+    those that change a fact.
     """
 
     points: Mapping[str, Point]
@@ -67,6 +68,7 @@ class Scope:
     subjects: tuple[Subject, ...]
     family: str
     telegrams: Mapping[str, tuple[Telegram, Message | None]]
+    errata: frozenset[str]
 
 
 def scope_of(device: Device) -> Scope:
@@ -92,6 +94,7 @@ def scope_of(device: Device) -> Scope:
         tuple(_subject(point, enums) for point in device.points if point.generated),
         device.family,
         {one.name: (one, messages.get(one.message or "")) for one in device.telegrams},
+        frozenset(one.id for one in device.errata if one.facts),
     )
 
 

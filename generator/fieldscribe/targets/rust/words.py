@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.targets.rust.documentation import sentence
-from fieldscribe.targets.rust.layout import arm, binding, calls, comparison, fields_of_self, signature
+from fieldscribe.targets.rust.documentation import sentence, wrapped
+from fieldscribe.targets.rust.layout import arm, binding, calls, comparison, fields_of, signature
 from fieldscribe.targets.rust.literals import integer, mask, type_name, value_name
 from fieldscribe.targets.rust.views import ArgumentsView, EntryView, EnumView, FlagsView, FlagView
 from fieldscribe.text import rust_string
@@ -101,13 +101,13 @@ def arguments_views(scope: Scope) -> Iterator[ArgumentsView]:
         if parted:
             doc = f"Raw numbers that the scale of `{item}` needs."
             yield ArgumentsView(doc, part, _fields(subject.factors, scope), "", ())
-        literal = fields_of_self(8, part, tuple(map(value_name, subject.factors))) if parted else ()
+        literal = fields_of(8, "Self", tuple(map(value_name, subject.factors))) if parted else ()
         doc = f"Raw numbers that `{item}` needs."
         yield ArgumentsView(doc, subject.name, _fields(subject.arguments, scope), part, literal)
 
 
-def _fields(names: tuple[str, ...], scope: Scope) -> tuple[tuple[str, str, str], ...]:
-    return tuple((_source(name, scope), value_name(name), scope.raw_types[name]) for name in names)
+def _fields(names: tuple[str, ...], scope: Scope) -> tuple[tuple[tuple[str, ...], str, str], ...]:
+    return tuple((tuple(wrapped(_source(name, scope))), value_name(name), scope.raw_types[name]) for name in names)
 
 
 def _source(name: str, scope: Scope) -> str:

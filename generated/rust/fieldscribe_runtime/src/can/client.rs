@@ -39,20 +39,20 @@ pub trait Transport {
 }
 
 /// Sends frames and waits for frames without blocking.
-pub trait AsyncTransport {
+pub trait AsyncTransport: Send {
     /// What can go wrong on the bus.
-    type Error;
+    type Error: Send;
 
     /// As [`Transport::send`].
-    fn send(&mut self, frame: &Frame) -> impl Future<Output = Result<(), Self::Error>>;
+    fn send(&mut self, frame: &Frame) -> impl Future<Output = Result<(), Self::Error>> + Send;
 
     /// As [`Transport::receive`].
     ///
     /// A future that is dropped is to lose no frame.
-    fn receive(&mut self) -> impl Future<Output = Result<Frame, Self::Error>>;
+    fn receive(&mut self) -> impl Future<Output = Result<Frame, Self::Error>> + Send;
 
     /// As [`Transport::pending`].
-    fn pending(&mut self) -> impl Future<Output = Result<Option<Frame>, Self::Error>>;
+    fn pending(&mut self) -> impl Future<Output = Result<Option<Frame>, Self::Error>> + Send;
 }
 
 /// Several clients share one bus: each borrows it for as long as it lives.
@@ -76,15 +76,15 @@ impl<T: Transport + ?Sized> Transport for &mut T {
 impl<T: AsyncTransport + ?Sized> AsyncTransport for &mut T {
     type Error = T::Error;
 
-    fn send(&mut self, frame: &Frame) -> impl Future<Output = Result<(), Self::Error>> {
+    fn send(&mut self, frame: &Frame) -> impl Future<Output = Result<(), Self::Error>> + Send {
         (**self).send(frame)
     }
 
-    fn receive(&mut self) -> impl Future<Output = Result<Frame, Self::Error>> {
+    fn receive(&mut self) -> impl Future<Output = Result<Frame, Self::Error>> + Send {
         (**self).receive()
     }
 
-    fn pending(&mut self) -> impl Future<Output = Result<Option<Frame>, Self::Error>> {
+    fn pending(&mut self) -> impl Future<Output = Result<Option<Frame>, Self::Error>> + Send {
         (**self).pending()
     }
 }
@@ -119,7 +119,7 @@ impl<L: Listener + ?Sized> Listener for &mut L {
 }
 
 /// Why a point could not be read or written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum ClientError<E> {
     /// The number could not be encoded or decoded.

@@ -82,7 +82,7 @@ impl fmt::Display for ParseError {
 impl core::error::Error for ParseError {}
 
 /// Why a telegram has no word, or no words that belong together.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum ReceiveError {
     /// A frame with the word never came.

@@ -17,7 +17,7 @@ const WORDS: usize = 16;
 const SENT: usize = 4 + 2 * (4 + WORDS);
 
 /// Why a point could not be read or written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum ClientError<E> {
     /// The number could not be encoded or decoded, or is not in the telegram.

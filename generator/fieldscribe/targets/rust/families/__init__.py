@@ -28,8 +28,8 @@ def family_context(device: Device) -> dict[str, object]:
     return {"family": device.family, **_CONTEXTS[device.family](device)}
 
 
-def family_traits(subject: Subject, scope: Scope) -> Iterable[tuple[str, ...]]:
-    """The lines of each trait that a point implements for its bus."""
+def family_traits(subject: Subject, scope: Scope) -> Iterable[str]:
+    """Each trait that a point implements for its bus, in a line."""
     return _TRAITS[scope.family](subject, scope) if scope.family in _TRAITS else ()
 
 

@@ -47,6 +47,7 @@ def can_context(device: Device) -> dict[str, object]:
     bus = device.bus
     carriers = {message.name: message for message in device.messages}
     return {
+        "example_link": str(bus.units[0]),
         "exception_type": "u16",
         "exception_names": code_names(bus.exceptions),
         "units": f"({bus.units[0]}, {bus.units[1]})",
@@ -64,11 +65,11 @@ def can_context(device: Device) -> dict[str, object]:
     }
 
 
-def can_traits(subject: Subject, scope: Scope) -> Iterator[tuple[str, ...]]:
+def can_traits(subject: Subject, scope: Scope) -> Iterator[str]:
     """A parameter is read and written word by word; a point of a telegram is received in frames."""
-    point, name = subject.point, subject.name
+    point = subject.point
     if point.telegram is None:
-        yield (f"impl runtime::can::Parameter for {name} {{}}",)
+        yield "impl runtime::can::Parameter {}"
         return
     _, message = scope.telegrams.get(point.telegram, (None, None))
     if not point.readable or message is None or not message.words:
@@ -76,8 +77,7 @@ def can_traits(subject: Subject, scope: Scope) -> Iterator[tuple[str, ...]]:
     frames = {position // message.words for position in point.addresses}
     # Of more words than two in several frames nobody can tell whether they belong together.
     if len(frames) == 1 or len(point.addresses) == 2:
-        telegram = binding(4, "type Telegram", f"crate::telegrams::{type_name(point.telegram)}")
-        yield f"impl runtime::can::Received for {name} {{", *(f"    {line}" for line in telegram), "}"
+        yield f"impl runtime::can::Received {{ type Telegram = crate::telegrams::{type_name(point.telegram)}; }}"
 
 
 def can_identifiers(device: Device) -> Iterator[Identifier]:

@@ -31,6 +31,7 @@ def modbus_context(device: Device) -> dict[str, object]:
         for code in bus.functions
     ]
     return {
+        "example_link": f"Framing::{framings_of(bus)[0].capitalize()}, {bus.units[0]}",
         "functions": array(functions),
         "framings": ", ".join(f"Framing::{one.capitalize()}" for one in framings_of(bus)),
         "exception_type": "u8",

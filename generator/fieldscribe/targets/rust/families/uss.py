@@ -20,6 +20,7 @@ def uss_context(device: Device) -> dict[str, object]:
     """What the template of the family's items sees."""
     bus = device.bus
     return {
+        "example_link": f"Link::new({max(bus.pkw)}, {bus.pzd[0]}), {bus.units[0]}",
         "exception_type": "u16",
         "exception_names": code_names(bus.exceptions),
         "units": f"({bus.units[0]}, {bus.units[1]})",
@@ -36,7 +37,7 @@ def uss_context(device: Device) -> dict[str, object]:
     }
 
 
-def uss_traits(subject: Subject, scope: Scope) -> Iterator[tuple[str, ...]]:
+def uss_traits(subject: Subject, scope: Scope) -> Iterator[str]:
     """A point is a parameter, or is sent, or is received in the process data."""
     point = subject.point
     if point.telegram is None:
@@ -44,7 +45,7 @@ def uss_traits(subject: Subject, scope: Scope) -> Iterator[tuple[str, ...]]:
     else:
         telegram, _ = scope.telegrams[point.telegram]
         trait = "Sent" if telegram.direction == "request" else "Received"
-    yield (f"impl runtime::uss::{trait} for {subject.name} {{}}",)
+    yield f"impl runtime::uss::{trait} {{}}"
 
 
 def uss_identifiers(device: Device) -> Iterator[Identifier]:

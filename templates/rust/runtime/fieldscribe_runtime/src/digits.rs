@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: 0BSD
 //! Words whose decimal digits each mean something.
 
-use crate::{listed, Digits, Error};
+use crate::check::{saturated, unknown};
+use crate::{Digits, Error};
 
 /// The decimal digits of `raw`, the highest first; the first takes what the others leave.
 #[must_use]
@@ -22,12 +23,13 @@ pub fn split<const N: usize>(raw: u16) -> [u16; N] {
 ///
 /// # Errors
 /// [`Error::UnknownValue`] if one is not, or if a word cannot hold the number.
-pub fn join<P: Digits>(digits: &[impl TryInto<u16> + Copy]) -> Result<u16, Error> {
-    digits.iter().try_fold(0, |number: u16, digit| {
-        let digit = (*digit).try_into().map_err(|_| Error::UnknownValue)?;
-        listed(P::NUMBERS.contains(&digit))?;
-        let tens = number.checked_mul(10).ok_or(Error::UnknownValue)?;
-        tens.checked_add(digit).ok_or(Error::UnknownValue)
+pub fn join<P: Digits>(digits: &[impl Into<i128> + Copy]) -> Result<u16, Error> {
+    digits.iter().try_fold(0_u16, |number, digit| {
+        let wide: i128 = (*digit).into();
+        let digit = u16::try_from(wide).ok();
+        let listed = digit.filter(|digit| P::NUMBERS.contains(digit));
+        let joined = listed.and_then(|digit| number.checked_mul(10)?.checked_add(digit));
+        joined.ok_or_else(|| unknown::<P>(saturated(wide)))
     })
 }
 
@@ -37,5 +39,9 @@ pub fn join<P: Digits>(digits: &[impl TryInto<u16> + Copy]) -> Result<u16, Error
 /// [`Error::UnknownValue`] if one is not.
 pub fn check<P: Digits, const N: usize>(raw: u16) -> Result<(), Error> {
     let digits = split::<N>(raw);
-    listed(digits.iter().all(|digit| P::NUMBERS.contains(digit)))
+    if digits.iter().all(|digit| P::NUMBERS.contains(digit)) {
+        Ok(())
+    } else {
+        Err(unknown::<P>(raw.into()))
+    }
 }

@@ -13,91 +13,37 @@ compile_error!("floating point needs SSE2 here: build for i686, or with -C targe
 
 pub mod arithmetic;
 pub mod can;
+pub mod check;
 pub mod client;
 pub mod digits;
+mod error;
 pub mod flags;
+pub mod form;
+mod macros;
 pub mod modbus;
+mod path;
 mod pattern;
 mod point;
 mod raw;
 mod rule;
+mod scale;
 mod special;
 pub mod text;
 pub mod uss;
 
+pub use client::{AsyncTransport, Transport};
+pub use error::{Error, Outside, Refused};
 pub use flags::{Flag, Flags};
+pub use form::Count;
 pub use point::{
-    allowed, group, in_address_order, in_reading_order, listed, signed_group, BitGroup,
-    CountReadable, CountWritable, Decoded, Digits, Documented, Encodable, Point, Readable, Scaled,
-    Space, Whole, Writable,
+    group, in_address_order, in_reading_order, signed_group, BitGroup, CountReadable,
+    CountWritable, Decoded, Digits, Documented, Encodable, FixedScale, Named, Point, Readable,
+    Scaled, Space, Whole, Writable,
 };
 pub use raw::Raw;
 pub use rule::Rule;
-pub use special::{factor, quantity, written, Code, Coded, Reading, Special};
+pub use scale::Scale;
+pub use special::{
+    encoded, quantity, reading, try_reading, written, Code, Coded, Reading, Special,
+};
 pub use text::Text;
-
-use core::fmt;
-
-/// Why a number could not be encoded, decoded or checked.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub enum Error {
-    /// The raw number is outside what the manual allows.
-    OutOfRange,
-    /// The value is not a number.
-    NotANumber,
-    /// The closed enum has no such number.
-    UnknownValue,
-    /// A factor that is read at run time is zero, or no quantity.
-    ZeroFactor,
-    /// No case of the scale holds.
-    NoCase,
-    /// The result does not fit its type.
-    Overflow,
-    /// The raw number is a special code and no quantity.
-    Special,
-    /// There are more or fewer words than the point has.
-    WrongLength,
-    /// The reply is of another space than the point's.
-    WrongSpace,
-    /// The last telegram was not answered, so nothing was heard of the point.
-    NotHeard,
-}
-
-impl Error {
-    /// The error's name as the conformance vectors have it.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::OutOfRange => "out_of_range",
-            Self::NotANumber => "not_a_number",
-            Self::UnknownValue => "unknown_value",
-            Self::ZeroFactor => "zero_factor",
-            Self::NoCase => "no_case",
-            Self::Overflow => "overflow",
-            Self::Special => "special",
-            Self::WrongLength => "wrong_length",
-            Self::WrongSpace => "wrong_space",
-            Self::NotHeard => "not_heard",
-        }
-    }
-}
-
-impl fmt::Display for Error {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str(match self {
-            Self::OutOfRange => "the raw number is outside what is allowed",
-            Self::NotANumber => "the value is not a number",
-            Self::UnknownValue => "the enum has no such number",
-            Self::ZeroFactor => "a factor is zero",
-            Self::NoCase => "no case of the scale holds",
-            Self::Overflow => "the result does not fit its type",
-            Self::Special => "the raw number is a special code and no quantity",
-            Self::WrongLength => "the point has another number of words",
-            Self::WrongSpace => "the reply is of another space than the point's",
-            Self::NotHeard => "the last telegram was not answered",
-        })
-    }
-}
-
-impl core::error::Error for Error {}

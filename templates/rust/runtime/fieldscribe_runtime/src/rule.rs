@@ -3,7 +3,7 @@
 
 use crate::arithmetic::{quotient, to_f64};
 use crate::pattern::{Magnitude, Quotient};
-use crate::Error;
+use crate::{Error, Raw};
 
 /// A scale with factors that are read at run time: `raw = value * num / den + offset`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,12 +45,26 @@ impl Rule {
         }
     }
 
+    /// The rule, unless one of its factors is a special code, which is no number to compute with.
+    ///
+    /// # Errors
+    /// [`Error::ZeroFactor`] if it is.
+    #[inline]
+    pub const fn unless(self, coded: bool) -> Result<Self, Error> {
+        if coded {
+            Err(Error::ZeroFactor)
+        } else {
+            Ok(self)
+        }
+    }
+
     /// The rule with one more factor.
     ///
     /// # Errors
     /// [`Error::ZeroFactor`] if it is zero; [`Error::Overflow`].
     #[inline]
-    pub fn times(self, factor: i64) -> Result<Self, Error> {
+    pub fn times(self, factor: impl Raw) -> Result<Self, Error> {
+        let factor = factor.to_i64();
         if factor == 0 {
             return Err(Error::ZeroFactor);
         }
@@ -62,8 +76,11 @@ impl Rule {
     /// # Errors
     /// [`Error::Overflow`].
     #[inline]
-    pub fn limited_by(self, factor: i64) -> Result<Self, Error> {
-        let num = self.num.checked_mul(factor).ok_or(Error::Overflow)?;
+    pub fn limited_by(self, factor: impl Raw) -> Result<Self, Error> {
+        let num = self
+            .num
+            .checked_mul(factor.to_i64())
+            .ok_or(Error::Overflow)?;
         Ok(Self { num, ..self })
     }
 
@@ -72,7 +89,8 @@ impl Rule {
     /// # Errors
     /// [`Error::ZeroFactor`] if it is zero; [`Error::Overflow`].
     #[inline]
-    pub fn over(self, divisor: i64) -> Result<Self, Error> {
+    pub fn over(self, divisor: impl Raw) -> Result<Self, Error> {
+        let divisor = divisor.to_i64();
         if divisor == 0 {
             return Err(Error::ZeroFactor);
         }
@@ -195,36 +213,32 @@ impl Rule {
         Some((quotient(dividend, divisor), exponent))
     }
 
-    /// The raw number of a count of `1 / PER_UNIT` units.
-    ///
-    /// # Errors
-    /// [`Error::OutOfRange`] if the raw number is beyond every type.
+    /// The raw number of a count of `1 / per_unit` units; none if it is beyond every type.
+    #[must_use]
     #[inline]
-    pub fn encode_count<const PER_UNIT: i64>(self, count: i64) -> Result<i64, Error> {
+    pub fn encode_count(self, count: i64, per_unit: i64) -> Option<i64> {
         if !self.whole {
-            return self.raw_of(count, PER_UNIT).ok_or(Error::OutOfRange);
+            return self.raw_of(count, per_unit);
         }
-        let den = product([self.den, PER_UNIT, self.offset_den]);
+        let den = product([self.den, per_unit, self.offset_den]);
         let scaled = product([count, self.num, self.offset_den]);
-        let offset = product([self.offset_num, self.den, PER_UNIT]);
+        let offset = product([self.offset_num, self.den, per_unit]);
         let sum = scaled
             .zip(offset)
             .and_then(|(scaled, offset)| scaled.checked_add(offset));
-        sum.zip(den)
-            .and_then(|(sum, den)| divide(sum, den))
-            .ok_or(Error::OutOfRange)
+        sum.zip(den).and_then(|(sum, den)| divide(sum, den))
     }
 
-    /// The value in counts of `1 / PER_UNIT` units.
+    /// The value in counts of `1 / per_unit` units.
     ///
     /// # Errors
     /// [`Error::Overflow`]; [`Error::ZeroFactor`].
     #[inline]
-    pub fn decode_count<const PER_UNIT: i64>(self, raw: i64) -> Result<i64, Error> {
+    pub fn decode_count(self, raw: i64, per_unit: i64) -> Result<i64, Error> {
         if !self.whole {
-            return self.count_of(raw, PER_UNIT);
+            return self.count_of(raw, per_unit);
         }
-        let (num, den) = self.turned(raw, PER_UNIT)?;
+        let (num, den) = self.turned(raw, per_unit)?;
         divide(num, den).ok_or(Error::Overflow)
     }
 

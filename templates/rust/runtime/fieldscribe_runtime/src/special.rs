@@ -3,7 +3,8 @@
 
 use core::fmt;
 
-use crate::{Error, Point};
+use crate::check::unknown;
+use crate::{Error, Point, Raw};
 
 /// What a point holds in the place of a quantity: a code by its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -189,23 +190,48 @@ pub trait Coded: Point {
 /// # Errors
 /// [`Error::Special`] if it may not; [`Error::UnknownValue`] if it is a code of another point.
 pub fn written<P: Coded>(special: Special<P::Raw>) -> Result<P::Raw, Error> {
-    let own = P::special(special.raw).ok_or(Error::UnknownValue)?;
-    if own.name != special.name {
-        return Err(Error::UnknownValue);
+    match P::special(special.raw) {
+        Some(own) if own.name == special.name => own.checked().map(|()| special.raw),
+        _ => Err(unknown::<P>(special.raw.to_i64())),
     }
-    own.checked()?;
-    Ok(special.raw)
 }
 
-/// What a look at a factor says: a special code is no number to compute with.
+/// What a raw number means: the special code that it is, else what `decode` makes of it.
+#[inline]
+pub fn reading<P: Coded, V>(raw: P::Raw, decode: impl FnOnce(P::Raw) -> V) -> Reading<V, P::Raw> {
+    match P::special(raw) {
+        Some(special) => Reading::Special(special),
+        None => Reading::Value(decode(raw)),
+    }
+}
+
+/// As [`reading`], where decoding can fail.
 ///
 /// # Errors
-/// [`Error::ZeroFactor`] if it does not hold.
-pub const fn factor(holds: bool) -> Result<(), Error> {
-    if holds {
-        Ok(())
-    } else {
-        Err(Error::ZeroFactor)
+/// What `decode` says.
+#[inline]
+pub fn try_reading<P: Coded, V>(
+    raw: P::Raw,
+    decode: impl FnOnce(P::Raw) -> Result<V, Error>,
+) -> Result<Reading<V, P::Raw>, Error> {
+    match P::special(raw) {
+        Some(special) => Ok(Reading::Special(special)),
+        None => decode(raw).map(Reading::Value),
+    }
+}
+
+/// The raw number of a special code that may be written, else what `encode` makes of the value.
+///
+/// # Errors
+/// What `encode` says; what [`written`] and [`quantity`] say.
+#[inline]
+pub fn encoded<P: Coded, V>(
+    reading: Reading<V, P::Raw>,
+    encode: impl FnOnce(V) -> Result<P::Raw, Error>,
+) -> Result<P::Raw, Error> {
+    match reading {
+        Reading::Value(value) => quantity::<P>(encode(value)?),
+        Reading::Special(special) => written::<P>(special),
     }
 }
 

@@ -8,7 +8,7 @@ use crate::client::{AsyncTransport, Transport};
 use crate::{BitGroup, Decoded, Encodable, Error, Readable, Whole};
 
 /// Why a point could not be read or written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ClientError<E> {
     /// The number could not be encoded or decoded.
     Point(Error),

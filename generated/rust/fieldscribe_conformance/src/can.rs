@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: 0BSD
+//! Vectors of messages and of telegrams.
+
+use std::collections::VecDeque;
+
+use fieldscribe_runtime::can::{
+    self, AsyncClient, Client, ClientError, Frame, Message, Parameter, ParseError, Profile,
+    Received, Receiver, Telegram,
+};
+use fieldscribe_runtime::{BitGroup, Decoded, Encodable, Error, Readable, Whole, Writable};
+
+pub use super::can_clients::check;
+use super::{bytes, exchanged, now, same, Number, Outcome, Script, Vector};
+
+/// The same operation with the client that blocks and the one that does not, each over a script of its own.
+macro_rules! both {
+    ($vector:ident, $profile:ident, |$client:ident| $call:expr) => {{
+        let found = {
+            let mut $client = Client::new(Bus::new($vector), $profile, $vector.raw("unit"));
+            let found = $call;
+            let script = $client.into_transport();
+            exchanged($vector, found, name, &script.script)?
+        };
+        let again = {
+            let mut $client = AsyncClient::new(Bus::new($vector), $profile, $vector.raw("unit"));
+            let found = now($call);
+            let script = $client.into_transport();
+            exchanged($vector, found, name, &script.script)?
+        };
+        same(true, found == again)?;
+        found
+    }};
+}
+
+/// Frames in bytes: the identifier in four and the data.
+struct Bus {
+    script: Script,
+    came: VecDeque<Frame>,
+}
+
+impl Bus {
+    fn new(vector: &Vector) -> Self {
+        Self {
+            script: Script::new(vector),
+            came: VecDeque::new(),
+        }
+    }
+
+    fn sent(&mut self, frame: &Frame) -> Result<(), ()> {
+        let data = [&frame.id().to_be_bytes(), frame.bytes()].concat();
+        let answer = self.script.answer(&data).ok_or(())?;
+        if let Some((id, data)) = answer.split_first_chunk() {
+            self.came
+                .push_back(Frame::new(u32::from_be_bytes(*id), data));
+        }
+        Ok(())
+    }
+}
+
+impl can::Transport for Bus {
+    type Error = ();
+
+    fn send(&mut self, frame: &Frame) -> Result<(), ()> {
+        self.sent(frame)
+    }
+
+    fn receive(&mut self) -> Result<Frame, ()> {
+        self.came.pop_front().ok_or(())
+    }
+
+    fn pending(&mut self) -> Result<Option<Frame>, ()> {
+        Ok(self.came.pop_front())
+    }
+}
+
+impl can::AsyncTransport for Bus {
+    type Error = ();
+
+    async fn send(&mut self, frame: &Frame) -> Result<(), ()> {
+        self.sent(frame)
+    }
+
+    async fn receive(&mut self) -> Result<Frame, ()> {
+        self.came.pop_front().ok_or(())
+    }
+
+    async fn pending(&mut self) -> Result<Option<Frame>, ()> {
+        Ok(self.came.pop_front())
+    }
+}
+
+fn name(error: ClientError<()>) -> &'static str {
+    match error {
+        ClientError::Point(error) => error.name(),
+        ClientError::Build(error) => error.name(),
+        ClientError::EchoMismatch(_) => "echo_mismatch",
+        ClientError::Telegram(error) => error.name(),
+        _ => "timeout",
+    }
+}
+
+/// A point's raw number.
+pub fn read<P>(vector: &Vector, profile: &'static Profile) -> Outcome
+where
+    P: Readable<Raw: Number> + Parameter,
+{
+    let found = both!(vector, profile, |client| client.read_raw::<P>());
+    same(vector.number("raw"), found.map(Number::to_number))
+}
+
+/// A text's words.
+pub fn read_text<P>(vector: &Vector, profile: &'static Profile) -> Outcome
+where
+    P: Readable + Whole + Parameter,
+{
+    let found = both!(vector, profile, |client| client.read_raw::<P>());
+    let words = found.map(|raw| P::to_words(raw).as_ref().to_vec());
+    same(vector.numbers("words"), words.unwrap_or_default())
+}
+
+/// The value of a raw number is written.
+pub fn write<P>(
+    vector: &Vector,
+    profile: &'static Profile,
+    factors: P::Factors,
+    with: P::With,
+) -> Outcome
+where
+    P: Readable<Raw: Number, Value: Copy> + Encodable<With: Copy> + Whole + Parameter,
+{
+    let value = P::decode_with(vector.raw("raw"), factors)
+        .into_result()
+        .map_err(Error::name)?;
+    both!(vector, profile, |client| client
+        .write_with::<P>(value, with));
+    Ok(())
+}
+
+/// A text is written.
+pub fn write_text<P>(vector: &Vector, profile: &'static Profile) -> Outcome
+where
+    P: Readable<Factors = (), Value: Copy> + Encodable<With = ()> + Whole + Parameter,
+{
+    let words: Vec<u16> = vector.numbers("words");
+    let raw = P::from_received(words.into_iter()).map_err(Error::name)?;
+    let value = P::decode(raw).into_result().map_err(Error::name)?;
+    both!(vector, profile, |client| client.write::<P>(value));
+    Ok(())
+}
+
+/// A group of bits is written into its word.
+pub fn update<P>(vector: &Vector, profile: &'static Profile) -> Outcome
+where
+    P: Readable<Raw: Number, Factors = (), Value: Copy>
+        + Encodable<With = ()>
+        + BitGroup
+        + Parameter,
+{
+    let value = P::decode(vector.raw("raw"))
+        .into_result()
+        .map_err(Error::name)?;
+    both!(vector, profile, |client| client.update::<P>(value));
+    Ok(())
+}
+
+/// A parameter that cannot be read is written as it is.
+pub fn write_only<P>(vector: &Vector, profile: &'static Profile) -> Outcome
+where
+    P: Writable<Raw: Number> + Whole + Parameter,
+{
+    let words = P::to_words(vector.raw("raw"));
+    let word = words.as_ref().first().copied().unwrap_or_default();
+    both!(vector, profile, |client| client
+        .write_word(P::ADDRESS, word));
+    Ok(())
+}
+
+/// A message into a frame. What an address or a raw number cannot be in Rust is refused here.
+pub fn build(vector: &Vector, profile: &Profile, messages: &[&Message]) -> Outcome {
+    let message = find(vector, messages)?;
+    let (address, raw) = (word(vector, "address"), word(vector, "raw"));
+    let (address_held, raw_held) = (address.unwrap_or_default(), raw.unwrap_or_default());
+    let found = message.build(profile, unit(vector), address_held, raw_held);
+    let (status, id, data) = match (found, address, raw) {
+        (Err(error), ..) => (error.name(), 0, Vec::new()),
+        (Ok(_), None, _) => ("bad_address", 0, Vec::new()),
+        (Ok(_), _, None) => ("bad_value", 0, Vec::new()),
+        (Ok(frame), ..) => ("ok", frame.id(), frame.bytes().to_vec()),
+    };
+    same(vector.text("status").as_str(), status)?;
+    same(vector.count("id"), id)?;
+    same(vector.bytes("bytes"), data)
+}
+
+/// A frame as a message.
+pub fn parse(vector: &Vector, messages: &[&Message]) -> Outcome {
+    let message = find(vector, messages)?;
+    let frame = Frame::new(vector.raw("id"), &vector.bytes("bytes"));
+    let found = message.parse(unit(vector), &frame);
+    same(
+        vector.text("status").as_str(),
+        found.map_or_else(ParseError::name, |_| "ok"),
+    )?;
+    let content = found.unwrap_or_default();
+    same(vector.count("address"), content.address)?;
+    same(vector.count("raw"), content.raw)
+}
+
+/// Frames that a receiver of a telegram takes, or does not.
+pub fn can_taken<T: Telegram>(vector: &Vector) -> Outcome {
+    let mut receiver = Receiver::<T>::new(unit(vector));
+    let frames = vector.pairs("frames");
+    let taken = frames.iter().map(|(id, data)| {
+        let id = id.parse().unwrap_or(u32::MAX);
+        u8::from(receiver.take(&Frame::new(id, &bytes(data))))
+    });
+    let taken: Vec<u8> = taken.collect();
+    same(vector.numbers("taken"), taken)
+}
+
+/// What the line of a device is like.
+pub fn bus(vector: &Vector, profile: &Profile, bitrate: Option<u32>) -> Outcome {
+    same(vector.raw("identifier_bits"), profile.identifier_bits())?;
+    same(vector.number("bitrate"), bitrate.map(i128::from))
+}
+
+/// The name of the message whose frames carry a telegram.
+pub fn can_carrier<T: Telegram>(vector: &Vector) -> Outcome {
+    same(vector.text("telegram").as_str(), T::NAME)?;
+    same(vector.text("carrier").as_str(), T::MESSAGE.name())
+}
+
+/// Frames of a telegram, and a point of it.
+pub fn can_telegram<P>(vector: &Vector) -> Outcome
+where
+    P: Received<Raw: Number + PartialEq + std::fmt::Debug>,
+{
+    same(vector.text("telegram").as_str(), P::Telegram::NAME)?;
+    let mut receiver = Receiver::<P::Telegram>::new(unit(vector));
+    let frames = vector.pairs("frames");
+    let taken = frames.iter().map(|(id, data)| {
+        let id = id.parse().unwrap_or(u32::MAX);
+        u8::from(receiver.take(&Frame::new(id, &bytes(data))))
+    });
+    let taken: Vec<u8> = taken.collect();
+    same(vector.numbers("taken"), taken)?;
+    match receiver.raw::<P>() {
+        Ok(raw) => {
+            same(vector.text("status").as_str(), "ok")?;
+            same(vector.raw("raw"), raw)
+        }
+        Err(error) => {
+            same(vector.number("raw"), None)?;
+            same(vector.text("status").as_str(), error.name())
+        }
+    }
+}
+
+fn find<'a>(vector: &Vector, messages: &[&'a Message]) -> Result<&'a Message, String> {
+    let mut named = messages
+        .iter()
+        .filter(|message| message.name() == vector.text("message"));
+    named
+        .next()
+        .copied()
+        .ok_or_else(|| "there is no such message".to_owned())
+}
+
+/// The unit; one that is no byte is as wrong as the last.
+fn unit(vector: &Vector) -> u8 {
+    let unit = vector.number("unit").and_then(Number::from_number);
+    unit.unwrap_or(u8::MAX)
+}
+
+fn word(vector: &Vector, key: &str) -> Option<u16> {
+    vector.number(key).and_then(Number::from_number)
+}

@@ -1,0 +1,530 @@
+// SPDX-License-Identifier: 0BSD
+//! What clients, requests and replies of Modbus do for every device, also where no vector of this one shows it.
+
+#![allow(clippy::too_many_lines, reason = "a line for each case")]
+
+use std::error::Error as _;
+
+use fieldscribe_runtime::modbus::{
+    crc, read_function, reply_length, write_function, AsyncClient, Block, BuildError, Client,
+    ClientError, Command, Framing, Function, Profile, ReplyError, Request,
+};
+use fieldscribe_runtime::{BitGroup, Error, Space, Whole};
+
+use super::now;
+use super::runtime::{at_once, tells, Line, Lost, REFUSED};
+
+made_up!(Word u16, Holding 0x10, &[0x10], 1);
+made_up!(Long u32, Holding 0x20, &[0x20, 0x21], 2);
+made_up!(Group u16, Holding 0x30, &[0x30], 1);
+made_up!(Beyond u32, Holding 0xFFFF, &[0xFFFF], 2);
+made_up!(Relay bool, Coil 0x40, &[0x40], 1);
+
+impl Whole for Word {}
+impl Whole for Long {}
+
+impl BitGroup for Group {
+    const SHIFT: u32 = 4;
+    const MASK: u16 = 0x00F0;
+}
+
+const FUNCTIONS: &[Function] = &[
+    Function::new(1, 3000),
+    Function::new(3, 4),
+    Function::new(5, 1),
+    Function::new(6, 1).without_broadcast(),
+    Function::new(8, 1),
+    Function::new(15, 10),
+    Function::new(16, 4),
+    Function::new(20, 1),
+];
+const BOTH: &[Framing] = &[Framing::Rtu, Framing::Tcp];
+static PROFILE: Profile = Profile::new(FUNCTIONS, BOTH, (1, 9), Some(0));
+static PADDED: Profile = Profile::new(FUNCTIONS, &[Framing::Tcp], (1, 9), None).padding_coils();
+
+/// Panics where the runtime is not as it should be.
+pub fn check() {
+    errors();
+    functions();
+    requests();
+    replies();
+    at_once_over_tcp();
+    now_over_tcp();
+    at_once_over_rtu();
+    now_over_rtu();
+}
+
+fn errors() {
+    tells(
+        BuildError::name,
+        &[
+            (
+                BuildError::BadFraming,
+                "bad_framing",
+                "the device does not speak this framing",
+            ),
+            (
+                BuildError::BadUnit,
+                "bad_unit",
+                "the device has no such unit number",
+            ),
+            (
+                BuildError::BadFunction,
+                "bad_function",
+                "the device does not know the function",
+            ),
+            (
+                BuildError::BadCount,
+                "bad_count",
+                "the device does not take that many items",
+            ),
+            (
+                BuildError::BadAddress,
+                "bad_address",
+                "the items end beyond the last address",
+            ),
+            (
+                BuildError::BadValue,
+                "bad_value",
+                "a bit is neither 0 nor 1",
+            ),
+            (
+                BuildError::BufferTooSmall,
+                "buffer_too_small",
+                "the buffer is too small",
+            ),
+        ],
+    );
+    tells(
+        ReplyError::name,
+        &[
+            (
+                ReplyError::BadFunction,
+                "bad_function",
+                "the function is none of Modbus",
+            ),
+            (
+                ReplyError::ShortFrame,
+                "short_frame",
+                "the frame is too short",
+            ),
+            (ReplyError::LongFrame, "long_frame", "the frame is too long"),
+            (ReplyError::BadCrc, "bad_crc", "the checksum is wrong"),
+            (
+                ReplyError::BadProtocol,
+                "bad_protocol",
+                "the protocol number is not 0",
+            ),
+            (
+                ReplyError::WrongTransaction,
+                "wrong_transaction",
+                "the reply is to another transaction",
+            ),
+            (ReplyError::WrongUnit, "wrong_unit", "another unit replied"),
+            (
+                ReplyError::WrongFunction,
+                "wrong_function",
+                "the reply is to another function",
+            ),
+            (
+                ReplyError::Exception(2),
+                "exception",
+                "the device refused with exception 2",
+            ),
+            (
+                ReplyError::BadByteCount,
+                "bad_byte_count",
+                "the byte count is not what was asked for",
+            ),
+            (
+                ReplyError::EchoMismatch,
+                "echo_mismatch",
+                "the reply repeats something else",
+            ),
+        ],
+    );
+    let errors: [(ClientError<Lost>, &str); 4] = [
+        (Error::Overflow.into(), "the result does not fit its type"),
+        (
+            BuildError::BadUnit.into(),
+            "the device has no such unit number",
+        ),
+        (ReplyError::BadCrc.into(), "the checksum is wrong"),
+        (ClientError::Transport(Lost), "nothing came"),
+    ];
+    for (error, shown) in errors {
+        assert_eq!(error.to_string(), shown);
+        assert_eq!(
+            error.source().map(ToString::to_string).as_deref(),
+            Some(shown)
+        );
+    }
+}
+
+fn functions() {
+    for (space, reads, one, several) in [
+        (Space::Coil, 1, 5, 15),
+        (Space::Discrete, 2, 0, 0),
+        (Space::Holding, 3, 6, 16),
+        (Space::Input, 4, 0, 0),
+        (Space::Parameter, 0, 0, 0),
+    ] {
+        assert_eq!(read_function(space), reads);
+        assert_eq!(
+            (write_function(space, 1), write_function(space, 2)),
+            (one, several)
+        );
+    }
+    let broadcast = [1, 2, 3, 4, 5, 6, 8, 15, 16].map(|number| Function::new(number, 1).broadcast);
+    assert_eq!(
+        broadcast,
+        [false, false, false, false, true, true, false, true, true]
+    );
+    let single = Function::new(6, 7).without_broadcast();
+    assert_eq!(
+        (single.number, single.most, single.broadcast),
+        (6, 7, false)
+    );
+    assert_eq!(
+        [6, 7, 20].map(|number| PROFILE.knows(number)),
+        [true, false, false]
+    );
+    assert_eq!(
+        BOTH.iter()
+            .map(|one| PADDED.speaks(*one))
+            .collect::<Vec<_>>(),
+        [false, true]
+    );
+    assert_eq!([0, 1].map(|unit| PROFILE.is_broadcast(unit)), [true, false]);
+    assert_eq!([0, 1].map(|unit| PADDED.is_broadcast(unit)), [false, false]);
+    let brings = |address, count| Block::new(Space::Holding, 3, address, count).brings::<Long>();
+    assert_eq!(
+        [(0x1F, 3), (0x20, 2)].map(|(address, count)| brings(address, count)),
+        [true, true]
+    );
+    assert_eq!(
+        [(0x1F, 2), (0x20, 1), (0x21, 9)].map(|(address, count)| brings(address, count)),
+        [false; 3]
+    );
+    assert!(!Block::new(Space::Input, 4, 0x20, 2).brings::<Long>());
+    assert!(!Block::new(Space::Holding, 3, 0, 0xFFFF).brings::<Beyond>());
+    assert_eq!(crc(b"123456789"), 0x4B37);
+}
+
+/// A frame over TCP as transaction 7 of unit 5, without its head.
+fn frame(request: Request, profile: &Profile) -> Result<String, BuildError> {
+    let mut buffer = [0; 260];
+    let length = request.tcp(7).build(profile, &mut buffer)?;
+    let head = super::hex(&buffer[..7]);
+    assert_eq!(head, format!("00070000{:04x}05", length - 6));
+    Ok(super::hex(&buffer[7..length]))
+}
+
+fn requests() {
+    let write = |function, address, values| Request::write_values(5, function, address, values);
+    for (request, profile, found) in [
+        (Request::new(5, 1, 2, 2000), &PROFILE, Ok("01000207d0")),
+        (
+            Request::new(5, 1, 2, 2001),
+            &PROFILE,
+            Err(BuildError::BadCount),
+        ),
+        (
+            Request::new(5, 3, 2, 5),
+            &PROFILE,
+            Err(BuildError::BadCount),
+        ),
+        (
+            Request::new(5, 3, 2, 0),
+            &PROFILE,
+            Err(BuildError::BadCount),
+        ),
+        (Request::new(5, 3, 0xFFFC, 4), &PROFILE, Ok("03fffc0004")),
+        (
+            Request::new(5, 3, 0xFFFD, 4),
+            &PROFILE,
+            Err(BuildError::BadAddress),
+        ),
+        (
+            Request::new(5, 4, 0, 1),
+            &PROFILE,
+            Err(BuildError::BadFunction),
+        ),
+        (
+            Request::new(5, 20, 0, 1),
+            &PROFILE,
+            Err(BuildError::BadFunction),
+        ),
+        (Request::read::<Long>(5), &PROFILE, Ok("0300200002")),
+        (
+            Request::block(5, &Block::new(Space::Coil, 1, 3, 9)),
+            &PROFILE,
+            Ok("0100030009"),
+        ),
+        (
+            Request::command(5, &Command::new(6, 3, Some(9))),
+            &PROFILE,
+            Ok("0600030009"),
+        ),
+        (
+            Request::command(5, &Command::new(5, 3, None)),
+            &PROFILE,
+            Ok("050003ff00"),
+        ),
+        (
+            Request::write::<Long>(5, 0x0102_0304),
+            &PROFILE,
+            Ok("10002000020401020304"),
+        ),
+        (
+            Request::update::<Group>(5, 0xABCD, 7),
+            &PROFILE,
+            Ok("060030ab7d"),
+        ),
+        (
+            Request::write_words::<Word>(5, &[9]),
+            &PROFILE,
+            Ok("0600100009"),
+        ),
+        (write(5, 1, &[0]), &PROFILE, Ok("0500010000")),
+        (write(5, 1, &[2]), &PROFILE, Err(BuildError::BadValue)),
+        (write(15, 1, &[1, 2]), &PROFILE, Err(BuildError::BadValue)),
+        (write(16, 1, &[1, 2]), &PROFILE, Ok("10000100020400010002")),
+        (write(8, 0, &[0xA537]), &PROFILE, Ok("080000a537")),
+        (
+            write(8, 1, &[0xA537]),
+            &PROFILE,
+            Err(BuildError::BadAddress),
+        ),
+        (write(6, 1, &[]), &PROFILE, Err(BuildError::BadCount)),
+        (write(6, 1, &[1, 2]), &PROFILE, Err(BuildError::BadCount)),
+        (
+            Request::new(5, 6, 1, 1),
+            &PROFILE,
+            Err(BuildError::BadCount),
+        ),
+        (
+            write(15, 1, &[1, 0, 1, 1, 0, 0, 0, 0, 1]),
+            &PROFILE,
+            Ok("0f00010009020d01"),
+        ),
+        (write(15, 1, &[0, 1]), &PROFILE, Ok("0f000100020102")),
+        (write(15, 1, &[0, 1]), &PADDED, Ok("0f00010002020200")),
+        (
+            write(15, 1, &[0, 1, 0, 0, 0, 0, 0, 0, 1]),
+            &PADDED,
+            Ok("0f00010009020201"),
+        ),
+    ] {
+        assert_eq!(frame(request, profile), found.map(str::to_owned));
+    }
+    let mut buffer = [0; 260];
+    let unit = |unit, function, profile| {
+        let request = Request::write_values(unit, function, 1, &[1]).tcp(1);
+        request.build(profile, &mut [0; 260])
+    };
+    assert_eq!([1, 9].map(|one| unit(one, 6, &PROFILE)), [Ok(12), Ok(12)]);
+    assert_eq!(unit(10, 6, &PROFILE), Err(BuildError::BadUnit));
+    assert_eq!(
+        (unit(0, 6, &PROFILE), unit(0, 16, &PROFILE)),
+        (Err(BuildError::BadUnit), Ok(15))
+    );
+    assert_eq!(unit(0, 16, &PADDED), Err(BuildError::BadUnit));
+    let request = Request::new(5, 3, 0x10, 1);
+    assert_eq!(request.unit(), 5);
+    assert_eq!(
+        request.build(&PADDED, &mut buffer),
+        Err(BuildError::BadFraming)
+    );
+    assert_eq!(request.build(&PROFILE, &mut buffer), Ok(8));
+    assert_eq!(super::hex(&buffer[..8]), "050300100001844b");
+    for length in 0..8 {
+        assert_eq!(
+            request.build(&PROFILE, &mut buffer[..length]),
+            Err(BuildError::BufferTooSmall)
+        );
+    }
+}
+
+/// Bytes with their checksum, the low byte first.
+fn rtu(body: &str) -> Vec<u8> {
+    let bytes = super::bytes(body);
+    let sum = crc(&bytes).to_le_bytes();
+    [bytes.as_slice(), &sum].concat()
+}
+
+fn replies() {
+    let read = Request::new(5, 3, 0x1F, 3);
+    let received = rtu("050306000100020003");
+    let reply = read.parse(&received).expect("a reply");
+    assert_eq!(
+        (reply.count(), reply.items().collect::<Vec<_>>()),
+        (3, vec![1, 2, 3])
+    );
+    assert_eq!(
+        [0, 2, 3].map(|place| reply.item(place)),
+        [Some(1), Some(3), None]
+    );
+    assert_eq!(
+        (reply.raw::<Long>(), reply.raw::<Relay>()),
+        (Ok(0x0002_0003), Err(Error::WrongSpace))
+    );
+    assert_eq!(
+        (reply.raw::<Word>(), reply.raw::<Group>()),
+        (Err(Error::WrongLength), Err(Error::WrongLength))
+    );
+    assert_eq!(reply.raw::<Beyond>(), Err(Error::WrongLength));
+    let received = rtu("050600100009");
+    let reply = Request::write::<Word>(5, 9)
+        .parse(&received)
+        .expect("an echo");
+    assert_eq!(
+        (reply.count(), reply.raw::<Word>(), reply.raw::<Relay>()),
+        (1, Ok(9), Err(Error::WrongSpace))
+    );
+    let received = rtu("05050040ff00");
+    let relay = Request::write_values(5, 5, 0x40, &[1]);
+    let reply = relay.parse(&received).expect("an echo");
+    assert_eq!((reply.item(0), reply.raw::<Relay>()), (Some(1), Ok(true)));
+    let received = rtu("051000200002");
+    let long = Request::write::<Long>(5, 1);
+    assert_eq!(long.parse(&received).map(|reply| reply.count()), Ok(0));
+    let bits = Request::new(5, 1, 0x40, 9);
+    let received = rtu("0501020181");
+    let reply = bits.parse(&received).expect("a reply");
+    assert_eq!(
+        reply.items().collect::<Vec<_>>(),
+        [1, 0, 0, 0, 0, 0, 0, 0, 1]
+    );
+    for (request, bytes, error) in [
+        (
+            Request::new(5, 20, 0, 1),
+            rtu("051400000000"),
+            ReplyError::BadFunction,
+        ),
+        (read, vec![5, 3, 6, 0], ReplyError::ShortFrame),
+        (read, rtu("0503060001000200"), ReplyError::ShortFrame),
+        (read, rtu("05030600010002000304"), ReplyError::LongFrame),
+        (read, rtu("0503040001000200"), ReplyError::LongFrame),
+        (read, rtu("05030400010002"), ReplyError::BadByteCount),
+        (
+            read,
+            vec![5, 3, 6, 0, 1, 0, 2, 0, 3, 0, 0],
+            ReplyError::BadCrc,
+        ),
+        (read, rtu("040306000100020003"), ReplyError::WrongUnit),
+        (read, rtu("050406000100020003"), ReplyError::WrongFunction),
+        (read, rtu("058302"), ReplyError::Exception(2)),
+        (read, rtu("05830200"), ReplyError::LongFrame),
+        (bits, rtu("05010101"), ReplyError::BadByteCount),
+        (long, rtu("051000200003"), ReplyError::EchoMismatch),
+        (long, rtu("051000210002"), ReplyError::EchoMismatch),
+        (relay, rtu("050500400000"), ReplyError::EchoMismatch),
+        (relay, rtu("0505004000"), ReplyError::ShortFrame),
+        (relay, rtu("05050040ff0000"), ReplyError::LongFrame),
+    ] {
+        assert_eq!(request.parse(&bytes).map(|_| ()), Err(error));
+    }
+    for (bytes, error) in [
+        ("0007000000030503", ReplyError::ShortFrame),
+        ("000700010009050306000100020003", ReplyError::BadProtocol),
+        ("000701000009050306000100020003", ReplyError::BadProtocol),
+        ("00070000000a050306000100020003", ReplyError::ShortFrame),
+        ("000700000008050306000100020003", ReplyError::LongFrame),
+        (
+            "000800000009050306000100020003",
+            ReplyError::WrongTransaction,
+        ),
+        ("000700000009060306000100020003", ReplyError::WrongUnit),
+        ("000700000003058304", ReplyError::Exception(4)),
+        ("00070000000405830400", ReplyError::LongFrame),
+    ] {
+        assert_eq!(
+            read.tcp(7).parse(&super::bytes(bytes)).map(|_| ()),
+            Err(error)
+        );
+    }
+    let length = |head: &str| reply_length(&super::bytes(head));
+    assert_eq!(
+        (length("05"), length("0503"), length("050306")),
+        (None, None, Some(11))
+    );
+    assert_eq!(
+        (length("050102"), length("0506"), length("0510")),
+        (Some(7), Some(8), Some(8))
+    );
+    assert_eq!(
+        (
+            length("0583"),
+            length("058302"),
+            length("0507"),
+            length("0587")
+        ),
+        (Some(5), Some(5), None, None)
+    );
+}
+
+/// The same conversation with the client that blocks and the one that does not.
+macro_rules! conversations {
+    ($tcp:ident $rtu:ident $client:ident $wait:ident) => {
+        fn $tcp() {
+            let step = |sent: &str, came: &str| (super::bytes(sent), came.to_owned());
+            let mut client = $client::new(
+                Line::new(&[
+                    step("000100000006050300100001", "0001000000050503021234"),
+                    step("000200000006050300100001", "000200000005050302ffff"),
+                ]),
+                &PROFILE,
+                Framing::Tcp,
+                5,
+            );
+            assert_eq!($wait(client.read::<Word>()), Ok(0x1234));
+            assert_eq!(client.transport().space, 260);
+            assert_eq!(
+                $wait(client.read::<Word>()),
+                Err(ClientError::Point(REFUSED))
+            );
+            client.into_transport().done();
+        }
+
+        fn $rtu() {
+            let step = |sent: &str, came: &str| match came {
+                "" | "?" | "!" => (rtu(sent), came.to_owned()),
+                came => (rtu(sent), super::hex(&rtu(came))),
+            };
+            let line = Line::new(&[
+                step("050300200002", "05030400010002"),
+                step("0510002000020400010003", "?"),
+                step("050600100007", "!"),
+                step("050600100008", "058602"),
+                step("050300300001", "050302abcd"),
+                step("05060030ab7d", "?"),
+                step("050300300001", "?"),
+            ]);
+            let mut client = $client::new(line, &PROFILE, Framing::Rtu, 5);
+            assert_eq!($wait(client.read_with::<Long>(())), Ok(0x0001_0002));
+            let lost = Err(ClientError::Transport(Lost));
+            assert_eq!($wait(client.write::<Long>(0x0001_0003)), lost);
+            let long = Err(ClientError::Reply(ReplyError::LongFrame));
+            assert_eq!($wait(client.write_with::<Word>(7, ())), long);
+            let refused = Err(ClientError::Reply(ReplyError::Exception(2)));
+            assert_eq!($wait(client.write::<Word>(8)), refused);
+            let wrong = Err(ClientError::Point(REFUSED));
+            assert_eq!($wait(client.write::<Word>(0xFFFF)), wrong);
+            assert_eq!($wait(client.update::<Group>(0xFFFF)), wrong);
+            assert_eq!($wait(client.update::<Group>(7)), lost);
+            assert_eq!($wait(client.update::<Group>(7)), lost);
+            client.into_transport().done();
+            let line = Line::new(&[step("0010002000020400010003", "")]);
+            let mut client = $client::new(line, &PROFILE, Framing::Rtu, 0);
+            assert_eq!($wait(client.write::<Long>(0x0001_0003)), Ok(()));
+            assert_eq!(client.transport().space, 0);
+            let none = Err(ClientError::Build(BuildError::BadUnit));
+            assert_eq!($wait(client.read::<Long>()), none);
+            client.into_transport().done();
+        }
+    };
+}
+
+conversations!(at_once_over_tcp at_once_over_rtu Client at_once);
+conversations!(now_over_tcp now_over_rtu AsyncClient now);

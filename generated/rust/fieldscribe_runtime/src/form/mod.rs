@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: 0BSD
+//! What points of one form have in common: a module for each, with the functions that [`point!`](crate::point) calls.
+
+pub mod digits;
+pub mod flags;
+pub mod floating;
+pub mod named;
+pub mod plain;
+pub mod ruled;
+pub mod scaled;
+pub mod text;
+pub mod wide;
+
+use crate::check::{beyond, with_fixed_bits};
+use crate::error::{Outside, Refused};
+use crate::{Error, Raw, Writable};
+
+/// An integer that holds counts.
+pub trait Count: Copy + Into<i128> {
+    /// The least and the greatest number of the type.
+    const ENDS: (i128, i128);
+    /// The number of an `i64` without the upper bits that the type does not have.
+    fn truncated(number: i64) -> Self;
+    /// The number as an `i64`, without the upper bits that this does not have.
+    fn to_i64(self) -> i64;
+}
+
+macro_rules! count {
+    ($($type:ty)+) => {
+        $(impl Count for $type {
+            const ENDS: (i128, i128) = (<$type>::MIN as i128, <$type>::MAX as i128);
+
+            #[inline]
+            fn truncated(number: i64) -> Self {
+                number as Self
+            }
+
+            #[inline]
+            fn to_i64(self) -> i64 {
+                self as i64
+            }
+        })+
+    };
+}
+
+#[allow(
+    clippy::cast_lossless,
+    clippy::cast_possible_truncation,
+    reason = "it says what is lost"
+)]
+mod counts {
+    use super::Count;
+
+    count!(i32 i64 i128);
+}
+
+/// How many counts are one unit.
+#[inline]
+const fn per_unit(decimals: u32) -> i64 {
+    match 10_i64.checked_pow(decimals) {
+        Some(power) => power,
+        None => 0,
+    }
+}
+
+/// The raw number that a point without a scale holds, checked.
+#[inline]
+fn stored<P: Writable>(number: impl Into<i128>, with: P::With) -> Result<P::Raw, Error> {
+    let number = number.into();
+    let raw = P::Raw::from_i128(number).ok_or_else(|| beyond::<P>(number))?;
+    checked::<P>(with_fixed_bits::<P>(raw), with)
+}
+
+/// The raw number, if it may be written.
+#[inline]
+fn checked<P: Writable>(raw: P::Raw, with: P::With) -> Result<P::Raw, Error> {
+    P::check_with(raw, with)?;
+    Ok(raw)
+}
+
+/// The nearest raw number, checked; what is refused is told in values, which `decode` makes of raw numbers.
+#[inline]
+fn nearest<P: Writable>(
+    value: f64,
+    scaled: f64,
+    with: P::With,
+    decode: impl Fn(i128) -> f64,
+) -> Result<P::Raw, Error> {
+    if scaled.is_nan() {
+        return Err(Error::NotANumber);
+    }
+    let Some(raw) = P::Raw::round(scaled) else {
+        let (low, high) = (P::RAW_MIN.to_i128(), P::RAW_MAX.to_i128());
+        return Err(refused_value::<P>(value, decode(low), decode(high)));
+    };
+    match P::check_with(raw, with) {
+        Ok(()) => Ok(raw),
+        Err(Error::OutOfRange(Refused::Raw(Outside { low, high, .. }))) => Err(refused_value::<P>(
+            value,
+            decode(low.into()),
+            decode(high.into()),
+        )),
+        Err(error) => Err(error),
+    }
+}
+
+fn refused_value<P: Writable>(given: f64, low: f64, high: f64) -> Error {
+    let (low, high) = if low <= high {
+        (low, high)
+    } else {
+        (high, low)
+    };
+    let point = P::NAME;
+    Error::OutOfRange(Refused::Value(Outside {
+        point,
+        given,
+        low,
+        high,
+    }))
+}
+
+/// What is said of a raw number that a count became, told in counts, which `decode` makes of raw numbers.
+fn in_counts(error: Error, given: i64, decode: impl Fn(i64) -> Option<i64>) -> Error {
+    let Error::OutOfRange(Refused::Raw(raw)) = error else {
+        return error;
+    };
+    match (decode(raw.low), decode(raw.high)) {
+        (Some(one), Some(other)) => Error::OutOfRange(Refused::Count(Outside {
+            point: raw.point,
+            given,
+            low: one.min(other),
+            high: one.max(other),
+        })),
+        _ => error,
+    }
+}

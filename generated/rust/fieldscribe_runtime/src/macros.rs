@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: 0BSD
+//! The macro that makes a point of its facts.
+
+/// A point of a device: its type, and what its access allows, of the facts that a generated file holds.
+///
+/// The facts stand in this order; those in brackets are there where a point has them:
+///
+/// - its attributes, its type and the type of its raw number, its name in the description \[and its code\];
+/// - the space and the (lowest) address, `[addresses [...]]` in reading order, `[words 2]`, `[index 1]`,
+///   `[telegram "name"]`, `[bits 4 0x00F0 group]`: shift, mask, `group` or `signed_group`, `[fixed 0x8000 0x8000]`: the
+///   bits of the word that are always the same, and what they are;
+/// - `[const NUMBERING: u32 = 1;]`: what other numberings call it;
+/// - `[unit "Hz"]`, `[decimals 1]` of counts, `[raw 30..=4000]`: the least and the greatest raw number;
+/// - `=>` what decoding gives (`value`, a `reading` beside special codes, or either `_or_error`), its type, and the
+///   [form](crate::form) with its own facts;
+/// - `[codes ...]`: the special codes, or where they are;
+/// - `[read { ... }]` and `[write { ... }]`: the type of counts, what is needed from other points, what may be written,
+///   and the function and address if they are not the usual ones;
+/// - `[impl ... { ... }]`: what else it can do on its bus.
+///
+/// ```
+/// use fieldscribe_runtime::{point, CountReadable, Encodable, Point, Readable};
+///
+/// point! {
+///     /// Base frequency.
+///     #[doc(alias = "A003")]
+///     BaseFrequency: u16 = "base_frequency", "A003";
+///     at Holding 0x1019;
+///     unit "Hz";
+///     decimals 1;
+///     raw 300..=4000;
+///     => value f64 as scaled(10, 1);
+///     read { count i32; }
+///     write { count i32; }
+/// }
+///
+/// assert_eq!(BaseFrequency::UNIT, "Hz");
+/// assert_eq!(BaseFrequency::decode(500), 50.0);
+/// assert_eq!(BaseFrequency::decode_count(500), 500);
+/// assert_eq!(BaseFrequency::encode(50.0), Ok(500));
+/// let error = BaseFrequency::encode(29.0).unwrap_err();
+/// assert_eq!(error.to_string(), "base_frequency: 29 is outside 30 to 400");
+/// ```
+#[macro_export]
+macro_rules! point {
+    (
+        $(#[$attribute:meta])*
+        $name:ident: $raw:ty = $item:literal $(, $code:literal)?;
+        at $space:ident $(($other:literal))? $address:literal;
+        $(addresses $addresses:tt;)?
+        $(words $words:literal;)?
+        $(index $index:literal;)?
+        $(telegram $telegram:literal;)?
+        $(bits $shift:literal $mask:literal $extract:ident;)?
+        $(fixed $fixed_mask:literal $fixed_bits:literal;)?
+        $(const $numbering:ident: $number_type:ty = $number:literal;)*
+        $(unit $unit:literal;)?
+        $(decimals $decimals:literal;)?
+        $(raw $low:literal..=$high:literal;)?
+        => $kind:ident $value:ty as $form:ident $facts:tt;
+        $(codes $codes:tt;)?
+        $(read $read:tt)?
+        $(write $write:tt)?
+        $(impl $trait:path { $($member:tt)* })*
+    ) => {
+        $(#[$attribute])*
+        #[derive(Clone, Copy, Debug)]
+        pub struct $name;
+
+        impl $crate::Point for $name {
+            type Raw = $raw;
+            type Value = $crate::point!(@meaning $kind $value, $raw);
+            const NAME: &'static str = $item;
+            $(const CODE: Option<&'static str> = Some($code);)?
+            const SPACE: $crate::Space = $crate::Space::$space$(($other))?;
+            const ADDRESS: u16 = $address;
+            $(const ADDRESSES: &'static [u16] = &$addresses;)?
+            $(const WORDS: u16 = $words;)?
+            $(const INDEX: Option<u8> = Some($index);)?
+            $(const TELEGRAM: Option<&'static str> = Some($telegram);)?
+            $(const FIXED_MASK: u32 = $fixed_mask; const FIXED_BITS: u32 = $fixed_bits;)?
+            const FLOATING: bool = $crate::point!(@floating $form);
+            $(const UNIT: &'static str = $unit;)?
+            $(const DECIMALS: u32 = $decimals;)?
+            $(const RAW_MIN: $raw = $low; const RAW_MAX: $raw = $high;)?
+            $(
+                const IS_GROUPED: bool = true;
+
+                #[inline]
+                fn from_words([word]: [u16; 1]) -> $raw {
+                    $crate::Raw::from_words([$crate::$extract::<Self>(word)])
+                }
+            )?
+        }
+
+        $crate::point!(@placed $name $($shift $mask)?);
+        $crate::point!(@form $form $name $kind ($($low $high)?) $facts);
+        $($crate::point!(@codes $name $raw, $codes);)?
+        $($crate::point!(@read $name $raw, $kind $form $read);)?
+        $($crate::point!(@write $name $raw, $kind $form $write);)?
+        $(impl $trait for $name { $($member)* })*
+        $crate::point!(@numberings $name $($numbering $number_type, $number;)*);
+    };
+
+    (@meaning value $value:ty, $raw:ty) => { $value };
+    (@meaning value_or_error $value:ty, $raw:ty) => { $value };
+    (@meaning $kind:ident $value:ty, $raw:ty) => { $crate::Reading<$value, $raw> };
+
+    (@output value $value:ident) => { $value };
+    (@output reading $value:ident) => { $value };
+    (@output $kind:ident $value:ident) => { Result<$value, $crate::Error> };
+
+    (@decoded reading $raw:ident $value:expr) => { $crate::reading::<Self, _>($raw, |$raw| $value) };
+    (@decoded reading_or_error $raw:ident $value:expr) => { $crate::try_reading::<Self, _>($raw, |$raw| $value) };
+    (@decoded $kind:ident $raw:ident $value:expr) => { $value };
+
+    (@encoded reading $value:ident $raw:expr) => { $crate::encoded::<Self, _>($value, |$value| $raw) };
+    (@encoded reading_or_error $value:ident $raw:expr) => { $crate::encoded::<Self, _>($value, |$value| $raw) };
+    (@encoded $kind:ident $value:ident $raw:expr) => { $raw };
+
+    (@no $given:tt) => { false };
+    (@first $first:ty, $($other:ty,)?) => { $first };
+
+    (@floating floating) => { true };
+    (@floating $form:ident) => { false };
+
+    (@placed $name:ident) => {
+        impl $crate::Whole for $name {}
+    };
+    (@placed $name:ident $shift:literal $mask:literal) => {
+        impl $crate::BitGroup for $name {
+            const SHIFT: u32 = $shift;
+            const MASK: u16 = $mask;
+        }
+    };
+
+    (@numberings $name:ident) => {};
+    (@numberings $name:ident $($numbering:ident $type:ty, $number:literal;)+) => {
+        impl $name {
+            $(
+                #[doc = concat!("The number in the numbering `", stringify!($numbering), "`.")]
+                pub const $numbering: $type = $number;
+            )+
+        }
+    };
+
+    (@form named $name:ident $kind:ident $reach:tt ($carried:ty)) => {
+        impl $crate::Named for $name {
+            type Carried = $carried;
+        }
+    };
+    (@form digits $name:ident $kind:ident $reach:tt ($carried:ty, $numbers:expr)) => {
+        impl $crate::Named for $name {
+            type Carried = $carried;
+        }
+
+        impl $crate::Digits for $name {
+            const NUMBERS: &'static [u16] = &$numbers;
+        }
+    };
+    (@form scaled $name:ident $kind:ident $reach:tt (
+        $num:literal, $den:literal $(, $offset:literal, $over:literal)?
+    )) => {
+        impl $crate::FixedScale for $name {
+            const SCALE: $crate::Scale = $crate::Scale::new($num, $den)$(.plus($offset, $over))?;
+            $crate::point!(@reach $kind $reach);
+        }
+    };
+    (@form wide $name:ident $kind:ident $reach:tt $facts:tt) => {
+        $crate::point!(@form scaled $name $kind $reach $facts);
+    };
+    (@form ruled $name:ident $kind:ident $reach:tt (
+        |$with:ident: $factors:ty| $rule:expr $(; wide $wide:tt)? $(; within [$($within:tt)+])?
+    )) => {
+        impl $crate::Scaled for $name {
+            type Factors = $factors;
+            $(const IS_WIDE: bool = $wide;)?
+            $(
+                #[inline]
+                fn is_beyond(raw: Self::Raw) -> bool {
+                    !matches!(raw, $($within)+)
+                }
+            )?
+
+            #[inline]
+            fn rule($with: Self::Factors) -> Result<$crate::Rule, $crate::Error> {
+                $rule
+            }
+        }
+    };
+    (@form $form:ident $name:ident $kind:ident $reach:tt ()) => {};
+
+    (@reach value ($low:literal $high:literal)) => { const RAW_REACH: (i128, i128) = ($low, $high); };
+    (@reach value_or_error ($low:literal $high:literal)) => { const RAW_REACH: (i128, i128) = ($low, $high); };
+    (@reach $kind:ident $reach:tt) => {};
+
+    (@codes $name:ident $raw:ty, ($all:path)) => {
+        impl $crate::Coded for $name {
+            const CODES: &'static [$crate::Code<$raw>] = $all;
+        }
+    };
+    (@codes $name:ident $raw:ty, {
+        $(
+            $(#[$attribute:meta])*
+            $special:ident $($last:ident)? = $made:ident($text:literal, $low:literal $(..=$high:literal)?);
+        )+
+    }) => {
+        impl $crate::Coded for $name {
+            const CODES: &'static [$crate::Code<$raw>] = &[
+                $($crate::point!(@code Self::$special $(, Self::$last)?)),+
+            ];
+        }
+
+        impl $name {
+            $(
+                $(#[$attribute])*
+                pub const $special: $crate::Special<$raw> = $crate::Special::$made($text, $low);
+                $(
+                    #[doc = concat!("The last raw number of `", $text, "`.")]
+                    pub const $last: $raw = $high;
+                )?
+            )+
+        }
+    };
+    (@code $one:expr) => { $crate::Code::one($one) };
+    (@code $first:expr, $last:expr) => { $crate::Code::band($first, $last) };
+
+    (@read $name:ident $raw:ty, $kind:ident $form:ident {
+        $(count $count:ty;)?
+        $(with $factors:ty;)?
+        $(function $function:literal;)?
+    }) => {
+        impl $crate::Readable for $name {
+            type Factors = $crate::point!(@first $($factors,)? (),);
+            type Output<V> = $crate::point!(@output $kind V);
+            $(const READ_FUNCTION: Option<u8> = Some($function);)?
+
+            #[inline]
+            fn decode_with(raw: $raw, with: Self::Factors) -> Self::Output<Self::Value> {
+                $crate::point!(@decoded $kind raw $crate::form::$form::decode::<Self, _>(raw, with))
+            }
+        }
+
+        $(
+            impl $crate::CountReadable for $name {
+                type Count = $crate::point!(@meaning $kind $count, $raw);
+
+                #[inline]
+                fn decode_count_with(raw: $raw, with: Self::Factors) -> Self::Output<Self::Count> {
+                    $crate::point!(@decoded $kind raw $crate::form::$form::decode_count::<Self, _>(raw, with))
+                }
+            }
+        )?
+    };
+
+    (@write $name:ident $raw:ty, $kind:ident $form:ident {
+        $(count $count:ty;)?
+        $(with $with:ty;)?
+        $(closed $closed:literal;)?
+        $(in $allowed:tt;)?
+        $(ranges $ranges:tt;)?
+        $(limits |$others:ident| $limits:tt;)?
+        $(check $check:path;)?
+        $(function $function:literal;)?
+        $(at $address:literal;)?
+        $(values $values:tt;)?
+    }) => {
+        impl $crate::Writable for $name {
+            type With = $crate::point!(@first $($with,)? (),);
+            $(const WRITE_FUNCTION: Option<u8> = Some($function);)?
+            $(const WRITE_ADDRESS: u16 = $address;)?
+            $(const IS_CLOSED: bool = $closed;)?
+            $(const IS_CONTIGUOUS: bool = $crate::point!(@no $allowed);)?
+            $(const IS_CONTIGUOUS: bool = $crate::point!(@no $limits);)?
+
+            #[inline]
+            fn check_with(raw: $raw, with: Self::With) -> Result<(), $crate::Error> {
+                $crate::point!(@special $kind raw);
+                $crate::point!(@check $form raw with
+                    $(in $allowed)? $(ranges $ranges)? $(limits $others $limits)? $(check $check)?)
+            }
+        }
+
+        $crate::point!(@encode $name $raw, $kind $form $($values)?);
+
+        $(
+            impl $crate::CountWritable for $name {
+                type Count = $crate::point!(@meaning $kind $count, $raw);
+
+                #[inline]
+                fn encode_count_with(count: Self::Count, with: Self::With) -> Result<$raw, $crate::Error> {
+                    $crate::point!(@encoded $kind count $crate::form::$form::encode_count::<Self, _>(count, with))
+                }
+            }
+        )?
+    };
+
+    (@special reading $raw:ident) => {
+        if let Some(special) = <Self as $crate::Coded>::special($raw) {
+            return special.checked();
+        }
+    };
+    (@special reading_or_error $raw:ident) => { $crate::point!(@special reading $raw); };
+    (@special $kind:ident $raw:ident) => {};
+
+    (@check $form:ident $raw:ident $with:ident) => {{
+        let _ = $with;
+        $crate::form::$form::check::<Self>($raw)
+    }};
+    (@check $form:ident $raw:ident $with:ident in [$($allowed:tt)+]) => {{
+        let _ = $with;
+        $crate::check::listed::<Self>($raw, matches!($raw, $($allowed)+))
+    }};
+    (@check $form:ident $raw:ident $with:ident ranges $ranges:tt) => {{
+        let _ = $with;
+        $crate::form::$form::ranged::<Self>($raw, &$ranges)
+    }};
+    (@check $form:ident $raw:ident $with:ident limits $others:ident $limits:tt) => {{
+        let $others = $with;
+        $crate::check::limited::<Self>($raw, &$limits)
+    }};
+    (@check $form:ident $raw:ident $with:ident check $check:path) => {{
+        let _ = $with;
+        $check($raw)
+    }};
+
+    (@encode $name:ident $raw:ty, $kind:ident $form:ident none) => {};
+    (@encode $name:ident $raw:ty, $kind:ident $form:ident) => {
+        impl $crate::Encodable for $name {
+            #[inline]
+            fn encode_with(value: Self::Value, with: Self::With) -> Result<$raw, $crate::Error> {
+                $crate::point!(@encoded $kind value $crate::form::$form::encode::<Self, _>(value, with))
+            }
+        }
+    };
+}

@@ -1,0 +1,121 @@
+"""How a point is read and written, and what of it may be written."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from fieldscribe.model import Limit
+from fieldscribe.targets.rust.forms import count_type
+from fieldscribe.targets.rust.layout import filled
+from fieldscribe.targets.rust.literals import FLOAT_GREATEST, float_literal, integer, nearest_float
+from fieldscribe.targets.rust.rules import interval, limit_lines
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from fieldscribe.model import Bound, Point
+    from fieldscribe.targets.rust.subjects import Scope, Subject
+
+_READS = {"coil": 1, "discrete": 2, "holding": 3, "input": 4}
+_WRITES = {"coil": (5, 15), "holding": (6, 16)}
+_WIDTH = 112
+
+
+def read_lines(subject: Subject) -> tuple[str, ...]:
+    """The facts of reading."""
+    count, factors, place = count_type(subject), subject.factors_type, subject.point.places[0]
+    facts = [f"count {count};"] if count else []
+    facts += [f"with {factors};"] if factors != "()" else []
+    facts += [f"function {place.function};"] if place.function not in (None, _READS.get(place.space)) else []
+    return _block("read", facts)
+
+
+def write_lines(subject: Subject, scope: Scope) -> tuple[str, ...]:
+    """The facts of writing."""
+    count = count_type(subject)
+    facts = [f"count {count};"] if count else []
+    facts += [f"with {subject.with_type};"] if subject.arguments else []
+    facts += ["closed true;"] if subject.closed else []
+    facts += [*_allowed(subject, scope), *_place(subject.point, scope)]
+    return _block("write", facts if subject.point.encodes_values else [*facts, "values none;"])
+
+
+def _block(name: str, facts: list[str]) -> tuple[str, ...]:
+    line = f"{name} {{ {' '.join(facts)} }}" if facts else f"{name} {{}}"
+    if len(line) <= _WIDTH and "\n" not in line:
+        return (line,)
+    lines = (line for fact in facts for line in fact.split("\n"))
+    return (f"{name} {{", *(f"    {line}" for line in lines), "}")
+
+
+def _allowed(subject: Subject, scope: Scope) -> Iterator[str]:
+    """What may be written, where that is not every number between two ends."""
+    point = subject.point
+    if subject.limits:
+        yield "\n".join(_limits(point, scope))
+    elif subject.form == "float":
+        yield from _float_ranges(point)
+    elif subject.form == "text" and point.text is not None:
+        yield from ["check runtime::form::text::ascii::<Self>;"] if point.text.encoding == "ascii" else ()
+    elif subject.form == "digits" and point.digits is not None:
+        yield f"check runtime::form::digits::check::<Self, {point.digits.count}>;"
+    else:
+        ranges = _merged(point)
+        if len(ranges) > 1:
+            yield "\n".join(filled("in [", " | ", [interval(*one) for one in ranges], "];"))
+
+
+def _limits(point: Point, scope: Scope) -> Iterator[str]:
+    """A pair of ends for each range, of which other points set one or both."""
+    yield "limits |with| ["
+    for one in point.allowed.intervals:
+        low, high = _end(one.low, scope, lower=True), _end(one.high, scope, lower=False)
+        line = f"    ({low[0]}, {high[0]}),"
+        if len(low) + len(high) == 2 and len(line) <= _WIDTH:
+            yield line
+        else:
+            yield "    ("
+            for end in (low, high):
+                yield from (f"        {line}" for line in (*end[:-1], f"{end[-1]},"))
+            yield "    ),"
+    yield "];"
+
+
+def _end(bound: Bound, scope: Scope, *, lower: bool) -> tuple[str, ...]:
+    return limit_lines(bound, scope.points, lower=lower) if isinstance(bound, Limit) else (integer(bound),)
+
+
+def _float_ranges(point: Point) -> Iterator[str]:
+    """The limits as the type has them, where they are not the type's own."""
+    greatest = FLOAT_GREATEST[point.width]
+    ends = [[nearest_float(float(end), point.width) for end in pair] for pair in point.allowed.units]
+    if ends and ends != [[-greatest, greatest]]:
+        pairs = ", ".join(f"({float_literal(low)}, {float_literal(high)})" for low, high in ends)
+        yield f"ranges [{pairs}];"
+
+
+def _merged(point: Point) -> list[tuple[int, int]]:
+    """The ranges that may be written in ascending order, neighbours joined."""
+    ends = ((one.low, one.high) for one in point.allowed.intervals)
+    found: list[tuple[int, int]] = []
+    for low, high in sorted((low, high) for low, high in ends if isinstance(low, int) and isinstance(high, int)):
+        if found and low <= found[-1][1] + 1:
+            found[-1] = (found[-1][0], max(high, found[-1][1]))
+        else:
+            found.append((low, high))
+    return found
+
+
+def _place(point: Point, scope: Scope) -> Iterator[str]:
+    """Function and address that write the point, where they are not the usual ones."""
+    first = point.places[0]
+    place = first if first.purpose == "write" else next((one for one in point.places if one.purpose == "write"), first)
+    one, many = _WRITES.get(place.space, (0, 0))
+    usual = one if point.words == 1 else many
+    function = place.function if place.purpose == "write" else None
+    if function is None:
+        function = many if usual not in scope.functions and many in scope.functions else usual
+    if function != usual:
+        yield f"function {function};"
+    if place is not first and place.addresses:
+        yield f"at 0x{min(place.addresses):04X};"

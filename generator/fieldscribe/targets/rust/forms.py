@@ -1,0 +1,98 @@
+"""What decoding a point gives: its type, its form in the runtime, and the facts of that form."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from math import gcd
+from typing import TYPE_CHECKING
+
+from fieldscribe.targets.rust.literals import integer, type_name, type_range
+from fieldscribe.targets.rust.rules import rule_lines
+from fieldscribe.wording.exact import inverse
+
+if TYPE_CHECKING:
+    from fieldscribe.model import Linear
+    from fieldscribe.targets.rust.subjects import Scope, Subject
+
+_COUNTS = {"i32": "i64", "u32": "i64", "i64": "i64", "u64": "i128"}
+"""The integer that holds any raw number of a point without a scale, and numbers beyond: an `i32` for the others."""
+
+
+def form_lines(subject: Subject, scope: Scope) -> tuple[str, ...]:
+    """The fact that says what decoding gives."""
+    kind = "reading" if subject.point.specials else "value"
+    if subject.form == "scaled" and subject.rule is None:
+        return _ruled(subject, scope, kind)
+    form, facts = _form(subject)
+    kind += "_or_error" if form == "wide" else ""
+    return (f"=> {kind} {value_type(subject)} as {form}({facts});",)
+
+
+def value_type(subject: Subject) -> str:
+    """The type of a value that is no special code."""
+    if subject.form in ("scaled", "float"):
+        return "f64"
+    if subject.point.text is not None:
+        return f"runtime::Text<{subject.point.text.characters}>"
+    if subject.enum is not None and subject.point.digits is not None:
+        return f"[enums::{type_name(subject.enum.name)}; {subject.point.digits.count}]"
+    if subject.enum is not None:
+        return f"enums::{type_name(subject.enum.name)}"
+    return f"flags::{subject.name}" if subject.form == "flags" else subject.raw
+
+
+def count_type(subject: Subject) -> str:
+    """The integer that holds the counts of a point; empty if it has none."""
+    point = subject.point
+    if subject.form in ("float", "text", "digits"):
+        return ""
+    if subject.form != "scaled":
+        return _COUNTS.get(subject.raw, "i32")
+    if point.decimals is None:
+        return ""
+    return "i64" if subject.rule is None else f"i{min(64, _width(subject.rule, point.decimals, subject.raw))}"
+
+
+def _form(subject: Subject) -> tuple[str, str]:
+    """The form of a point whose scale, if it has one, needs no other point; and its facts."""
+    point = subject.point
+    if subject.rule is not None:
+        numbers = [subject.rule.ratio, *([subject.rule.offset] if subject.rule.offset else ())]
+        facts = ", ".join(f"{integer(one.numerator)}, {integer(one.denominator)}" for one in numbers)
+        wide = point.decimals is not None and _width(subject.rule, point.decimals, subject.raw) > 64
+        return "wide" if wide else "scaled", facts
+    if subject.form == "digits" and subject.enum is not None:
+        numbers_of = sorted({entry.raw for entry in subject.enum.entries if 0 <= entry.raw <= 0xFFFF})
+        return "digits", f"{subject.carried}, [{', '.join(map(integer, numbers_of))}]"
+    if subject.enum is not None:
+        return "named", subject.carried
+    return {"float": "floating", "text": "text", "flags": "flags"}.get(subject.form, "plain"), ""
+
+
+def _ruled(subject: Subject, scope: Scope, kind: str) -> tuple[str, ...]:
+    """A scale that needs other points: the rule, and the raw numbers that are not too large for it."""
+    point = subject.point
+    head = f"=> {kind}_or_error f64 as ruled(|with: {subject.factors_type}|"
+    wide = "" if point.encodes_values else "; wide true"
+    within = ""
+    if point.most_raw is not None:
+        low = "0" if subject.raw.startswith("u") else integer(-point.most_raw)
+        within = f"; within [{low}..={integer(point.most_raw)}]"
+    lines = rule_lines(point, scope.points)
+    if len(lines) == 1:
+        return head, f"    {lines[0]}{wide}{within});"
+    return head, *(f"    {line}" for line in lines[:-1]), f"    {lines[-1]}{wide}{within});"
+
+
+@lru_cache(maxsize=4096)
+def _width(rule: Linear, decimals: int, raw: str) -> int:
+    """The bits of the narrowest of `i32`, `i64`, `i128` that holds what decoding into counts comes upon."""
+    power = 10**decimals
+    multiply, add, divide = inverse(rule)
+    common = gcd(multiply * power, add * power, divide)
+    multiply, add, divide = multiply * power // common, add * power // common, divide // common
+    ends = type_range(raw)
+    products = [end * multiply for end in ends]
+    numbers = (*ends, *products, *(product + add for product in products), multiply, add, divide)
+    fitting = (bits for bits in (32, 64) if all(-(1 << (bits - 1)) <= one < 1 << (bits - 1) for one in numbers))
+    return next(fitting, 128)

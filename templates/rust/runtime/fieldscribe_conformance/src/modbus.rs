@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: 0BSD
+//! Vectors of Modbus frames and of batched reads.
+
+use fieldscribe_runtime::modbus::{
+    AsyncClient, Block, BuildError, Client, ClientError, Command, Framing, Profile, ReplyError,
+    Request, LONGEST,
+};
+use fieldscribe_runtime::{BitGroup, Decoded, Encodable, Error, Readable, Whole, Writable};
+
+pub use super::modbus_clients::check;
+use super::{exchanged, now, same, Number, Outcome, Script, Vector};
+
+/// The same operation with the client that blocks and the one that does not, each over a script of its own.
+macro_rules! both {
+    ($vector:ident, $profile:ident, |$client:ident| $call:expr) => {{
+        let found = {
+            let mut $client = blocking($vector, $profile);
+            let found = $call;
+            let script = $client.into_transport();
+            exchanged($vector, found, name, &script)?
+        };
+        let again = {
+            let mut $client = waiting($vector, $profile);
+            let found = now($call);
+            let script = $client.into_transport();
+            exchanged($vector, found, name, &script)?
+        };
+        same(true, found == again)?;
+        found
+    }};
+}
+
+fn blocking(vector: &Vector, profile: &'static Profile) -> Client<Script> {
+    Client::new(
+        Script::new(vector),
+        profile,
+        framing(vector),
+        vector.raw("unit"),
+    )
+}
+
+fn waiting(vector: &Vector, profile: &'static Profile) -> AsyncClient<Script> {
+    AsyncClient::new(
+        Script::new(vector),
+        profile,
+        framing(vector),
+        vector.raw("unit"),
+    )
+}
+
+/// A request into bytes.
+pub fn build(vector: &Vector, profile: &Profile) -> Outcome {
+    let values = vector.numbers("values");
+    let request = request(vector, &values);
+    let mut buffer = [0; LONGEST];
+    let (status, length) = match request.build(profile, &mut buffer) {
+        Ok(length) => ("ok", length),
+        Err(error) => (error.name(), 0),
+    };
+    same(vector.text("status").as_str(), status)?;
+    same(vector.bytes("bytes").as_slice(), &buffer[..length])?;
+    if length > 0 {
+        let short = request.build(profile, &mut buffer[..length - 1]);
+        same(Err("buffer_too_small"), short.map_err(BuildError::name))?;
+    }
+    Ok(())
+}
+
+/// Bytes as the reply to a request.
+pub fn reply(vector: &Vector) -> Outcome {
+    let values = vector.numbers("values");
+    let request = request(vector, &values);
+    let bytes = vector.bytes("bytes");
+    let (status, items, exception) = match request.parse(&bytes) {
+        Ok(reply) => ("ok", reply.items().collect::<Vec<_>>(), 0),
+        Err(ReplyError::Exception(code)) => ("exception", Vec::new(), code),
+        Err(error) => (error.name(), Vec::new(), 0),
+    };
+    same(vector.text("status").as_str(), status)?;
+    same(vector.numbers("values_out"), items)?;
+    same(vector.count("exception"), exception)
+}
+
+fn framing(vector: &Vector) -> Framing {
+    match vector.text("framing").as_str() {
+        "tcp" => Framing::Tcp,
+        _ => Framing::Rtu,
+    }
+}
+
+fn name(error: ClientError<()>) -> &'static str {
+    match error {
+        ClientError::Point(error) => error.name(),
+        ClientError::Build(error) => error.name(),
+        ClientError::Reply(error) => error.name(),
+        ClientError::Transport(()) => "timeout",
+    }
+}
+
+/// A point's raw number.
+pub fn read<P>(vector: &Vector, profile: &'static Profile) -> Outcome
+where
+    P: Readable<Raw: Number>,
+{
+    let found = both!(vector, profile, |client| client.read_raw::<P>());
+    same(vector.number("raw"), found.map(Number::to_number))
+}
+
+/// A text's words.
+pub fn read_text<P>(vector: &Vector, profile: &'static Profile) -> Outcome
+where
+    P: Readable + Whole,
+{
+    let found = both!(vector, profile, |client| client.read_raw::<P>());
+    let words = found.map(|raw| P::to_words(raw).as_ref().to_vec());
+    same(vector.numbers("words"), words.unwrap_or_default())
+}
+
+/// The value of a raw number is written.
+pub fn write<P>(
+    vector: &Vector,
+    profile: &'static Profile,
+    factors: P::Factors,
+    with: P::With,
+) -> Outcome
+where
+    P: Readable<Raw: Number, Value: Copy> + Encodable<With: Copy> + Whole,
+{
+    let value = P::decode_with(vector.raw("raw"), factors)
+        .into_result()
+        .map_err(Error::name)?;
+    both!(vector, profile, |client| client
+        .write_with::<P>(value, with));
+    Ok(())
+}
+
+/// A text is written.
+pub fn write_text<P>(vector: &Vector, profile: &'static Profile) -> Outcome
+where
+    P: Readable<Factors = (), Value: Copy> + Encodable<With = ()> + Whole,
+{
+    let words: Vec<u16> = vector.numbers("words");
+    let raw = P::from_received(words.into_iter()).map_err(Error::name)?;
+    let value = P::decode(raw).into_result().map_err(Error::name)?;
+    both!(vector, profile, |client| client.write::<P>(value));
+    Ok(())
+}
+
+/// A group of bits is written into its word.
+pub fn update<P>(vector: &Vector, profile: &'static Profile) -> Outcome
+where
+    P: Readable<Raw: Number, Factors = (), Value: Copy> + Encodable<With = ()> + BitGroup,
+{
+    let value = P::decode(vector.raw("raw"))
+        .into_result()
+        .map_err(Error::name)?;
+    both!(vector, profile, |client| client.update::<P>(value));
+    Ok(())
+}
+
+/// A point that cannot be read is written as it is.
+pub fn write_only<P>(vector: &Vector, profile: &'static Profile) -> Outcome
+where
+    P: Writable<Raw: Number> + Whole,
+{
+    let unit = vector.raw("unit");
+    let request = Request::write::<P>(unit, vector.raw("raw"));
+    let mut client = Client::new(Script::new(vector), profile, framing(vector), unit);
+    let found = client.exchange(request).map(|_| ());
+    exchanged(vector, found, name, &client.into_transport()).map(|_| ())
+}
+
+/// A command.
+pub fn command(vector: &Vector, profile: &'static Profile, command: Command) -> Outcome {
+    let unit = vector.raw("unit");
+    let mut client = Client::new(Script::new(vector), profile, framing(vector), unit);
+    let found = client
+        .exchange(Request::command(unit, &command))
+        .map(|_| ());
+    exchanged(vector, found, name, &client.into_transport())?;
+    same(vector.raw("value"), command.value.unwrap_or(1))
+}
+
+/// A batched read.
+pub fn block(vector: &Vector, blocks: &[(&str, &[Block])]) -> Outcome {
+    let group = blocks
+        .iter()
+        .find(|(name, _)| *name == vector.text("group"));
+    let index = usize::from(vector.raw::<u16>("index"));
+    let block = group.and_then(|(_, blocks)| blocks.get(index));
+    let block = block.ok_or_else(|| "there is no such block".to_owned())?;
+    same(vector.text("space").as_str(), block.space.name())?;
+    same(vector.raw("function"), block.function)?;
+    same(vector.raw("address"), block.address)?;
+    same(vector.raw("count"), block.count)
+}
+
+fn request<'a>(vector: &Vector, values: &'a [u16]) -> Request<'a> {
+    let (unit, function) = (vector.raw("unit"), vector.raw("function"));
+    let address = vector.raw("address");
+    let request = match function {
+        1..=4 => Request::new(unit, function, address, vector.raw("count")),
+        _ => Request::write_values(unit, function, address, values),
+    };
+    match vector.text("framing").as_str() {
+        "tcp" => request.tcp(vector.raw("transaction")),
+        _ => request,
+    }
+}

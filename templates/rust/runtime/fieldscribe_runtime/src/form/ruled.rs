@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: 0BSD
+//! Points whose scale needs the raw numbers of other points.
+
+pub use crate::check::within as check;
+use crate::check::{beyond, saturated};
+use crate::form::{checked, in_counts, nearest, per_unit};
+use crate::{Error, Raw, Scaled, Writable};
+
+/// The value: the binary64 number nearest to the exact one.
+///
+/// # Errors
+/// What the rule says; [`Error::Overflow`].
+#[inline]
+pub fn decode<P: Scaled, V: From<f64>>(raw: P::Raw, with: P::Factors) -> Result<V, Error> {
+    let rule = P::rule(with)?;
+    if P::is_beyond(raw) {
+        return Err(Error::Overflow);
+    }
+    let value = if P::IS_WIDE {
+        rule.decode_wide(raw.to_i128())
+    } else {
+        rule.decode(raw.to_i64())
+    };
+    value.map(V::from)
+}
+
+/// The count nearest to the value, halves away from zero.
+///
+/// # Errors
+/// What the rule says; [`Error::Overflow`].
+#[inline]
+pub fn decode_count<P: Scaled, C: From<i64>>(raw: P::Raw, with: P::Factors) -> Result<C, Error> {
+    let rule = P::rule(with)?;
+    if P::is_beyond(raw) {
+        return Err(Error::Overflow);
+    }
+    rule.decode_count(raw.to_i64(), per_unit(P::DECIMALS))
+        .map(C::from)
+}
+
+/// The raw number nearest to a value, checked; each step is rounded to binary64.
+///
+/// # Errors
+/// What the rule and [`Writable::check_with`] say; [`Error::NotANumber`].
+#[inline]
+pub fn encode<P, V: Into<f64>>(value: V, with: P::With) -> Result<P::Raw, Error>
+where
+    P: Scaled + Writable<With: Into<P::Factors>>,
+{
+    let value = value.into();
+    if value.is_nan() {
+        return Err(Error::NotANumber);
+    }
+    let rule = P::rule(with.into())?;
+    let decode = |raw| rule.decode(saturated(raw)).unwrap_or(f64::NAN);
+    nearest::<P>(value, rule.encode(value), with, decode)
+}
+
+/// The raw number nearest to a count, halves away from zero, checked.
+///
+/// # Errors
+/// What the rule and [`Writable::check_with`] say.
+#[inline]
+pub fn encode_count<P, C: Into<i64>>(count: C, with: P::With) -> Result<P::Raw, Error>
+where
+    P: Scaled + Writable<With: Into<P::Factors>>,
+{
+    let (rule, count) = (P::rule(with.into())?, count.into());
+    let decode = |raw| rule.decode_count(raw, per_unit(P::DECIMALS)).ok();
+    let number = rule.encode_count(count, per_unit(P::DECIMALS));
+    let number = number.map_or(i128::MAX, i128::from);
+    let raw = P::Raw::from_i128(number).ok_or_else(|| beyond::<P>(number));
+    raw.and_then(|raw| checked::<P>(raw, with))
+        .map_err(|error| in_counts(error, count, decode))
+}
