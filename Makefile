@@ -2,7 +2,7 @@
 FIELDSCRIBE = .venv/bin/fieldscribe
 PYTHON = .venv/bin/python
 
-.PHONY: generate test core bench mutants prove fuzz check clean
+.PHONY: generate test core bench mutants prove misra fuzz check clean
 
 generate:           ## compile all descriptions into generated/
 	@sh generator/setup.sh compiler
@@ -25,9 +25,13 @@ bench:              ## measure the compiler as whole processes, and generated Py
 	@sh generator/setup.sh tests
 	$(PYTHON) tests/bench/bench.py
 
-prove:              ## prove that no input makes the frame parsers and builders in C do anything undefined
+prove:              ## prove that no input makes the cores, parsers and builders in C do anything undefined
 	@sh generator/setup.sh tests
 	$(PYTHON) tests/proofs/prove.py
+
+misra:              ## say which rules of MISRA C:2012 the headers of points break, and whether the table knows why
+	@sh generator/setup.sh tests
+	$(PYTHON) tests/misra/misra.py
 
 fuzz:               ## throw mutated descriptions, frames and words at everything that reads them (SEED=1)
 	@sh generator/setup.sh tests

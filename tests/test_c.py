@@ -176,10 +176,33 @@ def test_every_identifier_is_one_thing(device: Device) -> None:
 
 
 def test_a_clash_is_found() -> None:
-    entries = (replace(FREQUENCY_SOURCE.entries[0], name="words"),)
+    entries = (replace(FREQUENCY_SOURCE.entries[0], name="address"),)
     points = (point("base", 1, enum=replace(FREQUENCY_SOURCE, name="base", entries=entries)),)
     clash = replace(sample_device(points), frames=(), blocks={})
-    assert [one.name for one in clashes(c.identifiers(clash))] == ["SAMPLE_DRIVE_BASE_WORDS"]
+    assert [one.name for one in clashes(c.identifiers(clash))] == ["SAMPLE_DRIVE_BASE_ADDRESS"]
+
+
+VENDORED = {"hitachi_l200": (6_000, 260_000), "woodward_mpu2s": (10_000, 480_000)}
+"""Lines and bytes of the headers of points and frames that a firmware team is asked to vendor, at most."""
+
+
+@pytest.mark.parametrize("device", VENDORED)
+def test_what_a_firmware_team_vendors_is_small(device: str) -> None:
+    """Without the shared runtimes and the conformance program; no line is longer than a screen."""
+    texts = [path.read_text("utf-8") for path in (GENERATED / "c").glob(f"{device}*.h")]
+    lines, size = VENDORED[device]
+    assert sum(text.count("\n") for text in texts) <= lines
+    assert sum(len(text.encode()) for text in texts) <= size
+    assert max(len(line) for text in texts for line in text.splitlines()) <= 120
+
+
+def test_a_function_is_one_or_two_statements(sink: Path) -> None:
+    """All else is in the cores."""
+    text = (sink / "c/kitchen_sink.h").read_text("utf-8")
+    bodies = re.findall(r"^\{\n(.*?)^\}|\{ ([^\n]*) \}$", text, re.MULTILINE | re.DOTALL)
+    functions = [block or line for block, line in bodies if "return" in block + line]
+    assert len(functions) > 300
+    assert max(body.count(";") for body in functions) <= 2
 
 
 FUSED = """
@@ -326,6 +349,7 @@ def test_every_raw_survives_every_kind_of_rule(build: str, tmp_path: Path) -> No
 
 NOISE = """
 #include <stdlib.h>
+#define FIELDSCRIBE_IMPLEMENTATION
 #include "sample_drive_modbus.h"
 static uint32_t state = 1U;
 static uint32_t draw(void)
@@ -340,12 +364,13 @@ int main(void)
     unsigned round_number;
     for (round_number = 0; round_number < 200000U; ++round_number) {
         const uint16_t count = (uint16_t)(draw() % 130U + 1U);
-        fieldscribe_modbus_request request = fieldscribe_modbus_read(1U, codes[draw() % 10U], 2U, count);
+        const fieldscribe_modbus_reading what = {codes[draw() % 10U], 2U, count};
+        fieldscribe_modbus_request request = fieldscribe_modbus_read(1U, &what);
         const size_t length = draw() % 24U;
         uint8_t *const bytes = (uint8_t *)malloc(length + 1U);
         uint8_t *const exact = bytes + 1;
         uint16_t *const values = (uint16_t *)malloc(count * sizeof(uint16_t));
-        fieldscribe_modbus_reply reply;
+        fieldscribe_modbus_reply reply = {values, count, 0U, 0U};
         size_t at;
         const fieldscribe_modbus_framing framing = draw() % 2U != 0U ? FIELDSCRIBE_MODBUS_RTU : FIELDSCRIBE_MODBUS_TCP;
         const size_t head = framing == FIELDSCRIBE_MODBUS_TCP ? 6U : 0U;
@@ -367,8 +392,11 @@ int main(void)
                 exact[length - 1U] = (uint8_t)(crc >> 8);
             }
         }
-        (void)fieldscribe_modbus_parse(framing, &request, exact, length, values, count, &reply);
-        if (reply.count > count) {
+        if (fieldscribe_modbus_left(framing, &request, exact, length) > 300U) {
+            return 2;
+        }
+        if (fieldscribe_modbus_parse(framing, &request, exact, length, &reply) != FIELDSCRIBE_MODBUS_OK &&
+            reply.count > 0U) {
             return 1;
         }
         free(values);
@@ -387,21 +415,24 @@ def test_any_bytes_are_safe_to_parse(compiler: str, sample: Path, tmp_path: Path
 
 
 ECHO = """
+#define FIELDSCRIBE_IMPLEMENTATION
 #include "sample_drive_modbus.h"
 int main(void)
 {
     static const uint8_t answer[] = {0, 7, 0, 0, 0, 6, 1, 6, 0x10, 0x28, 1, 0xF4};
     const uint16_t written[1] = {500U};
-    fieldscribe_modbus_request request = fieldscribe_modbus_read(1U, 6U, 0x1028U, 1U);
-    fieldscribe_modbus_reply reply;
+    static const fieldscribe_modbus_writing what = {6U, 0x1028U, 1U};
+    fieldscribe_modbus_request request = fieldscribe_modbus_write(1U, &what, written);
+    fieldscribe_modbus_reply reply = {NULL, 0U, 9U, 9U};
     uint16_t value = 0U;
-    request.values = written;
     request.transaction = 7U;
-    if (fieldscribe_modbus_parse(FIELDSCRIBE_MODBUS_TCP, &request, answer, sizeof answer, NULL, 0U, &reply) !=
+    if (fieldscribe_modbus_parse(FIELDSCRIBE_MODBUS_TCP, &request, answer, sizeof answer, &reply) !=
             FIELDSCRIBE_MODBUS_OK || reply.count != 0U) {
         return 1;
     }
-    if (fieldscribe_modbus_parse(FIELDSCRIBE_MODBUS_TCP, &request, answer, sizeof answer, &value, 1U, &reply) !=
+    reply.values = &value;
+    reply.room = 1U;
+    if (fieldscribe_modbus_parse(FIELDSCRIBE_MODBUS_TCP, &request, answer, sizeof answer, &reply) !=
             FIELDSCRIBE_MODBUS_OK || reply.count != 1U || value != 500U) {
         return 2;
     }
@@ -429,7 +460,7 @@ def test_inexact_arithmetic_is_refused(compiler: str, flag: str, sample: Path) -
 
 def test_a_runtime_of_another_version_is_refused(sample: Path, tmp_path: Path) -> None:
     for path in (sample / "c").glob("*.h"):
-        text = path.read_text("utf-8").replace("MODBUS_INTERFACE 1\n", "MODBUS_INTERFACE 2\n")
+        text = path.read_text("utf-8").replace("MODBUS_INTERFACE 2\n", "MODBUS_INTERFACE 3\n")
         (tmp_path / path.name).write_text(text, encoding="utf-8")
     done = run([tool("gcc"), "-std=c99", "-fsyntax-only", "-x", "c", tmp_path / "sample_drive_modbus.h"])
     assert done.returncode != 0
@@ -471,6 +502,7 @@ def test_cortex_m0_image_is_small_and_without_float(sample: Path, tmp_path: Path
 
 INTEGER_FIRMWARE = """
 #define FIELDSCRIBE_NO_FLOAT
+#define FIELDSCRIBE_IMPLEMENTATION
 #include "kitchen_sink_modbus.h"
 volatile int64_t wanted;
 volatile uint32_t pattern;
@@ -487,7 +519,8 @@ void start(void)
     result = (int32_t)kitchen_sink_current_encode_count(wanted, 3000U, &current);
     result += (int32_t)kitchen_sink_plain_f32_check(pattern);
     word = kitchen_sink_ratio_insert(word, 200U);
-    request = kitchen_sink_plain_u32_write_request(1U, pattern, words);
+    result += (int32_t)fieldscribe_put_u32(kitchen_sink_plain_u32_frame.layout, pattern, words);
+    request = fieldscribe_modbus_write(1U, &kitchen_sink_plain_u32_frame.write, words);
     result += (int32_t)fieldscribe_modbus_build(
         &kitchen_sink_modbus_profile, FIELDSCRIBE_MODBUS_TCP, &request, frame, sizeof frame, &length);
     for (;;) {

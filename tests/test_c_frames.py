@@ -1,35 +1,39 @@
-"""Generated C of the CAN and USS families as firmware uses it: requests, answers, telegrams, and any bytes at all."""
+"""Generated C of frames as firmware uses it: requests, answers, telegrams, and any bytes at all."""
 
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 import wrong_bytes
 from c_device import SANITIZERS, STANDARDS, WARNINGS, driver, kitchen, write_headers
-from fieldscribe.resources import templates_dir
+from fieldscribe.diagnostics import Report
+from fieldscribe.pipeline import load_device
+from fieldscribe.render import render
+from fieldscribe.resources import descriptions_dir, templates_dir
+from fieldscribe.targets import c
 from toolchains import compiled, run, succeed, tool
 
-if TYPE_CHECKING:
-    from pathlib import Path
-
 FAMILIES = ("can", "uss")
+KITCHENS = ("kitchen_sink", "kitchen_can", "kitchen_uss")
 COMPILERS = ("gcc", "clang")
 
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The headers of both kitchens, side by side."""
+    """The headers of a kitchen of each family, side by side."""
     out = tmp_path_factory.mktemp("kitchens")
-    for family in FAMILIES:
-        write_headers(kitchen(f"kitchen_{family}"), out)
+    for name in KITCHENS:
+        write_headers(kitchen(name), out)
     return out / "c"
 
 
 CAN_DIALOGUE = """
 #include <string.h>
+#define FIELDSCRIBE_IMPLEMENTATION
 #include "kitchen_can_can.h"
+static const fieldscribe_can_dialogue *const talk = &kitchen_can_can_dialogue;
 static int shows(const fieldscribe_can_frame *frame, uint32_t id, const char *bytes)
 {
     return frame->id == id && frame->length == 8U && memcmp(frame->data, bytes, 8U) == 0;
@@ -38,44 +42,63 @@ int main(void)
 {
     fieldscribe_can_frame frame = {0U, 0U, {0U}};
     uint16_t raw = 0U;
+    uint16_t word = 0xFFFFU;
     uint16_t words[KITCHEN_CAN_FAULT_TEXT_1_WORDS] = {0U};
     char text[KITCHEN_CAN_FAULT_TEXT_1_CHARACTERS + 1U];
-    uint8_t digits[KITCHEN_CAN_INPUT_DELAYS_DIGITS];
+    uint16_t digits[KITCHEN_CAN_INPUT_DELAYS_DIGITS];
+    fieldscribe_can_reading read_one;
+    fieldscribe_can_writing write_one;
     size_t at;
-    if (kitchen_can_transformer_secondary_read_request(5U, &frame) != FIELDSCRIBE_CAN_OK ||
+    if (fieldscribe_can_read(talk, 5U, &kitchen_can_transformer_secondary_frame.read, &frame) != FIELDSCRIBE_CAN_OK ||
         !shows(&frame, 0x33FU, "\\xFF\\x05\\x01\\xFB\\x00\\x00\\xFE\\xFE")) {
         return 1;
     }
     frame.id = 0x325U;
     memcpy(frame.data, "\\xFF\\x05\\x01\\xFB\\x01\\x90\\xFF\\x6E", 8U);
-    if (kitchen_can_transformer_secondary_read_answer(5U, &frame, &raw) != FIELDSCRIBE_CAN_OK || raw != 400U ||
-        kitchen_can_voltage_limit_read_answer(5U, &frame, &raw) != FIELDSCRIBE_CAN_WRONG_ADDRESS || raw != 400U ||
-        kitchen_can_transformer_secondary_read_answer(6U, &frame, &raw) != FIELDSCRIBE_CAN_WRONG_ID) {
+    if (fieldscribe_can_id(talk->read_answer, 5U) != 0x325U || fieldscribe_can_reply_length(talk->read_answer) != 8U ||
+        fieldscribe_can_reply_length(NULL) != 0U ||
+        fieldscribe_can_read_answer(talk, 5U, &kitchen_can_transformer_secondary_frame.read, &frame, &word) !=
+            FIELDSCRIBE_CAN_OK ||
+        !fieldscribe_take_u16(kitchen_can_transformer_secondary_frame.layout, &word, &raw) || raw != 400U ||
+        fieldscribe_can_read_answer(talk, 5U, &kitchen_can_voltage_limit_frame.read, &frame, &word) !=
+            FIELDSCRIBE_CAN_WRONG_ADDRESS ||
+        word != 400U ||
+        fieldscribe_can_read_answer(talk, 6U, &kitchen_can_transformer_secondary_frame.read, &frame, &word) !=
+            FIELDSCRIBE_CAN_WRONG_ID) {
         return 2;
     }
-    if (kitchen_can_frequency_setpoint_write_request(5U, 0x2D00U, &frame) != FIELDSCRIBE_CAN_OK ||
+    if (!fieldscribe_put_u16(kitchen_can_frequency_setpoint_frame.layout, 0x2D00U, &word) ||
+        fieldscribe_can_write(talk, 5U, &kitchen_can_frequency_setpoint_frame.write, &word, &frame) !=
+            FIELDSCRIBE_CAN_OK ||
         !shows(&frame, 0x33FU, "\\xEE\\x05\\x00\\x0B\\x2D\\x00\\xC3\\x0E")) {
         return 3;
     }
     frame.id = 0x325U;
-    if (kitchen_can_frequency_setpoint_write_answer(5U, 0x2D00U, &frame) != FIELDSCRIBE_CAN_OK ||
-        kitchen_can_frequency_setpoint_write_answer(5U, 0x2D01U, &frame) != FIELDSCRIBE_CAN_ECHO_MISMATCH ||
-        kitchen_can_frequency_setpoint_write_request(31U, 0x2D00U, &frame) != FIELDSCRIBE_CAN_BAD_UNIT) {
+    raw = 0x2D01U;
+    if (fieldscribe_can_write_answer(talk, 5U, &kitchen_can_frequency_setpoint_frame.write, &word, &frame) !=
+            FIELDSCRIBE_CAN_OK ||
+        fieldscribe_can_write_answer(talk, 5U, &kitchen_can_frequency_setpoint_frame.write, &raw, &frame) !=
+            FIELDSCRIBE_CAN_ECHO_MISMATCH ||
+        fieldscribe_can_write(talk, 31U, &kitchen_can_frequency_setpoint_frame.write, &word, &frame) !=
+            FIELDSCRIBE_CAN_BAD_UNIT) {
         return 4;
     }
     /* bits of a shared word, with constants beside them */
-    if (kitchen_can_slow_ramp_write_request(5U, 0xFFFFU, false, &frame) != FIELDSCRIBE_CAN_OK ||
+    word = 0xFFFFU;
+    if (!fieldscribe_put_bit(kitchen_can_slow_ramp_frame.layout, false, &word) ||
+        fieldscribe_can_write(talk, 5U, &kitchen_can_slow_ramp_frame.update, &word, &frame) != FIELDSCRIBE_CAN_OK ||
         frame.data[4] != 0xFFU || frame.data[5] != 0x07U) {
         return 5;
     }
     frame.id = 0x325U;
-    if (kitchen_can_slow_ramp_write_answer(5U, 0xFFFFU, false, &frame) != FIELDSCRIBE_CAN_OK ||
-        kitchen_can_slow_ramp_write_answer(5U, 0xFFFFU, true, &frame) != FIELDSCRIBE_CAN_ECHO_MISMATCH) {
+    if (fieldscribe_can_write_answer(talk, 5U, &kitchen_can_slow_ramp_frame.update, &word, &frame) !=
+        FIELDSCRIBE_CAN_OK) {
         return 12;
     }
     frame.data[0] = 0xFFU;
     frame.data[6] = (uint8_t)(frame.data[6] ^ 0x11U);
-    if (kitchen_can_slow_ramp_read_word(5U, &frame, &raw) != FIELDSCRIBE_CAN_OK || raw != 0xFF07U) {
+    if (fieldscribe_can_read_answer(talk, 5U, &kitchen_can_slow_ramp_frame.read, &frame, &raw) != FIELDSCRIBE_CAN_OK ||
+        raw != 0xFF07U) {
         return 13;
     }
     /* a text: a message for each word */
@@ -83,21 +106,25 @@ int main(void)
         return 6;
     }
     for (at = 0U; at < KITCHEN_CAN_FAULT_TEXT_1_WORDS; ++at) {
-        if (kitchen_can_fault_text_1_write_request(1U, at, words, &frame) != FIELDSCRIBE_CAN_OK) {
+        if (fieldscribe_can_word_to_write(&kitchen_can_fault_text_1_frame.write, at, &write_one) !=
+                FIELDSCRIBE_CAN_OK ||
+            fieldscribe_can_word_to_read(&kitchen_can_fault_text_1_frame.read, at, &read_one) != FIELDSCRIBE_CAN_OK ||
+            fieldscribe_can_write(talk, 1U, &write_one, &words[at], &frame) != FIELDSCRIBE_CAN_OK) {
             return 7;
         }
         frame.id = 0x321U;
-        if (kitchen_can_fault_text_1_write_answer(1U, at, words, &frame) != FIELDSCRIBE_CAN_OK) {
+        if (fieldscribe_can_write_answer(talk, 1U, &write_one, &words[at], &frame) != FIELDSCRIBE_CAN_OK) {
             return 14;
         }
         words[at] = 0U;
         frame.data[0] = 0xFFU;
         frame.data[6] = (uint8_t)(frame.data[6] ^ 0x11U);
-        if (kitchen_can_fault_text_1_read_answer(1U, at, &frame, words) != FIELDSCRIBE_CAN_OK) {
+        if (fieldscribe_can_read_answer(talk, 1U, &read_one, &frame, &words[at]) != FIELDSCRIBE_CAN_OK) {
             return 8;
         }
     }
-    if (kitchen_can_fault_text_1_write_request(1U, at, words, &frame) != FIELDSCRIBE_CAN_BAD_ADDRESS ||
+    if (fieldscribe_can_word_to_write(&kitchen_can_fault_text_1_frame.write, at, &write_one) !=
+            FIELDSCRIBE_CAN_BAD_ADDRESS ||
         kitchen_can_fault_text_1_decode(words, text) != 3U || strcmp(text, "Hot") != 0) {
         return 9;
     }
@@ -111,6 +138,7 @@ int main(void)
 
 CAN_WRONG_BYTES = """
 #include <string.h>
+#define FIELDSCRIBE_IMPLEMENTATION
 #include "kitchen_can_can.h"
 static const uint8_t right[8] = {@RIGHT@};
 static const struct {
@@ -121,27 +149,27 @@ int main(void)
 {
     fieldscribe_can_frame frame = {0x705U, 8U, {0U}};
     fieldscribe_can_slot slots[KITCHEN_CAN_TELEGRAM_HEARTBEAT_SLOTS];
-    fieldscribe_can_receiver receiver = kitchen_can_telegram_heartbeat_listen(5U, slots);
+    fieldscribe_can_receiver receiver = fieldscribe_can_listen(&kitchen_can_telegram_heartbeat, 5U, slots);
     const uint8_t nobody[8] = {5U, 31U, 0U, 0U, 0U, 0U, 5U, 31U};
     uint16_t beats = 0U;
-    uint16_t address = 0U;
-    uint16_t raw = 0U;
+    fieldscribe_can_content content = {5U, 0U, 0U};
     size_t at;
     for (at = 0U; at < sizeof wrong / sizeof wrong[0]; ++at) {
         memcpy(frame.data, right, 8U);
         frame.data[wrong[at].place] = (uint8_t)(frame.data[wrong[at].place] ^ 0x20U);
         if (fieldscribe_can_take(&receiver, &frame) ||
-            fieldscribe_can_parse(&kitchen_can_message_heartbeat, 5U, &frame, &address, &raw) != wrong[at].reason) {
+            fieldscribe_can_parse(&kitchen_can_message_heartbeat, &frame, &content) != wrong[at].reason) {
             return 1 + (int)at;
         }
     }
     memcpy(frame.data, right, 8U);
     if (!fieldscribe_can_take(&receiver, &frame) ||
-        kitchen_can_beats_received(&receiver, &beats) != FIELDSCRIBE_CAN_OK || beats != 0x1234U) {
+        fieldscribe_can_received(&receiver, &kitchen_can_beats_frame.heard, &beats) != FIELDSCRIBE_CAN_OK ||
+        beats != 0x1234U) {
         return 20;
     }
     /* no device has that unit, though the frame is a good one */
-    receiver = kitchen_can_telegram_heartbeat_listen(31U, slots);
+    receiver = fieldscribe_can_listen(&kitchen_can_telegram_heartbeat, 31U, slots);
     frame.id = 0x71FU;
     memcpy(frame.data, nobody, 8U);
     return fieldscribe_can_take(&receiver, &frame) ? 21 : 0;
@@ -162,6 +190,7 @@ def can_wrong_bytes() -> str:
 
 CAN_TELEGRAM = """
 #include <string.h>
+#define FIELDSCRIBE_IMPLEMENTATION
 #include "kitchen_can_can.h"
 static int taken(fieldscribe_can_receiver *receiver, uint8_t multiplexer, uint8_t pattern)
 {
@@ -173,32 +202,42 @@ static int taken(fieldscribe_can_receiver *receiver, uint8_t multiplexer, uint8_
 int main(void)
 {
     fieldscribe_can_slot slots[KITCHEN_CAN_TELEGRAM_MEASUREMENTS_SLOTS];
-    fieldscribe_can_receiver receiver = kitchen_can_telegram_measurements_listen(2U, slots);
+    fieldscribe_can_receiver receiver = fieldscribe_can_listen(&kitchen_can_telegram_measurements, 2U, slots);
     uint32_t hours = 7U;
     int8_t exponent = 0;
-    uint16_t word = 0U;
-    if (kitchen_can_power_exponent_received(&receiver, &exponent) != FIELDSCRIBE_CAN_MISSING || exponent != 0 ||
-        !taken(&receiver, 0U, 0xFEU) || taken(&receiver, KITCHEN_CAN_TELEGRAM_MEASUREMENTS_SLOTS, 0U) ||
-        kitchen_can_power_exponent_received(&receiver, &exponent) != FIELDSCRIBE_CAN_OK || exponent != -2) {
+    uint16_t words[2] = {9U, 9U};
+    uint16_t text[KITCHEN_CAN_DISPLAY_WORDS];
+    if (fieldscribe_can_received(&receiver, &kitchen_can_power_exponent_frame.heard, words) !=
+            FIELDSCRIBE_CAN_MISSING ||
+        words[0] != 9U || !taken(&receiver, 0U, 0xFEU) ||
+        taken(&receiver, KITCHEN_CAN_TELEGRAM_MEASUREMENTS_SLOTS, 0U) ||
+        fieldscribe_can_received(&receiver, &kitchen_can_power_exponent_frame.heard, words) != FIELDSCRIBE_CAN_OK ||
+        !fieldscribe_take_s8(kitchen_can_power_exponent_frame.layout, words, &exponent) || exponent != -2) {
         return 1;
     }
     /* a number over two frames counts once its high word came before and after its low word */
+    words[0] = 9U;
     if (!taken(&receiver, 1U, 0x01U) || !taken(&receiver, 2U, 0x02U) ||
-        kitchen_can_operating_hours_received(&receiver, &hours) != FIELDSCRIBE_CAN_TORN || hours != 7U ||
-        !taken(&receiver, 1U, 0x01U) ||
-        kitchen_can_operating_hours_received(&receiver, &hours) != FIELDSCRIBE_CAN_OK || hours != 0x01010202U) {
+        fieldscribe_can_received(&receiver, &kitchen_can_operating_hours_frame.heard, words) != FIELDSCRIBE_CAN_TORN ||
+        words[0] != 9U || !taken(&receiver, 1U, 0x01U) ||
+        fieldscribe_can_received(&receiver, &kitchen_can_operating_hours_frame.heard, words) != FIELDSCRIBE_CAN_OK ||
+        !fieldscribe_take_u32(kitchen_can_operating_hours_frame.layout, words, &hours) || hours != 0x01010202U) {
         return 2;
     }
-    if (fieldscribe_can_word(&receiver, KITCHEN_CAN_TELEGRAM_MEASUREMENTS_WORDS, &word) != FIELDSCRIBE_CAN_MISSING) {
+    if (fieldscribe_can_word(&receiver, KITCHEN_CAN_TELEGRAM_MEASUREMENTS_WORDS, words) != FIELDSCRIBE_CAN_MISSING) {
         return 3;
     }
-    return kitchen_can_display_received(&receiver, &word) == FIELDSCRIBE_CAN_MISSING ? 0 : 4;
+    return fieldscribe_can_received_text(&receiver, &kitchen_can_display_frame.heard, text) == FIELDSCRIBE_CAN_MISSING
+        ? 0
+        : 4;
 }
 """
 
 USS_DIALOGUE = """
 #include <string.h>
+#define FIELDSCRIBE_IMPLEMENTATION
 #include "kitchen_uss_uss.h"
+static const fieldscribe_uss_profile *const drive = &kitchen_uss_uss_profile;
 int main(void)
 {
     static const uint8_t answer[] = {0x02, 0x0C, 0x03, 0x12, 0xBC, 0, 0, 0, 0x02, 0xFA, 0x31, 0, 0, 0x6A};
@@ -206,71 +245,79 @@ int main(void)
     const fieldscribe_uss_link link = {FIELDSCRIBE_USS_VARIABLE, 2U, false};
     const uint16_t mask[4] = {6U, 0xFFFFU, 0U, 0U};
     uint8_t frame[FIELDSCRIBE_USS_MOST];
-    uint16_t words[KITCHEN_USS_TELEGRAM_TASK_WORDS];
+    uint16_t words[KITCHEN_USS_TELEGRAM_TASK_WORDS] = {0U}; /* no bit that makes the control word count */
+    uint16_t heard[KITCHEN_USS_TELEGRAM_TASK_WORDS];
+    uint16_t value[2];
     size_t length = 0U;
     int16_t raw = 0;
     uint16_t source = 0U;
-    fieldscribe_uss_reply reply;
-    fieldscribe_uss_request request = kitchen_uss_command_source_read_request(3U);
-    kitchen_uss_telegram_task_start(words);
-    if (words[0] != 0U || words[1] != 0U || /* no bit that makes the control word count: reading commands nothing */
-        kitchen_uss_main_setpoint_encode_count(4000000, 0U, 0x42480000U, &raw) != KITCHEN_USS_OK || raw != 0x3333) {
+    const fieldscribe_uss_words process = {words, 2U};
+    fieldscribe_uss_reply reply = {heard, KITCHEN_USS_TELEGRAM_TASK_WORDS, 0U, 0U, 0U, 0U};
+    fieldscribe_uss_request request = fieldscribe_uss_read(3U, &kitchen_uss_command_source_frame.read);
+    const kitchen_uss_main_setpoint_with setpoint = {0U, 0x42480000U};
+    if (kitchen_uss_main_setpoint_encode_count(4000000, &setpoint, &raw) != KITCHEN_USS_OK || raw != 0x3333) {
         return 1;
     }
-    kitchen_uss_control_word_to_pzd(0x007FU, words); /* the constant bit comes by itself */
-    kitchen_uss_main_setpoint_to_pzd(raw, words);
-    if (fieldscribe_uss_build(&kitchen_uss_uss_profile, &link, &request, words, 2U, frame, sizeof frame, &length) !=
-            FIELDSCRIBE_USS_OK ||
+    /* the constant bit comes by itself */
+    if (!fieldscribe_put_u16(kitchen_uss_control_word_frame.layout, 0x007FU,
+            fieldscribe_uss_words_sent(&kitchen_uss_control_word_frame.sent, words)) ||
+        !fieldscribe_put_s16(kitchen_uss_main_setpoint_frame.layout, raw,
+            fieldscribe_uss_words_sent(&kitchen_uss_main_setpoint_frame.sent, words)) ||
+        fieldscribe_uss_build(drive, &link, &request, &process, frame, sizeof frame, &length) != FIELDSCRIBE_USS_OK ||
         length != 16U ||
         memcmp(frame, "\\x02\\x0E\\x03\\x12\\xBC\\0\\0\\0\\0\\0\\0\\x04\\x7F\\x33\\x33\\xDA", 16U) != 0) {
         return 2;
     }
-    if (fieldscribe_uss_build(&kitchen_uss_uss_profile, &link, &request, words, 2U, frame, 15U, &length) !=
+    if (fieldscribe_uss_build(drive, &link, &request, &process, frame, 15U, &length) !=
             FIELDSCRIBE_USS_BUFFER_TOO_SMALL ||
         length != 0U) {
         return 3;
     }
-    if (fieldscribe_uss_parse(&kitchen_uss_uss_profile, &link, &request, answer, sizeof answer, words, 4U, &reply) !=
-            FIELDSCRIBE_USS_OK ||
-        !kitchen_uss_command_source_from_reply(&reply, &source) || source != KITCHEN_USS_COMMAND_SOURCE_TERMINALS ||
-        kitchen_uss_status_word_from_pzd(words) != 0xFA31U || kitchen_uss_main_actual_value_from_pzd(words) != 0) {
+    if (fieldscribe_uss_parse(drive, &link, &request, answer, sizeof answer, &reply) != FIELDSCRIBE_USS_OK ||
+        fieldscribe_uss_words_of_reply(&reply, &kitchen_uss_command_source_frame.read, value) != FIELDSCRIBE_USS_OK ||
+        !fieldscribe_take_u16(kitchen_uss_command_source_frame.layout, value, &source) ||
+        source != KITCHEN_USS_COMMAND_SOURCE_TERMINALS ||
+        fieldscribe_uss_words_heard(&kitchen_uss_status_word_frame.heard, heard)[0] != 0xFA31U ||
+        fieldscribe_uss_words_heard(&kitchen_uss_main_actual_value_frame.heard, heard)[0] != 0U) {
         return 4;
     }
-    if (fieldscribe_uss_parse(&kitchen_uss_uss_profile, &link, &request, answer, sizeof answer, words, 1U, &reply) !=
+    reply.room = 1U;
+    if (fieldscribe_uss_parse(drive, &link, &request, answer, sizeof answer, &reply) !=
         FIELDSCRIBE_USS_BUFFER_TOO_SMALL) {
         return 5;
     }
-    request = kitchen_uss_maximum_frequency_write_request(3U, 0x42200000U);
-    if (request.task != KITCHEN_USS_TASK_WRITE_DOUBLE_WORD ||
-        fieldscribe_uss_parse(&kitchen_uss_uss_profile, &link, &request, refusal, sizeof refusal, words, 4U, &reply) !=
-            FIELDSCRIBE_USS_REFUSED ||
-        reply.error != KITCHEN_USS_ERROR_NOT_NOW ||
-        kitchen_uss_status_word_from_pzd(words) != 0xFA31U ||
-        strcmp(kitchen_uss_error_name(reply.error), "not_now") != 0) {
+    reply.room = KITCHEN_USS_TELEGRAM_TASK_WORDS;
+    if (!fieldscribe_put_u32(kitchen_uss_maximum_frequency_frame.layout, 0x42200000U, value)) {
         return 6;
     }
-    request = kitchen_uss_maximum_frequency_write_eeprom_request(3U, 0x42200000U);
-    if (request.task != 13U || request.width != 2U || request.parameter != 1082U) {
+    request = fieldscribe_uss_write(3U, &kitchen_uss_maximum_frequency_frame.write, value);
+    if (request.task != KITCHEN_USS_TASK_WRITE_DOUBLE_WORD || request.value != 0x42200000U ||
+        fieldscribe_uss_parse(drive, &link, &request, refusal, sizeof refusal, &reply) != FIELDSCRIBE_USS_REFUSED ||
+        reply.error != KITCHEN_USS_ERROR_NOT_NOW || heard[0] != 0xFA31U ||
+        strcmp(kitchen_uss_error_name(reply.error), "not_now") != 0) {
         return 7;
     }
-    request = kitchen_uss_baud_rate_index_1_write_eeprom_request(3U, 6U);
-    if (request.task != 12U || request.index != 1U || request.width != 1U || request.value != 6U) {
+    request = fieldscribe_uss_write(3U, &kitchen_uss_maximum_frequency_eeprom_frame.write, value);
+    if (request.task != 13U || request.width != 2U || request.parameter != 1082U) {
         return 8;
     }
-    request = kitchen_uss_reaction_write_request(3U, -5);
-    reply.width = 1U;
-    reply.value = 0xFFFBU;
-    if (request.value != 0xFFFBU || !kitchen_uss_reaction_from_reply(&reply, &raw) || raw != -5 ||
-        kitchen_uss_error_name(3U) != NULL) {
+    value[0] = 6U;
+    request = fieldscribe_uss_write(3U, &kitchen_uss_baud_rate_index_1_eeprom_frame.write, value);
+    if (request.task != 12U || request.index != 1U || request.width != 1U || request.value != 6U) {
         return 9;
     }
-    if (fieldscribe_uss_build_broadcast(
-            &kitchen_uss_uss_profile, &link, mask, words, 2U, frame, sizeof frame, &length) != FIELDSCRIBE_USS_OK ||
-        frame[2] != 0x20U || length != 16U) {
+    if (!fieldscribe_put_s16(kitchen_uss_reaction_frame.layout, -5, value) || value[0] != 0xFFFBU ||
+        !fieldscribe_take_s16(kitchen_uss_reaction_frame.layout, value, &raw) || raw != -5 ||
+        kitchen_uss_error_name(3U) != NULL) {
         return 10;
     }
+    if (fieldscribe_uss_build_broadcast(drive, &link, mask, &process, frame, sizeof frame, &length) !=
+            FIELDSCRIBE_USS_OK ||
+        frame[2] != 0x20U || length != 16U) {
+        return 11;
+    }
     request = fieldscribe_uss_exchange(3U);
-    return request.task == KITCHEN_USS_TASK_NO_TASK && request.unit == 3U ? 0 : 11;
+    return request.task == KITCHEN_USS_TASK_NO_TASK && request.unit == 3U ? 0 : 12;
 }
 """
 
@@ -302,6 +349,7 @@ static uint32_t draw(void)
 
 CAN_NOISE = """
 #include <stdlib.h>
+#define FIELDSCRIBE_IMPLEMENTATION
 #include "kitchen_can_can.h"
 @DRAW@
 int main(void)
@@ -310,14 +358,14 @@ int main(void)
         &kitchen_can_message_read_answer, &kitchen_can_message_write_request, &kitchen_can_message_heartbeat};
     fieldscribe_can_slot *const slots =
         (fieldscribe_can_slot *)malloc(KITCHEN_CAN_TELEGRAM_MEASUREMENTS_SLOTS * sizeof(fieldscribe_can_slot));
-    fieldscribe_can_receiver receiver = kitchen_can_telegram_measurements_listen(1U, slots);
+    fieldscribe_can_receiver receiver = fieldscribe_can_listen(&kitchen_can_telegram_measurements, 1U, slots);
     unsigned round_number;
     unsigned taken = 0U;
+    unsigned torn = 0U;
     for (round_number = 0; round_number < 300000U; ++round_number) {
         fieldscribe_can_frame frame;
-        uint16_t address;
-        uint16_t raw;
-        uint32_t hours;
+        uint16_t words[2];
+        fieldscribe_can_content content = {0U, 0U, 0U};
         size_t at;
         frame.id = draw() % 4U == 0U ? draw() : 0x321U;
         frame.length = (uint8_t)(draw() % 4U == 0U ? draw() % 256U : 8U);
@@ -328,17 +376,25 @@ int main(void)
             frame.data[0] = 0xDDU;
             frame.data[1] = (uint8_t)(draw() % 8U);
         }
-        (void)fieldscribe_can_parse(messages[draw() % 3U], (uint8_t)(draw() & 0xFFU), &frame, &address, &raw);
+        content.unit = draw() & 0x1FFU;
+        if (fieldscribe_can_parse(messages[draw() % 3U], &frame, &content) != FIELDSCRIBE_CAN_OK &&
+            (content.address != 0U || content.raw != 0U)) {
+            return 2;
+        }
         taken += fieldscribe_can_take(&receiver, &frame) ? 1U : 0U;
-        (void)kitchen_can_operating_hours_received(&receiver, &hours);
+        torn += fieldscribe_can_received(&receiver, &kitchen_can_operating_hours_frame.heard, words) ==
+                FIELDSCRIBE_CAN_TORN
+            ? 1U
+            : 0U;
     }
     free(slots);
-    return taken > 1000U ? 0 : 1;
+    return taken > 1000U && torn > 1000U ? 0 : 1;
 }
 """
 
 USS_NOISE = """
 #include <stdlib.h>
+#define FIELDSCRIBE_IMPLEMENTATION
 #include "kitchen_uss_uss.h"
 @DRAW@
 int main(void)
@@ -348,12 +404,13 @@ int main(void)
     unsigned good = 0U;
     for (round_number = 0; round_number < 300000U; ++round_number) {
         const fieldscribe_uss_link link = {lengths[draw() % 5U], (uint8_t)(draw() % 5U), draw() % 2U == 0U};
-        fieldscribe_uss_request request = fieldscribe_uss_read(1U, (uint8_t)(draw() % 16U), 700U, 0U);
+        const fieldscribe_uss_reading what = {(uint8_t)(draw() % 16U), 700U, 0U, 1U};
+        const fieldscribe_uss_request request = fieldscribe_uss_read(1U, &what);
         const size_t length = draw() % 30U;
         uint8_t *const bytes = (uint8_t *)malloc(length + 1U);
         uint8_t *const exact = bytes + 1;
         uint16_t *const words = (uint16_t *)malloc((link.pzd + 1U) * sizeof(uint16_t));
-        fieldscribe_uss_reply reply;
+        fieldscribe_uss_reply reply = {words, link.pzd, 0U, 0U, 0U, 0U};
         size_t at;
         for (at = 0U; at < length; ++at) {
             exact[at] = (uint8_t)(draw() & 0xFFU);
@@ -368,7 +425,10 @@ int main(void)
             exact[6] = 0U;
             exact[length - 1U] = fieldscribe_uss_check(exact, length - 1U);
         }
-        if (fieldscribe_uss_parse(&kitchen_uss_uss_profile, &link, &request, exact, length, words, link.pzd, &reply) ==
+        if (fieldscribe_uss_left(&link, exact, length) > 257U) {
+            return 2;
+        }
+        if (fieldscribe_uss_parse(&kitchen_uss_uss_profile, &link, &request, exact, length, &reply) ==
             FIELDSCRIBE_USS_OK) {
             ++good;
         }
@@ -391,6 +451,7 @@ def test_any_bytes_are_safe_to_parse(noise: str, compiler: str, folder: Path, tm
 # what no generated table holds, and no request that can be sent
 STRANGE = {
     "can": """
+#define FIELDSCRIBE_IMPLEMENTATION
 #include "fieldscribe_can.h"
 int main(void)
 {
@@ -403,10 +464,10 @@ int main(void)
     fieldscribe_can_slot slots[2];
     fieldscribe_can_frame frame = {0x100U, 8U, {0xFFU, 0xFFU, 1U, 2U, 3U, 4U, 0U, 0U}};
     fieldscribe_can_receiver receiver = fieldscribe_can_listen(&none, 1U, slots);
-    uint16_t address = 0U;
+    fieldscribe_can_content content = {1U, 0U, 0U};
     uint16_t raw = 0U;
     if (fieldscribe_can_slots(&none) != 2U || fieldscribe_can_slots(&many) != 2U ||
-        fieldscribe_can_parse(&message, 1U, &frame, &address, &raw) != FIELDSCRIBE_CAN_OK || raw != 0xFE00U) {
+        fieldscribe_can_parse(&message, &frame, &content) != FIELDSCRIBE_CAN_OK || content.raw != 0xFE00U) {
         return 1;
     }
     return fieldscribe_can_take(&receiver, &frame) &&
@@ -419,32 +480,36 @@ int main(void)
     "uss": """
 #include <stdlib.h>
 #include <string.h>
+#define FIELDSCRIBE_IMPLEMENTATION
 #include "kitchen_uss_uss.h"
 int main(void)
 {
     static const fieldscribe_uss_link link = {1U, 0U, false}; /* one word: no device has such a parameter part */
-    const fieldscribe_uss_request request = fieldscribe_uss_read(3U, 1U, 0U, 0U);
+    static const fieldscribe_uss_reading what = {1U, 0U, 0U, 1U};
+    const fieldscribe_uss_request request = fieldscribe_uss_read(3U, &what);
     uint8_t *const bytes = malloc(6U);
-    fieldscribe_uss_reply reply;
+    fieldscribe_uss_reply reply = {NULL, 0U, 0U, 0U, 0U, 0U};
     fieldscribe_uss_status status;
     if (bytes == NULL) {
         return 1;
     }
     memcpy(bytes, "\\x02\\x04\\x03\\x10\\x00\\x15", 6U);
-    status = fieldscribe_uss_parse(&kitchen_uss_uss_profile, &link, &request, bytes, 6U, NULL, 0U, &reply);
+    status = fieldscribe_uss_parse(&kitchen_uss_uss_profile, &link, &request, bytes, 6U, &reply);
     free(bytes);
     return status == FIELDSCRIBE_USS_WRONG_LENGTH ? 0 : 2;
 }
 """,
     "modbus": """
+#define FIELDSCRIBE_IMPLEMENTATION
 #include "fieldscribe_modbus.h"
 int main(void)
 {
     static const uint8_t frame[12] = {0U, 0U, 0U, 0U, 0U, 6U, 1U, 6U, 0U, 0U, 0U, 0U};
     uint16_t one[1] = {0U};
-    const fieldscribe_modbus_request nothing = fieldscribe_modbus_write(1U, 0x06U, 0U, 0U, one + 1);
-    fieldscribe_modbus_reply reply;
-    return fieldscribe_modbus_parse(FIELDSCRIBE_MODBUS_TCP, &nothing, frame, 12U, NULL, 0U, &reply) ==
+    static const fieldscribe_modbus_writing what = {0x06U, 0U, 0U};
+    const fieldscribe_modbus_request nothing = fieldscribe_modbus_write(1U, &what, one + 1);
+    fieldscribe_modbus_reply reply = {NULL, 0U, 0U, 0U};
+    return fieldscribe_modbus_parse(FIELDSCRIBE_MODBUS_TCP, &nothing, frame, 12U, &reply) ==
             FIELDSCRIBE_MODBUS_ECHO_MISMATCH
         ? 0
         : 1;
@@ -467,7 +532,7 @@ def test_strange_tables_and_requests_are_safe(family: str, compiler: str, folder
 def test_a_runtime_of_another_version_is_refused(family: str, folder: Path, tmp_path: Path) -> None:
     for path in folder.glob("*.h"):
         text = path.read_text("utf-8")
-        renewed = text.replace(f"_{family.upper()}_INTERFACE 1\n", f"_{family.upper()}_INTERFACE 2\n")
+        renewed = text.replace(f"_{family.upper()}_INTERFACE 2\n", f"_{family.upper()}_INTERFACE 3\n")
         (tmp_path / path.name).write_text(renewed, encoding="utf-8")
     header = tmp_path / f"kitchen_{family}_{family}.h"
     done = run([tool("gcc"), "-std=c99", "-fsyntax-only", "-x", "c", header])
@@ -475,8 +540,12 @@ def test_a_runtime_of_another_version_is_refused(family: str, folder: Path, tmp_
     assert "of another version" in done.stderr
 
 
+SECTIONS = ("-ffunction-sections", "-fdata-sections", "-Wl,--gc-sections")
+"""What leaves out functions that nobody calls."""
+
 CAN_FIRMWARE = """
 #define FIELDSCRIBE_NO_FLOAT
+#define FIELDSCRIBE_IMPLEMENTATION
 #include "kitchen_can_can.h"
 volatile int64_t wanted;
 volatile int32_t result;
@@ -485,13 +554,15 @@ fieldscribe_can_slot slots[KITCHEN_CAN_TELEGRAM_MEASUREMENTS_SLOTS];
 void start(void);
 void start(void)
 {
-    fieldscribe_can_receiver receiver = kitchen_can_telegram_measurements_listen(1U, slots);
-    uint32_t hours = 0U;
+    fieldscribe_can_receiver receiver = fieldscribe_can_listen(&kitchen_can_telegram_measurements, 1U, slots);
+    uint16_t words[2] = {0U, 0U};
     uint16_t raw = 0U;
     result = (int32_t)kitchen_can_voltage_setpoint_100v_encode_count(wanted, 400U, &raw);
-    result += (int32_t)kitchen_can_voltage_setpoint_100v_write_request(1U, raw, &frame);
+    result += (int32_t)fieldscribe_put_u16(kitchen_can_voltage_setpoint_100v_frame.layout, raw, words);
+    result += (int32_t)fieldscribe_can_write(
+        &kitchen_can_can_dialogue, 1U, &kitchen_can_voltage_setpoint_100v_frame.write, words, &frame);
     result += (int32_t)fieldscribe_can_take(&receiver, &frame);
-    result += (int32_t)kitchen_can_operating_hours_received(&receiver, &hours);
+    result += (int32_t)fieldscribe_can_received(&receiver, &kitchen_can_operating_hours_frame.heard, words);
     for (;;) {
     }
 }
@@ -499,6 +570,7 @@ void start(void)
 
 USS_FIRMWARE = """
 #define FIELDSCRIBE_NO_FLOAT
+#define FIELDSCRIBE_IMPLEMENTATION
 #include "kitchen_uss_uss.h"
 volatile int64_t wanted;
 volatile uint32_t reference;
@@ -509,21 +581,24 @@ void start(void);
 void start(void)
 {
     const fieldscribe_uss_link link = {FIELDSCRIBE_USS_VARIABLE, 2U, false};
-    const fieldscribe_uss_request request = kitchen_uss_maximum_frequency_read_request(1U);
-    fieldscribe_uss_reply reply;
-    uint16_t words[KITCHEN_USS_TELEGRAM_TASK_WORDS];
+    const fieldscribe_uss_request request = fieldscribe_uss_read(1U, &kitchen_uss_maximum_frequency_frame.read);
+    uint16_t words[KITCHEN_USS_TELEGRAM_TASK_WORDS] = {0U};
+    const fieldscribe_uss_words process = {words, 2U};
+    fieldscribe_uss_reply reply = {words, 2U, 0U, 0U, 0U, 0U};
     size_t length = 0U;
     int16_t raw = 0;
     int64_t count = 0;
-    kitchen_uss_telegram_task_start(words);
-    result = (int32_t)kitchen_uss_main_setpoint_encode_count(wanted, 0U, reference, &raw);
-    kitchen_uss_main_setpoint_to_pzd(raw, words);
+    const kitchen_uss_main_setpoint_with setpoint = {0U, reference};
+    result = (int32_t)kitchen_uss_main_setpoint_encode_count(wanted, &setpoint, &raw);
+    result += (int32_t)fieldscribe_put_s16(kitchen_uss_main_setpoint_frame.layout, raw,
+        fieldscribe_uss_words_sent(&kitchen_uss_main_setpoint_frame.sent, words));
     result += (int32_t)fieldscribe_uss_build(
-        &kitchen_uss_uss_profile, &link, &request, words, 2U, frame, sizeof frame, &length);
+        &kitchen_uss_uss_profile, &link, &request, &process, frame, sizeof frame, &length);
     result += (int32_t)fieldscribe_uss_parse(
-        &kitchen_uss_uss_profile, &link, &request, frame, length, words, 2U, &reply);
-    result += (int32_t)kitchen_uss_main_actual_value_decode_count(
-        kitchen_uss_main_actual_value_from_pzd(words), 0U, reference, &count);
+        &kitchen_uss_uss_profile, &link, &request, frame, length, &reply);
+    result += (int32_t)fieldscribe_take_s16(kitchen_uss_main_actual_value_frame.layout,
+        fieldscribe_uss_words_heard(&kitchen_uss_main_actual_value_frame.heard, words), &raw);
+    result += (int32_t)kitchen_uss_main_actual_value_decode_count(raw, &setpoint, &count);
     shown = count;
     for (;;) {
     }
@@ -536,10 +611,329 @@ def test_cortex_m0_image_is_without_float(firmware: str, folder: Path, tmp_path:
     """Frames, a factor of type f32 and limits by factors: 64-bit integers at most."""
     (tmp_path / "firmware.c").write_text(firmware, encoding="utf-8")
     flags = ("-mcpu=cortex-m0", "-mthumb", "-Os", "-std=c99", "-nostartfiles", "-Wl,-e,start", f"-I{folder}")
-    image = compiled("arm-none-eabi-gcc", (*flags, *WARNINGS), tmp_path / "firmware.c", tmp_path / "firmware.elf")
+    image = compiled(
+        "arm-none-eabi-gcc", (*flags, *SECTIONS, *WARNINGS), tmp_path / "firmware.c", tmp_path / "firmware.elf"
+    )
     symbols = succeed([tool("arm-none-eabi-nm"), image])
     assert "start" in symbols
     assert not re.search(r"__aeabi_[df]|__[a-z]*[sd]f[0-9]", symbols)
     text = int(succeed([tool("arm-none-eabi-size"), image]).splitlines()[1].split()[0])
     print(f"Cortex-M0, -Os, a dialogue: .text {text} bytes")
     assert text <= 4096
+
+
+# a receiver that knows how long an answer is before it comes, byte by byte as a UART gives them
+SERIAL = """
+#include <string.h>
+#define FIELDSCRIBE_IMPLEMENTATION
+#include "kitchen_sink_modbus.h"
+static const uint8_t *line;
+static size_t waiting;
+/* Like a driver: at most so many bytes, here one; more than were asked for would belong to the next answer. */
+static size_t receive(uint8_t *bytes, size_t most)
+{
+    if (waiting == 0U || most == 0U) {
+        return 0U;
+    }
+    bytes[0] = *line;
+    ++line;
+    --waiting;
+    return 1U;
+}
+static size_t heard(fieldscribe_modbus_framing framing, const fieldscribe_modbus_request *request, uint8_t *frame)
+{
+    size_t got = 0U;
+    uint32_t left = fieldscribe_modbus_left(framing, request, frame, got);
+    while (left > 0U && waiting > 0U) {
+        got += receive(frame + got, left);
+        left = fieldscribe_modbus_left(framing, request, frame, got);
+    }
+    return got;
+}
+int main(void)
+{
+    /* an answer of four words, a refusal, and the beginning of something else, in one stream */
+    static const uint8_t rtu[] = {1, 3, 4, 0, 1, 0, 2, 0x2A, 0x32, 1, 0x83, 2, 0xC0, 0xF1, 1, 3};
+    static const uint8_t tcp[] = {0, 0, 0, 0, 0, 5, 1, 1, 2, 1, 1, 0, 0, 0, 0, 0, 3, 1, 0x81, 2, 9};
+    static const fieldscribe_modbus_reading two_words = {3U, 100U, 2U};
+    static const fieldscribe_modbus_reading nine_bits = {1U, 100U, 9U};
+    static const fieldscribe_modbus_writing one_word = {6U, 100U, 1U};
+    const fieldscribe_modbus_profile *const profile = &kitchen_sink_modbus_profile;
+    uint16_t words[9] = {0U};
+    uint8_t frame[FIELDSCRIBE_MODBUS_TCP_MOST];
+    fieldscribe_modbus_reply reply = {words, 9U, 0U, 0U};
+    fieldscribe_modbus_request request = fieldscribe_modbus_read(1U, &two_words);
+    size_t got;
+    line = rtu;
+    waiting = sizeof rtu;
+    got = heard(FIELDSCRIBE_MODBUS_RTU, &request, frame);
+    if (got != 9U || got != fieldscribe_modbus_reply_length(profile, FIELDSCRIBE_MODBUS_RTU, &request) ||
+        fieldscribe_modbus_parse(FIELDSCRIBE_MODBUS_RTU, &request, frame, got, &reply) != FIELDSCRIBE_MODBUS_OK ||
+        words[1] != 2U) {
+        return 1;
+    }
+    got = heard(FIELDSCRIBE_MODBUS_RTU, &request, frame);
+    if (got != 5U || waiting != 2U ||
+        fieldscribe_modbus_parse(FIELDSCRIBE_MODBUS_RTU, &request, frame, got, &reply) !=
+            FIELDSCRIBE_MODBUS_EXCEPTION ||
+        reply.exception != 2U) {
+        return 2;
+    }
+    request = fieldscribe_modbus_read(1U, &nine_bits);
+    line = tcp;
+    waiting = sizeof tcp;
+    got = heard(FIELDSCRIBE_MODBUS_TCP, &request, frame);
+    if (got != 11U || got != fieldscribe_modbus_reply_length(profile, FIELDSCRIBE_MODBUS_TCP, &request) ||
+        fieldscribe_modbus_parse(FIELDSCRIBE_MODBUS_TCP, &request, frame, got, &reply) != FIELDSCRIBE_MODBUS_OK ||
+        words[8] != 1U) {
+        return 3;
+    }
+    got = heard(FIELDSCRIBE_MODBUS_TCP, &request, frame);
+    if (got != 9U || waiting != 1U) {
+        return 4;
+    }
+    request = fieldscribe_modbus_write(1U, &one_word, words);
+    if (fieldscribe_modbus_reply_length(profile, FIELDSCRIBE_MODBUS_RTU, &request) != 8U ||
+        fieldscribe_modbus_reply_length(profile, FIELDSCRIBE_MODBUS_TCP, &request) != 12U) {
+        return 5;
+    }
+    request.unit = 0U; /* to all: nobody answers */
+    return profile->broadcast == 0U && fieldscribe_modbus_reply_length(profile, FIELDSCRIBE_MODBUS_RTU, &request) != 0U
+        ? 6
+        : 0;
+}
+"""
+
+SERIAL_USS = """
+#define FIELDSCRIBE_IMPLEMENTATION
+#include "kitchen_uss_uss.h"
+int main(void)
+{
+    static const uint8_t answer[] = {0x02, 0x0C, 0x03, 0x12, 0xBC, 0, 0, 0, 0x02, 0xFA, 0x31, 0, 0, 0x6A};
+    const fieldscribe_uss_link varies = {FIELDSCRIBE_USS_VARIABLE, 2U, false};
+    const fieldscribe_uss_link fixed = {4U, 2U, false};
+    const fieldscribe_uss_link none = {0U, 2U, false};
+    if (fieldscribe_uss_reply_length(&varies) != 14U || fieldscribe_uss_reply_length(&fixed) != 16U ||
+        fieldscribe_uss_reply_length(&none) != 8U) {
+        return 1;
+    }
+    if (fieldscribe_uss_left(&varies, answer, 0U) != 14U || fieldscribe_uss_left(&varies, answer, 2U) != 12U ||
+        fieldscribe_uss_left(&varies, answer, 14U) != 0U || fieldscribe_uss_left(&varies, answer, 99U) != 0U) {
+        return 2;
+    }
+    return fieldscribe_uss_left(&fixed, answer, 2U) == 14U && fieldscribe_uss_left(&none, answer, 8U) == 0U ? 0 : 3;
+}
+"""
+
+
+@pytest.mark.parametrize("use", ["modbus", "uss"])
+def test_a_receiver_knows_how_long_an_answer_is(use: str, folder: Path, tmp_path: Path) -> None:
+    """It takes the bytes of one answer from a stream, and not one more."""
+    (tmp_path / "serial.c").write_text(SERIAL if use == "modbus" else SERIAL_USS, "utf-8")
+    flags = ("-std=c99", "-O1", *WARNINGS, *SANITIZERS["gcc"], f"-I{folder}")
+    succeed([compiled("gcc", flags, tmp_path / "serial.c", tmp_path / "serial")])
+
+
+USER = """
+#include "kitchen_sink_modbus.h"
+int user_@NUMBER@(const uint8_t *bytes, size_t length, uint8_t *frame);
+int user_@NUMBER@(const uint8_t *bytes, size_t length, uint8_t *frame)
+{
+    uint16_t words[2];
+    uint32_t raw = 0U;
+    size_t used = 0U;
+    fieldscribe_modbus_reply reply = {words, 2U, 0U, 0U};
+    const fieldscribe_modbus_request request = fieldscribe_modbus_read(@NUMBER@U, &kitchen_sink_plain_u32_frame.read);
+    if (fieldscribe_modbus_build(&kitchen_sink_modbus_profile, FIELDSCRIBE_MODBUS_RTU, &request, frame, 8U, &used) !=
+            FIELDSCRIBE_MODBUS_OK ||
+        fieldscribe_modbus_parse(FIELDSCRIBE_MODBUS_RTU, &request, bytes, length, &reply) != FIELDSCRIBE_MODBUS_OK ||
+        !fieldscribe_take_u32(kitchen_sink_plain_u32_frame.layout, words, &raw)) {
+        return 0;
+    }
+    return raw == 7U ? 1 : 2;
+}
+"""
+
+MANY = """
+#include <stdint.h>
+#include <stddef.h>
+@DECLARED@
+volatile int result;
+uint8_t frame[8];
+@ENTRY@
+{
+@CALLED@
+    @END@
+}
+"""
+
+
+def users(
+    folder: Path, count: int, *, defined: int, entry: str = "int main(void)", end: str = "return 0;"
+) -> list[Path]:
+    """C files that each use Modbus, `defined` of which have the implementation, and one that calls them."""
+    made = []
+    for number in range(1, count + 1):
+        head = "#define FIELDSCRIBE_IMPLEMENTATION\n" if number <= defined else ""
+        path = folder / f"user_{number}.c"
+        path.write_text(head + USER.replace("@NUMBER@", str(number)), "utf-8")
+        made.append(path)
+    declared = "\n".join(f"int user_{n}(const uint8_t *, size_t, uint8_t *);" for n in range(1, count + 1))
+    called = "\n".join(f"    result += user_{n}(frame, 8U, frame);" for n in range(1, count + 1))
+    text = MANY.replace("@DECLARED@", declared).replace("@CALLED@", called).replace("@END@", end)
+    path = folder / "main.c"
+    path.write_text(text.replace("@ENTRY@", entry), "utf-8")
+    return [*made, path]
+
+
+@pytest.mark.parametrize("language", ["c", "c++"])
+def test_many_files_share_one_definition(language: str, folder: Path, tmp_path: Path) -> None:
+    flags = ("-std=c99",) if language == "c" else ("-x", "c++", "-std=c++11")
+    files = users(tmp_path, 3, defined=1)
+    build = [tool("g++" if language == "c++" else "gcc"), *flags, *WARNINGS, f"-I{folder}"]
+    succeed([*build, "-Wno-missing-declarations", "-o", tmp_path / "one", *files])
+
+
+@pytest.mark.parametrize("language", ["c", "c++"])
+def test_a_forgotten_or_doubled_definition_does_not_link(language: str, folder: Path, tmp_path: Path) -> None:
+    """The linker names the function."""
+    flags = ("-std=c99",) if language == "c" else ("-x", "c++", "-std=c++11")
+    build = [tool("g++" if language == "c++" else "gcc"), *flags, f"-I{folder}", "-o", tmp_path / "one"]
+    forgotten = run([*build, *users(tmp_path, 2, defined=0)])
+    assert forgotten.returncode != 0
+    assert "undefined reference to `fieldscribe_modbus_build_rtu'" in forgotten.stderr
+    doubled = run([*build, *users(tmp_path, 2, defined=2)])
+    assert doubled.returncode != 0
+    assert "multiple definition of `fieldscribe_modbus_build_rtu'" in doubled.stderr
+
+
+def linked(count: int, folder: Path, out: Path) -> Path:
+    """A Cortex-M0 image of so many files that use Modbus."""
+    files = users(out, count, defined=1, entry="void start(void);\nvoid start(void)", end="for (;;) {\n    }")
+    flags = ("-mcpu=cortex-m0", "-mthumb", "-Os", "-std=c99", "-nostartfiles", "-Wl,-e,start")
+    image = out / f"image_{count}.elf"
+    succeed([tool("arm-none-eabi-gcc"), *flags, *SECTIONS, f"-I{folder}", "-o", image, *files])
+    return image
+
+
+def test_the_runtime_is_linked_once(folder: Path, tmp_path: Path) -> None:
+    """A third file that uses Modbus costs its own calls and tables alone."""
+    sizes = []
+    for count in (1, 2, 3):
+        image = linked(count, folder, tmp_path)
+        names = re.findall(r" [Tt] (fieldscribe_\w+)", succeed([tool("arm-none-eabi-nm"), image]))
+        assert "fieldscribe_modbus_build_rtu" in names
+        assert len(names) == len(set(names))
+        sizes.append(int(succeed([tool("arm-none-eabi-size"), image]).splitlines()[1].split()[0]))
+    print(f"Cortex-M0, -Os, one, two and three files that use Modbus: {sizes} bytes")
+    assert sizes[2] - sizes[1] <= 264
+
+
+MISUSE = {
+    "no `write` of a point that is only read": (
+        "fieldscribe_modbus_request r = fieldscribe_modbus_write(1U, &kitchen_sink_@R@_frame.write, words); (void)r;",
+        "write",
+    ),
+    "a bit group is not written like a word": (
+        "fieldscribe_modbus_request r = fieldscribe_modbus_write(1U, &kitchen_sink_ratio_frame.write, words); (void)r;",
+        "write",
+    ),
+    "what reads does not write": (
+        "fieldscribe_modbus_request r = fieldscribe_modbus_write(1U, &kitchen_sink_ratio_frame.read, words); (void)r;",
+        "incompatible|cannot convert|no matching function|no known conversion",
+    ),
+    "a status is not ignored": (
+        "fieldscribe_modbus_parse(FIELDSCRIBE_MODBUS_RTU, request, bytes, 8U, reply);",
+        "unused-result|nodiscard|warn_unused_result",
+    ),
+    "whether a number fits is not ignored": (
+        "fieldscribe_put_u16(kitchen_sink_ratio_frame.layout, 9U, words);",
+        "unused-result|nodiscard|warn_unused_result",
+    ),
+}
+
+
+@pytest.mark.parametrize("standard", ["c99", "c++11", "c++17"])
+@pytest.mark.parametrize("compiler", COMPILERS)
+@pytest.mark.parametrize("misuse", MISUSE)
+def test_misuse_does_not_compile(misuse: str, compiler: str, standard: str, folder: Path, tmp_path: Path) -> None:
+    call, said = MISUSE[misuse]
+    text = """#include "kitchen_sink_modbus.h"
+void use(uint16_t *words, const uint8_t *bytes, const fieldscribe_modbus_request *request,
+    fieldscribe_modbus_reply *reply);
+void use(uint16_t *words, const uint8_t *bytes, const fieldscribe_modbus_request *request,
+    fieldscribe_modbus_reply *reply)
+{
+    (void)words;
+    (void)bytes;
+    (void)request;
+    (void)reply;
+    { @CALL@ }
+}
+"""
+    read_only = re.search(
+        r"fieldscribe_modbus_r kitchen_sink_(\w+)_frame", (folder / "kitchen_sink_modbus.h").read_text()
+    )
+    assert read_only is not None
+    words: list[str | Path] = [
+        tool(driver(compiler, standard)),
+        *STANDARDS[standard],
+        *WARNINGS,
+        f"-I{folder}",
+        "-c",
+        "-o",
+        tmp_path / "one.o",
+    ]
+    (tmp_path / "right.c").write_text(text.replace("@CALL@", ""), "utf-8")
+    succeed([*words, tmp_path / "right.c"])
+    (tmp_path / "wrong.c").write_text(text.replace("@CALL@", call.replace("@R@", read_only[1])), "utf-8")
+    done = run([*words, tmp_path / "wrong.c"])
+    assert done.returncode != 0
+    assert re.search(said, done.stderr)
+
+
+def test_no_line_is_longer_than_a_screen(folder: Path) -> None:
+    """Headers of frames, their runtimes and the conformance programs."""
+    frames = [*folder.glob("kitchen_*_modbus.h"), *folder.glob("kitchen_*_can.h"), *folder.glob("kitchen_*_uss.h")]
+    for path in (*frames, *folder.glob("fieldscribe*.h"), *folder.glob("conformance/*.c")):
+        assert [line for line in path.read_text("utf-8").splitlines() if len(line) > 120] == [], path.name
+
+
+def test_the_drive_is_small() -> None:
+    """What a firmware team is asked to vendor for the frames of 236 points, and of 268."""
+    for name, lines, size in (("hitachi_l200", 700, 45_000), ("woodward_mpu2s", 2000, 110_000)):
+        device = load_device(descriptions_dir() / name / "device.yaml", Report())
+        assert device is not None
+        made = next(text for path, text in c.outputs(device, render) if path.endswith((f"{name}_modbus.h", "_can.h")))
+        assert made.count("\n") <= lines
+        assert len(made.encode()) <= size
+
+
+README_USE = """
+uint16_t words[2];
+fieldscribe_modbus_request request;
+fieldscribe_modbus_status status;
+uint8_t frame[FIELDSCRIBE_MODBUS_RTU_MOST];
+size_t length;
+size_t got = 0U;
+uint32_t raw;
+bool fits;
+int use(void);
+int use(void)
+{
+@CALLS@
+    return (status == FIELDSCRIBE_MODBUS_OK && fits) ? 0 : 1;
+}
+"""
+
+
+def test_the_frames_of_the_readme_compile(tmp_path: Path) -> None:
+    readme = (Path(__file__).parents[1] / "README.md").read_text("utf-8")
+    [calls] = re.findall(r'```c\n#define FIELDSCRIBE_IMPLEMENTATION.*\n#include "(?s:.*?)\n\n(?s:(.*?))```', readme)
+    device = load_device(descriptions_dir() / "hitachi_l200" / "device.yaml", Report())
+    assert device is not None
+    write_headers(device, tmp_path)
+    calls = calls.replace("uint16_t words[2];\n", "")
+    head = '#define FIELDSCRIBE_IMPLEMENTATION\n#include "hitachi_l200_modbus.h"\n'
+    (tmp_path / "use.c").write_text(head + README_USE.replace("@CALLS@", calls), "utf-8")
+    succeed([tool("gcc"), "-std=c99", *WARNINGS, f"-I{tmp_path / 'c'}", "-c", "-o", tmp_path / "o", tmp_path / "use.c"])

@@ -98,6 +98,9 @@ def test_doubles_of_32_bits_are_refused(folder: Path, narrow: Path) -> None:
 @pytest.mark.parametrize("device", ["sample_drive", *MADE])
 def test_headers_have_no_warning_where_an_int_has_16_bits(device: str, folder: Path, tmp_path: Path) -> None:
     family = {"kitchen_can": "can", "kitchen_uss": "uss"}.get(device, "modbus")
-    source = write_files({"all.c": f'#include "{device}_{family}.h"\n'}, tmp_path) / "all.c"
+    source = (
+        write_files({"all.c": f'#define FIELDSCRIBE_IMPLEMENTATION\n#include "{device}_{family}.h"\n'}, tmp_path)
+        / "all.c"
+    )
     words = ("-mmcu=atmega2560", "-std=c99", "-Os", *WARNINGS, NO_FLOAT, "-I", folder / "c", "-c")
     succeed([tool("avr-gcc"), *words, "-o", tmp_path / "all.o", source])

@@ -2,16 +2,30 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 from pathlib import Path
 
 import pytest
-from proofs.prove import FAMILIES, RUNTIME, SOURCES, alarm_lines, functions, harnesses, prove, prove_all, unproven
+from proofs.prove import (
+    FAMILIES,
+    RUNTIME,
+    SOURCES,
+    alarm_lines,
+    functions,
+    harnesses,
+    header_of,
+    prove,
+    prove_all,
+    unproven,
+)
 from toolchains import tool
 
 HERE = Path(__file__).parent / "proofs"
 
 PLANTED = {
+    "cores": ("text_of_words", "at < count; ++at", "at <= count; ++at", "text"),
+    "words": ("take_text", "at < text->words; ++at", "at <= text->words; ++at", "take_text"),
     "modbus": ("crc", "at < length; ++at", "at <= length; ++at", "crc"),
     "can": ("listen", "at < fieldscribe_can_slots(telegram)", "at <= fieldscribe_can_slots(telegram)", "listen"),
     "uss": ("assemble", "at < head_bytes; ++at", "at <= head_bytes; ++at", "assemble__words"),
@@ -22,14 +36,14 @@ PLANTED = {
 @pytest.mark.parametrize("family", FAMILIES)
 def test_every_function_has_a_harness(family: str) -> None:
     """A new function of a header without a proof is told."""
-    assert functions(RUNTIME / f"fieldscribe_{family}.h")
+    assert functions(family)
     assert unproven(family) == []
 
 
 def test_a_function_without_a_harness_is_told(tmp_path: Path) -> None:
     """Which one it is, whatever it gives back."""
     text = (RUNTIME / "fieldscribe_can.h").read_text("utf-8")
-    added = "static inline const uint8_t *fieldscribe_can_new(\n    uint8_t one)\n{\n    return 0;\n}\n"
+    added = "\nstatic const uint8_t *fieldscribe_can_new(\n    uint8_t one)\n{\n    return 0;\n}\n"
     (tmp_path / "fieldscribe_can.h").write_text(text + added, "utf-8")
     assert unproven("can", tmp_path) == ["new"]
 
@@ -49,11 +63,15 @@ def test_a_planted_bug_is_found(family: str, tmp_path: Path) -> None:
     """One byte too far in one loop."""
     tool("frama-c")
     function, right, wrong, harness = PLANTED[family]
-    shutil.copy(RUNTIME / f"fieldscribe_{family}.h", tmp_path)
-    header = tmp_path / f"fieldscribe_{family}.h"
-    before, name, after = header.read_text("utf-8").partition(f" fieldscribe_{family}_{function}(")
+    for path in RUNTIME.glob("fieldscribe*.h"):
+        shutil.copy(path, tmp_path)
+    header = header_of(family, tmp_path)
+    start = rf"\bfieldscribe_{'' if family in ('cores', 'words') else f'{family}_'}{function}\([^;{{}}]*\)\n\{{"
+    text = header.read_text("utf-8")
+    [begin] = [found.end() for found in re.finditer(start, text)]
+    before, after = text[:begin], text[begin:]
     assert right in after
-    header.write_text(before + name + after.replace(right, wrong, 1), "utf-8")
+    header.write_text(before + after.replace(right, wrong, 1), "utf-8")
     proof = prove(family, harness, "x86_64", tmp_path)
     assert proof.alarms
     assert any("out of bounds" in line for line in alarm_lines(proof.said))

@@ -232,7 +232,7 @@ int main(void)
 {
     kitchen_codes_real value = 5;
     int32_t count = 5;
-    uint8_t digits[4] = {9U, 9U, 9U, 9U};
+    uint16_t digits[4] = {9U, 9U, 9U, 9U};
     uint16_t raw = 5U;
     if (kitchen_codes_voltage_decode(0xFFF4U, &value) != KITCHEN_CODES_SPECIAL ||
         kitchen_codes_voltage_decode_count(0xFFF4U, &count) != KITCHEN_CODES_SPECIAL || count != 5 ||
@@ -395,8 +395,8 @@ def test_what_stands_above_a_point_names_its_codes_and_which_may_be_written() ->
         said = " ".join(dict(target.outputs(device(), render))[file].replace(" * ", "").split())
         for sentence in (
             f"Special codes: {mark}0{mark} {mark}inactive{mark} (may be written), {mark}7FFEh{mark} {mark}out_",
-            f"Special codes: {mark}Fh{mark} {mark}unknown{mark}, {mark}Eh{mark} {mark}none{mark}.",
-            f"Special code: {mark}7FF8000000000000h{mark} {mark}not_available{mark}.",
+            f"Special codes: {mark}Fh{mark} {mark}unknown{mark}, {mark}Eh{mark} {mark}none{mark}",
+            f"Special code: {mark}7FF8000000000000h{mark} {mark}not_available{mark}",
         ):
             assert sentence in said, (file, sentence)
 

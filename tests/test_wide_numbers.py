@@ -97,11 +97,13 @@ def test_a_scale_beyond_every_integer_leaves_raw_numbers(tmp_path: Path) -> None
     ]
     assert all(named(device, item).raw_only for item in ("a", "b"))
     text = (write_headers(device, tmp_path) / "c" / "meter.h").read_text("utf-8")
-    assert "Not generated (a): its scale needs integers of more than 63 bits." in text
+    assert "not generated: its scale needs integers of more than 63 bits" in text
     assert "#define METER_A_ADDRESS" in text
     program = tmp_path / "program.c"
     program.write_text(
-        '#include "meter.h"\nint main(void) { double value; return (int)meter_c_decode(1, 1, 0, &value); }\n'
+        '#include "meter.h"\n'
+        "int main(void) { const meter_c_with with = {1, 0}; double value; "
+        "return (int)meter_c_decode(1, &with, &value); }"
     )
     for switch in ("-O2", "-DFIELDSCRIBE_FLOAT32"):
         succeed(
@@ -121,8 +123,8 @@ def test_c_has_only_what_is_exact(folder: Path) -> None:
         assert (f"{item}_decode_count(" in text) == (decimals is not None), item
         assert (f"{item}_encode(" in text) == (encodes and point.writable), item
         assert f"kitchen_sink_{item}_decode(" in text
-    assert "No integer path: its counts need more than 64 bits." in text
-    assert "Values are only decoded: its numbers have more than 53 bits." in text
+    assert "no integer path: its counts need more than 64 bits" in text
+    assert "values are only decoded: its numbers have more than 53 bits" in text
 
 
 DECODES = """
@@ -222,6 +224,12 @@ def _call(item: str) -> str:
         f"({KINDS.get(named(DEVICE, name).type, 'uint32_t')}){number}"
         for name, number in zip(point.scale_arguments, ("first", "second"), strict=False)
     ]
+    if len(places) > 1:
+        fields = "".join(
+            f"with.{name}_raw = {place}; " for name, place in zip(point.scale_arguments, places, strict=True)
+        )
+        call = f"kitchen_sink_{item}_decode(({KINDS[point.type]})raw, &with, &value)"
+        return f"{{ kitchen_sink_{item}_with with; {fields}status = (int){call}; }}"
     return f"status = (int)kitchen_sink_{item}_decode(({KINDS[point.type]})raw, {', '.join(places)}, &value)"
 
 

@@ -1,4 +1,5 @@
 /* CAN frames through the parser and the receivers in C, with the messages of kitchen_can. */
+#define FIELDSCRIBE_IMPLEMENTATION
 #include "cases.h"
 #include "kitchen_can_can.h"
 
@@ -24,15 +25,14 @@ int main(void)
 {
     fieldscribe_can_slot slots[KITCHEN_CAN_TELEGRAM_MEASUREMENTS_SLOTS];
     fieldscribe_can_slot slot[KITCHEN_CAN_TELEGRAM_HEARTBEAT_SLOTS];
-    fieldscribe_can_receiver measurements = kitchen_can_telegram_measurements_listen(UNIT, slots);
-    fieldscribe_can_receiver heartbeat = kitchen_can_telegram_heartbeat_listen(UNIT, slot);
+    fieldscribe_can_receiver measurements = fieldscribe_can_listen(&kitchen_can_telegram_measurements, UNIT, slots);
+    fieldscribe_can_receiver heartbeat = fieldscribe_can_listen(&kitchen_can_telegram_heartbeat, UNIT, slot);
     for (;;) {
         const uint32_t message = take(1U);
         const uint8_t unit = (uint8_t)take(1U);
         const uint16_t position = (uint16_t)take(2U);
         fieldscribe_can_frame frame = {0U, 0U, {0U, 0U, 0U, 0U, 0U, 0U, 0U, 0U}};
-        uint16_t address = 0U;
-        uint16_t raw = 0U;
+        fieldscribe_can_content content = {unit, 0U, 0U};
         uint8_t *bytes;
         fieldscribe_can_status status;
         unsigned at;
@@ -43,8 +43,8 @@ int main(void)
         for (at = 0U; at < frame.length && at < FIELDSCRIBE_CAN_BYTES; ++at) {
             frame.data[at] = bytes[at];
         }
-        status = fieldscribe_can_parse(messages[message], unit, &frame, &address, &raw);
-        printf("%s %u %u", names[status], address, raw);
+        status = fieldscribe_can_parse(messages[message], &frame, &content);
+        printf("%s %u %u", names[status], (unsigned)content.address, (unsigned)content.raw);
         hear(&measurements, &frame, position);
         hear(&heartbeat, &frame, 0U);
         printf("\n");

@@ -1,4 +1,5 @@
 /* Answers of Modbus devices through the parser in C. */
+#define FIELDSCRIBE_IMPLEMENTATION
 #include "cases.h"
 #include "fieldscribe_modbus.h"
 
@@ -40,7 +41,9 @@ int main(void)
         }
         request.values = request.function <= 0x04U ? NULL : written;
         values = exactly(2U * (size_t)request.count);
-        status = fieldscribe_modbus_parse(framing, &request, frame, length, values, request.count, &reply);
+        reply.values = values;
+        reply.room = request.count;
+        status = fieldscribe_modbus_parse(framing, &request, frame, length, &reply);
         printf("%s %u", names[status], reply.exception);
         for (at = 0U; at < reply.count; ++at) {
             printf(" %u", values[at]);

@@ -1,4 +1,5 @@
 /* Answers of USS drives through the parser in C, with the tasks of kitchen_uss. */
+#define FIELDSCRIBE_IMPLEMENTATION
 #include "cases.h"
 #include "kitchen_uss_uss.h"
 
@@ -34,8 +35,9 @@ int main(void)
         frame = exactly(length);
         take_bytes(frame, length);
         words = exactly(2U * (size_t)link.pzd);
-        status = fieldscribe_uss_parse(
-            &kitchen_uss_uss_profile, &link, &request, frame, length, words, link.pzd, &reply);
+        reply.process = words;
+        reply.room = link.pzd;
+        status = fieldscribe_uss_parse(&kitchen_uss_uss_profile, &link, &request, frame, length, &reply);
         printf("%s %u %u %u %u", names[status], reply.response, reply.width, (unsigned)reply.value, reply.error);
         for (at = 0U; brings_words(status) && at < link.pzd; ++at) {
             printf(" %u", words[at]);

@@ -2,6 +2,7 @@
  * Proofs of fieldscribe_can.h: one harness or more for each of its functions, named prove_FUNCTION or
  * prove_FUNCTION__WHAT. Messages have any roles with any numbers. A receiver has exactly the slots of its telegram.
  */
+#define FIELDSCRIBE_IMPLEMENTATION
 #include "arbitrary.h"
 #include "fieldscribe_can.h"
 
@@ -9,8 +10,7 @@
 #define SLOTS (LARGE / sizeof(fieldscribe_can_slot))
 
 static uint8_t data[FIELDSCRIBE_CAN_BYTES];
-static uint16_t word;
-static uint16_t other;
+static uint16_t word[2];
 static fieldscribe_can_role role;
 static fieldscribe_can_message message;
 static fieldscribe_can_profile profile;
@@ -18,6 +18,16 @@ static fieldscribe_can_frame frame;
 static fieldscribe_can_slot slots[SLOTS];
 static fieldscribe_can_telegram telegram;
 static fieldscribe_can_receiver receiver;
+static fieldscribe_can_content content;
+static fieldscribe_can_dialogue dialogue;
+static fieldscribe_can_reading reading;
+static fieldscribe_can_writing writing;
+static fieldscribe_can_text_reading text_reading;
+static fieldscribe_can_text_writing text_writing;
+static fieldscribe_can_heard where;
+static fieldscribe_can_text_heard text_where;
+static uint16_t text[WORDS];
+static uint16_t positions[WORDS];
 static volatile uint8_t number;
 
 /* A telegram of so many words, and a receiver that heard anything. */
@@ -48,10 +58,21 @@ void prove_xor(uint8_t mask)
     (void)fieldscribe_can_xor(data, mask);
 }
 
-void prove_build(uint32_t unit, uint32_t address, uint32_t raw)
+void prove_build(void)
 {
     hear(0U, 1U);
-    (void)fieldscribe_can_build(&profile, &message, unit, address, raw, &frame);
+    (void)fieldscribe_can_build(&profile, &message, &content, &frame);
+}
+
+void prove_unit(void)
+{
+    (void)fieldscribe_can_unit(&content);
+}
+
+void prove_reply_length(void)
+{
+    (void)fieldscribe_can_reply_length(&message);
+    (void)fieldscribe_can_reply_length(NULL);
 }
 
 void prove_agrees(uint8_t kind, uint8_t unit)
@@ -65,10 +86,10 @@ void prove_recognize(uint8_t unit)
     (void)fieldscribe_can_recognize(&message, unit, &frame);
 }
 
-void prove_parse(uint8_t unit)
+void prove_parse(void)
 {
     hear(0U, 1U);
-    (void)fieldscribe_can_parse(&message, unit, &frame, &word, &other);
+    (void)fieldscribe_can_parse(&message, &frame, &content);
 }
 
 void prove_carries(uint8_t kind)
@@ -76,22 +97,70 @@ void prove_carries(uint8_t kind)
     (void)fieldscribe_can_carries(&message, kind);
 }
 
-void prove_ask(uint8_t unit, uint16_t address)
+/* A dialogue of messages with any roles; `answers` says whether the device answers at all. */
+static void talk(bool answers)
 {
     hear(0U, 1U);
-    (void)fieldscribe_can_ask(&profile, &message, unit, address, &frame);
+    dialogue.profile = &profile;
+    dialogue.read = &message;
+    dialogue.write = &message;
+    dialogue.read_answer = answers ? &message : NULL;
+    dialogue.write_answer = answers ? &message : NULL;
 }
 
-void prove_answer(uint8_t unit, uint16_t address)
+void prove_answer(void)
 {
     hear(0U, 1U);
-    (void)fieldscribe_can_answer(&message, unit, address, &frame, &word);
+    (void)fieldscribe_can_answer(&message, &frame, &content);
+    (void)fieldscribe_can_answer(NULL, &frame, &content);
 }
 
-void prove_confirm(uint8_t unit, uint16_t address, uint16_t written)
+void prove_read(uint8_t unit)
 {
-    hear(0U, 1U);
-    (void)fieldscribe_can_confirm(&message, unit, address, written, &frame);
+    talk(true);
+    (void)fieldscribe_can_read(&dialogue, unit, &reading, &frame);
+}
+
+void prove_read_answer(uint8_t unit)
+{
+    talk(true);
+    (void)fieldscribe_can_read_answer(&dialogue, unit, &reading, &frame, EXACTLY(1U, word));
+    talk(false);
+    (void)fieldscribe_can_read_answer(&dialogue, unit, &reading, &frame, EXACTLY(1U, word));
+}
+
+void prove_write(uint8_t unit)
+{
+    talk(true);
+    (void)fieldscribe_can_write(&dialogue, unit, &writing, EXACTLY(1U, word), &frame);
+}
+
+void prove_write_answer(uint8_t unit)
+{
+    talk(true);
+    (void)fieldscribe_can_write_answer(&dialogue, unit, &writing, EXACTLY(1U, word), &frame);
+    talk(false);
+    (void)fieldscribe_can_write_answer(&dialogue, unit, &writing, EXACTLY(1U, word), &frame);
+}
+
+void prove_word_to_read(uint16_t count, size_t at)
+{
+    if (count <= WORDS) {
+        //@ split count;
+        text_reading.addresses = EXACTLY(count, text);
+        text_reading.words = count;
+        (void)fieldscribe_can_word_to_read(&text_reading, at, &reading);
+    }
+}
+
+void prove_word_to_write(uint16_t count, size_t at)
+{
+    if (count <= WORDS) {
+        //@ split count;
+        text_writing.addresses = EXACTLY(count, text);
+        text_writing.words = count;
+        (void)fieldscribe_can_word_to_write(&text_writing, at, &writing);
+    }
 }
 
 void prove_per_frame(void)
@@ -124,13 +193,13 @@ void prove_take(uint16_t words, uint8_t per_frame)
     }
 }
 
-void prove_heard(uint16_t words, uint8_t per_frame, uint16_t position)
+void prove_heard_slot(uint16_t words, uint8_t per_frame, uint16_t position)
 {
     if (words <= WORDS && per_frame <= 5U) {
         //@ split words;
         //@ split per_frame;
         hear(words, per_frame);
-        (void)fieldscribe_can_heard(&receiver, position);
+        (void)fieldscribe_can_heard_slot(&receiver, position);
     }
 }
 
@@ -140,17 +209,24 @@ void prove_word(uint16_t words, uint8_t per_frame, uint16_t position)
         //@ split words;
         //@ split per_frame;
         hear(words, per_frame);
-        (void)fieldscribe_can_word(&receiver, position, &word);
+        (void)fieldscribe_can_word(&receiver, position, EXACTLY(1U, word));
     }
 }
 
-void prove_pair(uint16_t words, uint8_t per_frame, uint16_t high, uint16_t low)
+void prove_received(uint16_t words, uint8_t per_frame)
 {
     if (words <= WORDS && per_frame <= 5U) {
         //@ split words;
         //@ split per_frame;
         hear(words, per_frame);
-        (void)fieldscribe_can_pair(&receiver, high, low, &word, &other);
+        (void)fieldscribe_can_received(&receiver, &where, word);
+    }
+}
+
+void prove_around(uint8_t place)
+{
+    if (place < FIELDSCRIBE_CAN_WORDS) {
+        (void)fieldscribe_can_around(&slots[0], &slots[1], place);
     }
 }
 
@@ -182,11 +258,23 @@ void prove_take__long(void)
 void prove_word__long(uint16_t position)
 {
     hear_long();
-    (void)fieldscribe_can_word(&receiver, position, &word);
+    (void)fieldscribe_can_word(&receiver, position, EXACTLY(1U, word));
 }
 
-void prove_pair__long(uint16_t high, uint16_t low)
+void prove_received__long(void)
 {
     hear_long();
-    (void)fieldscribe_can_pair(&receiver, high, low, &word, &other);
+    (void)fieldscribe_can_received(&receiver, &where, word);
+}
+
+/* With exactly the words of the text; those of the telegram are proven by `word`. */
+void prove_received_text(uint16_t count)
+{
+    if (count <= WORDS) {
+        //@ split count;
+        hear_long();
+        text_where.positions = EXACTLY(count, positions);
+        text_where.words = count;
+        (void)fieldscribe_can_received_text(&receiver, &text_where, EXACTLY(count, text));
+    }
 }

@@ -3,6 +3,7 @@
  * prove_FUNCTION__WHAT. Where a function is given several arrays, each is exactly as long as it is told in one of the
  * harnesses. `split` has Frama-C follow each length on its own.
  */
+#define FIELDSCRIBE_IMPLEMENTATION
 #include "arbitrary.h"
 #include "fieldscribe_modbus.h"
 
@@ -20,7 +21,9 @@ static fieldscribe_modbus_function functions[KNOWN];
 static fieldscribe_modbus_profile profile;
 static fieldscribe_modbus_request request;
 static fieldscribe_modbus_reply reply;
-static fieldscribe_modbus_block block;
+static fieldscribe_modbus_reading reading;
+static fieldscribe_modbus_writing writing;
+static fieldscribe_modbus_command command;
 static volatile uint8_t number;
 
 /* A profile that knows any functions; `count` of them, and no room for more. */
@@ -54,19 +57,26 @@ static void ask_any(void)
     request.values = many_items;
 }
 
-void prove_read(uint8_t unit, uint8_t function, uint16_t address, uint16_t count)
+/* A reply with room for so many items. */
+static void into(uint16_t *values, size_t room)
 {
-    request = fieldscribe_modbus_read(unit, function, address, count);
+    reply.values = values;
+    reply.room = room;
 }
 
-void prove_write(uint8_t unit, uint8_t function, uint16_t address, uint16_t count)
+void prove_read(uint8_t unit)
 {
-    request = fieldscribe_modbus_write(unit, function, address, count, items);
+    request = fieldscribe_modbus_read(unit, &reading);
 }
 
-void prove_read_block(uint8_t unit)
+void prove_write(uint8_t unit)
 {
-    request = fieldscribe_modbus_read_block(unit, &block);
+    request = fieldscribe_modbus_write(unit, &writing, items);
+}
+
+void prove_send(uint8_t unit)
+{
+    request = fieldscribe_modbus_send(unit, &command);
 }
 
 void prove_crc(size_t length)
@@ -203,7 +213,27 @@ static void build_into(fieldscribe_modbus_framing framing, uint8_t *buffer, size
     }
 }
 
-void prove_build__rtu(size_t size)
+/* Without what frames a request; data is proven by put_values, for all lengths. */
+void prove_put_request(size_t size)
+{
+    if (size <= SHORT) {
+        size_t used;
+        //@ split size;
+        know(1U);
+        ask_any();
+        if (request.function < 0x0FU) {
+            (void)fieldscribe_modbus_put_request(&profile, &request, EXACTLY(size, frame), size, &used);
+        } else if (request.function == 0x0FU) {
+            (void)fieldscribe_modbus_put_request(&profile, &request, EXACTLY(size, frame), size, &used);
+        } else if (request.function == 0x10U) {
+            (void)fieldscribe_modbus_put_request(&profile, &request, EXACTLY(size, frame), size, &used);
+        } else {
+            (void)fieldscribe_modbus_put_request(&profile, &request, EXACTLY(size, frame), size, &used);
+        }
+    }
+}
+
+void prove_build_rtu(size_t size)
 {
     if (size <= SHORT) {
         //@ split size;
@@ -213,7 +243,7 @@ void prove_build__rtu(size_t size)
     }
 }
 
-void prove_build__tcp(size_t size)
+void prove_build_tcp(size_t size)
 {
     if (size <= SHORT) {
         //@ split size;
@@ -253,27 +283,31 @@ void prove_build__values(uint16_t count)
 void prove_take_words__data(uint8_t bytes, uint16_t count, size_t room)
 {
     //@ split bytes;
-    (void)fieldscribe_modbus_take_words(EXACTLY(bytes, frame), bytes, count, many_items, room);
+    into(many_items, room);
+    (void)fieldscribe_modbus_take_words(EXACTLY(bytes, frame), bytes, count, &reply);
 }
 
 void prove_take_words__values(uint8_t bytes, uint16_t count, size_t room)
 {
     const size_t stored = room < WORDS ? room : WORDS;
     //@ split stored;
-    (void)fieldscribe_modbus_take_words(frame, bytes, count, EXACTLY(stored, items), stored);
+    into(EXACTLY(stored, items), stored);
+    (void)fieldscribe_modbus_take_words(frame, bytes, count, &reply);
 }
 
 void prove_take_bits__data(uint8_t bytes, uint16_t count, size_t room)
 {
     //@ split bytes;
-    (void)fieldscribe_modbus_take_bits(EXACTLY(bytes, frame), bytes, count, many_items, room);
+    into(many_items, room);
+    (void)fieldscribe_modbus_take_bits(EXACTLY(bytes, frame), bytes, count, &reply);
 }
 
 void prove_take_bits__values(uint8_t bytes, uint16_t count, size_t room)
 {
     const size_t stored = room < ITEMS ? room : ITEMS;
     //@ split stored;
-    (void)fieldscribe_modbus_take_bits(frame, bytes, count, EXACTLY(stored, items), stored);
+    into(EXACTLY(stored, items), stored);
+    (void)fieldscribe_modbus_take_bits(frame, bytes, count, &reply);
 }
 
 void prove_take(size_t size, size_t room)
@@ -281,7 +315,8 @@ void prove_take(size_t size, size_t room)
     if (size >= 2U && size <= FRAMES) {
         //@ split size;
         ask_any();
-        (void)fieldscribe_modbus_take(&request, EXACTLY(size, frame), size, many_items, room, &reply);
+        into(many_items, room);
+        (void)fieldscribe_modbus_take(&request, EXACTLY(size, frame), size, &reply);
     }
 }
 
@@ -290,7 +325,8 @@ void prove_take__request(uint16_t count, size_t size)
     if (count <= WORDS && size >= 2U && size <= FRAMES) {
         //@ split count;
         ask(count);
-        (void)fieldscribe_modbus_take(&request, frame, size, many_items, LARGE / 2U, &reply);
+        into(many_items, LARGE / 2U);
+        (void)fieldscribe_modbus_take(&request, frame, size, &reply);
     }
 }
 
@@ -299,7 +335,8 @@ void prove_parse_rtu(size_t length, size_t room)
     if (length <= FRAMES) {
         //@ split length;
         ask_any();
-        (void)fieldscribe_modbus_parse_rtu(&request, EXACTLY(length, frame), length, many_items, room, &reply);
+        into(many_items, room);
+        (void)fieldscribe_modbus_parse_rtu(&request, EXACTLY(length, frame), length, &reply);
     }
 }
 
@@ -308,7 +345,8 @@ void prove_parse_tcp(size_t length, size_t room)
     if (length <= FRAMES) {
         //@ split length;
         ask_any();
-        (void)fieldscribe_modbus_parse_tcp(&request, EXACTLY(length, frame), length, many_items, room, &reply);
+        into(many_items, room);
+        (void)fieldscribe_modbus_parse_tcp(&request, EXACTLY(length, frame), length, &reply);
     }
 }
 
@@ -317,7 +355,8 @@ void prove_parse__no_values(fieldscribe_modbus_framing framing, size_t length, s
     if (length <= FRAMES) {
         //@ split length;
         request.values = NULL;
-        (void)fieldscribe_modbus_parse(framing, &request, EXACTLY(length, frame), length, many_items, room, &reply);
+        into(many_items, room);
+        (void)fieldscribe_modbus_parse(framing, &request, EXACTLY(length, frame), length, &reply);
     }
 }
 
@@ -325,7 +364,8 @@ void prove_parse__long_frame(fieldscribe_modbus_framing framing, size_t length, 
 {
     if (length <= LARGE) {
         ask_any();
-        (void)fieldscribe_modbus_parse(framing, &request, long_frame, length, many_items, room, &reply);
+        into(many_items, room);
+        (void)fieldscribe_modbus_parse(framing, &request, long_frame, length, &reply);
     }
 }
 
@@ -335,6 +375,39 @@ void prove_parse__values(fieldscribe_modbus_framing framing, size_t length, size
     if (length <= FRAMES) {
         //@ split stored;
         ask_any();
-        (void)fieldscribe_modbus_parse(framing, &request, frame, length, EXACTLY(stored, items), stored, &reply);
+        into(EXACTLY(stored, items), stored);
+        (void)fieldscribe_modbus_parse(framing, &request, frame, length, &reply);
+    }
+}
+
+void prove_answer(void)
+{
+    (void)fieldscribe_modbus_answer(&request);
+}
+
+void prove_around(fieldscribe_modbus_framing framing)
+{
+    (void)fieldscribe_modbus_around(framing);
+}
+
+void prove_reply_length(fieldscribe_modbus_framing framing)
+{
+    (void)fieldscribe_modbus_reply_length(&profile, framing, &request);
+}
+
+void prove_left(size_t length)
+{
+    if (length <= FRAMES) {
+        //@ split length;
+        (void)fieldscribe_modbus_left(FIELDSCRIBE_MODBUS_RTU, &request, EXACTLY(length, frame), length);
+        (void)fieldscribe_modbus_left(FIELDSCRIBE_MODBUS_TCP, &request, EXACTLY(length, frame), length);
+    }
+}
+
+void prove_left__long_frame(size_t length)
+{
+    if (length <= LARGE) {
+        (void)fieldscribe_modbus_left(FIELDSCRIBE_MODBUS_RTU, &request, long_frame, length);
+        (void)fieldscribe_modbus_left(FIELDSCRIBE_MODBUS_TCP, &request, long_frame, length);
     }
 }

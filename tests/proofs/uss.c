@@ -3,6 +3,7 @@
  * prove_FUNCTION__WHAT. Where a function is given several arrays, each is exactly as long as it is told in one of the
  * harnesses. `split` has Frama-C follow each length on its own.
  */
+#define FIELDSCRIBE_IMPLEMENTATION
 #include "arbitrary.h"
 #include "fieldscribe_uss.h"
 
@@ -22,6 +23,11 @@ static fieldscribe_uss_profile profile;
 static fieldscribe_uss_link link;
 static fieldscribe_uss_request request;
 static fieldscribe_uss_reply reply;
+static fieldscribe_uss_words process;
+static fieldscribe_uss_reading reading;
+static fieldscribe_uss_writing writing;
+static fieldscribe_uss_heard heard;
+static fieldscribe_uss_sent sent;
 static volatile uint8_t number;
 
 /* A profile of any tasks and lengths, so many of both, and no room for more. */
@@ -34,19 +40,79 @@ static void know(size_t count)
     link.single_first = number % 2U != 0U;
 }
 
+/* Process data to send: so many words. */
+static void send(const uint16_t *those, size_t count)
+{
+    process.words = those;
+    process.count = count;
+}
+
+/* A reply with room for so many words of process data. */
+static void into(uint16_t *those, size_t room)
+{
+    reply.process = those;
+    reply.room = room;
+}
+
 void prove_exchange(uint8_t unit)
 {
     request = fieldscribe_uss_exchange(unit);
 }
 
-void prove_read(uint8_t unit, uint8_t task, uint16_t parameter, uint16_t index)
+void prove_read(uint8_t unit)
 {
-    request = fieldscribe_uss_read(unit, task, parameter, index);
+    request = fieldscribe_uss_read(unit, &reading);
 }
 
-void prove_write(uint8_t unit, uint8_t task, uint16_t parameter, uint16_t index, uint8_t width, uint32_t value)
+void prove_write(uint8_t unit)
 {
-    request = fieldscribe_uss_write(unit, task, parameter, index, width, value);
+    if (writing.width < 2U) {
+        request = fieldscribe_uss_write(unit, &writing, EXACTLY(1U, words));
+    } else {
+        request = fieldscribe_uss_write(unit, &writing, EXACTLY(2U, words));
+    }
+}
+
+void prove_words_of_reply(void)
+{
+    if (reply.width < 2U) {
+        (void)fieldscribe_uss_words_of_reply(&reply, &reading, EXACTLY(1U, words));
+    } else {
+        (void)fieldscribe_uss_words_of_reply(&reply, &reading, EXACTLY(2U, words));
+    }
+}
+
+void prove_words_heard(size_t count)
+{
+    if (count <= WORDS) {
+        //@ split count;
+        if (heard.position < count) {
+            (void)fieldscribe_uss_words_heard(&heard, EXACTLY(count, words));
+        }
+    }
+}
+
+void prove_words_sent(size_t count)
+{
+    if (count <= WORDS) {
+        //@ split count;
+        if (sent.position < count) {
+            (void)fieldscribe_uss_words_sent(&sent, EXACTLY(count, words));
+        }
+    }
+}
+
+void prove_reply_length(void)
+{
+    (void)fieldscribe_uss_reply_length(&link);
+}
+
+void prove_left(size_t length)
+{
+    if (length <= FRAMES) {
+        //@ split length;
+        (void)fieldscribe_uss_left(&link, EXACTLY(length, frame), length);
+    }
 }
 
 void prove_get(void)
@@ -122,9 +188,10 @@ void prove_assemble__buffer(uint8_t address, size_t pzd_count, size_t size)
     if (pzd_count <= WORDS && size <= FRAMES) {
         size_t length;
         //@ split size;
-        (void)fieldscribe_uss_assemble(address, part, 0U, words, pzd_count, EXACTLY(size, frame), size, &length);
-        (void)fieldscribe_uss_assemble(address, part, 6U, words, pzd_count, EXACTLY(size, frame), size, &length);
-        (void)fieldscribe_uss_assemble(address, part, 8U, words, pzd_count, EXACTLY(size, frame), size, &length);
+        send(words, pzd_count);
+        (void)fieldscribe_uss_assemble(address, part, 0U, &process, EXACTLY(size, frame), size, &length);
+        (void)fieldscribe_uss_assemble(address, part, 6U, &process, EXACTLY(size, frame), size, &length);
+        (void)fieldscribe_uss_assemble(address, part, 8U, &process, EXACTLY(size, frame), size, &length);
     }
 }
 
@@ -134,8 +201,8 @@ void prove_assemble__words(uint8_t address, size_t head_bytes, size_t pzd_count,
         size_t length;
         //@ split pzd_count;
         //@ split head_bytes;
-        (void)fieldscribe_uss_assemble(address, EXACTLY(head_bytes, part), head_bytes, EXACTLY(pzd_count, words), pzd_count,
-            frame, size, &length);
+        send(EXACTLY(pzd_count, words), pzd_count);
+        (void)fieldscribe_uss_assemble(address, EXACTLY(head_bytes, part), head_bytes, &process, frame, size, &length);
     }
 }
 
@@ -145,14 +212,15 @@ void prove_build__buffer(size_t pzd_count, size_t size)
         size_t length;
         //@ split size;
         know(KNOWN);
+        send(words, pzd_count);
         if (link.pkw == 0U) {
-            (void)fieldscribe_uss_build(&profile, &link, &request, words, pzd_count, EXACTLY(size, frame), size, &length);
+            (void)fieldscribe_uss_build(&profile, &link, &request, &process, EXACTLY(size, frame), size, &length);
         } else if (link.pkw < 3U) {
-            (void)fieldscribe_uss_build(&profile, &link, &request, words, pzd_count, EXACTLY(size, frame), size, &length);
+            (void)fieldscribe_uss_build(&profile, &link, &request, &process, EXACTLY(size, frame), size, &length);
         } else if (link.pkw == 3U) {
-            (void)fieldscribe_uss_build(&profile, &link, &request, words, pzd_count, EXACTLY(size, frame), size, &length);
+            (void)fieldscribe_uss_build(&profile, &link, &request, &process, EXACTLY(size, frame), size, &length);
         } else {
-            (void)fieldscribe_uss_build(&profile, &link, &request, words, pzd_count, EXACTLY(size, frame), size, &length);
+            (void)fieldscribe_uss_build(&profile, &link, &request, &process, EXACTLY(size, frame), size, &length);
         }
     }
 }
@@ -163,8 +231,9 @@ void prove_build__words(size_t pzd_count, size_t size)
         size_t length;
         //@ split pzd_count;
         know(KNOWN);
+        send(EXACTLY(pzd_count, words), pzd_count);
         (void)fieldscribe_uss_build(
-            &profile, &link, &request, EXACTLY(pzd_count, words), pzd_count, frame, size, &length);
+            &profile, &link, &request, &process, frame, size, &length);
     }
 }
 
@@ -174,8 +243,9 @@ void prove_build_broadcast__buffer(size_t pzd_count, size_t size)
         size_t length;
         //@ split size;
         know(KNOWN);
+        send(words, pzd_count);
         (void)fieldscribe_uss_build_broadcast(
-            &profile, &link, masks, words, pzd_count, EXACTLY(size, frame), size, &length);
+            &profile, &link, masks, &process, EXACTLY(size, frame), size, &length);
     }
 }
 
@@ -185,8 +255,9 @@ void prove_build_broadcast__words(size_t pzd_count, size_t size)
         size_t length;
         //@ split pzd_count;
         know(KNOWN);
+        send(EXACTLY(pzd_count, words), pzd_count);
         (void)fieldscribe_uss_build_broadcast(
-            &profile, &link, masks, EXACTLY(pzd_count, words), pzd_count, frame, size, &length);
+            &profile, &link, masks, &process, frame, size, &length);
     }
 }
 
@@ -209,8 +280,9 @@ void prove_parse__frame(size_t length, size_t room)
     if (length <= FRAMES) {
         //@ split length;
         know(KNOWN);
+        into(words, room);
         (void)fieldscribe_uss_parse(
-            &profile, &link, &request, EXACTLY(length, frame), length, words, room, &reply);
+            &profile, &link, &request, EXACTLY(length, frame), length, &reply);
     }
 }
 
@@ -218,7 +290,8 @@ void prove_parse__long_frame(size_t length, size_t room)
 {
     if (length <= LARGE) {
         know(KNOWN);
-        (void)fieldscribe_uss_parse(&profile, &link, &request, long_frame, length, words, room, &reply);
+        into(words, room);
+        (void)fieldscribe_uss_parse(&profile, &link, &request, long_frame, length, &reply);
     }
 }
 
@@ -228,7 +301,8 @@ void prove_parse__words(size_t length, size_t room)
     if (length <= FRAMES) {
         //@ split stored;
         know(KNOWN);
+        into(EXACTLY(stored, words), stored);
         (void)fieldscribe_uss_parse(
-            &profile, &link, &request, frame, length, EXACTLY(stored, words), stored, &reply);
+            &profile, &link, &request, frame, length, &reply);
     }
 }

@@ -6,6 +6,7 @@ Only names that the author gave can meet, so only those are followed, each at it
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING
 
 from fieldscribe.checks.identifiers import Claim, enums_of
@@ -48,6 +49,7 @@ HEADER = frozenset(
     | {"bits_of_f32", "f64_of_bits", "bits_of_f64", "is_nan", "raw_from_value", "value_from_raw", "value_from_wide"}
     | {"f32_order", "f64_order"}
     | {"modbus_functions", "modbus_profile", "can_h", "can_bitrate", "can_profile", "uss_h", "uss_profile"}
+    | {"can_dialogue", "uss_tasks", "uss_pkw"}
     | {"split_f32", "twice_ratio", "shifted_ratio", "apply_shifted", "two_to"}
 )
 """What the header defines behind the device's name."""
@@ -55,7 +57,7 @@ HEADER = frozenset(
 _ALWAYS = frozenset({"space", "address", "words", "code", "raw_min", "raw_max", "decimals"})
 _FUNCTIONS = frozenset(
     {"encode", "encode_count", "decode", "decode_count", "check", "rule", "to_words", "from_words", "extract", "insert"}
-    | {"read_request", "write_request"}
+    | {"frame"}
 )
 _BITS = frozenset({"shift", "mask"})
 
@@ -68,13 +70,23 @@ _SOMETIMES: Mapping[str, Callable[[Point], bool]] = {
     "digits": lambda point: point.digits is not None,
     **dict.fromkeys(("fixed_mask", "fixed_bits"), lambda point: point.fixed is not None),
     "active_low_mask": lambda point: any(flag.active == 0 for flag in point.flags),
-    **dict.fromkeys(("telegram", "received", "from_pzd", "to_pzd"), lambda point: point.telegram is not None),
-    **dict.fromkeys(
-        ("read_answer", "write_answer", "read_word", "from_reply", "write_eeprom_request"),
-        lambda point: point.space == "parameter",
-    ),
+    "telegram": lambda point: point.telegram is not None,
+    "eeprom_frame": lambda point: point.space == "parameter",
 }
 """What only points of some forms, spaces and families have."""
+
+LAYOUT = re.compile(
+    r"layout_(bit|[us](8|16|32|64))(_order_[0-9a-f]+)?(_bits_\d+_\d+|_word)?(_fixed_[0-9a-f]+_[0-9a-f]+)?"
+)
+"""What the header of frames calls the ways in which numbers lie in words, whatever the points."""
+
+
+class Header(frozenset[str]):
+    """The names that headers define whatever authors named, with all that layouts may be called."""
+
+    def __contains__(self, name: object) -> bool:
+        return super().__contains__(name) or (isinstance(name, str) and LAYOUT.fullmatch(name) is not None)
+
 
 C_TAILS = _ALWAYS | _FUNCTIONS | _BITS | _SOMETIMES.keys()
 """What every point may have behind its name."""
@@ -86,7 +98,7 @@ def prefix_clashes(subject: Subject) -> Iterator[tuple[Claim, Claim]]:
     """Pairs of things that would get one C identifier."""
     fixed = {one.point.item: one for one in subject.resolved if one.point.generated}
     given = _given(subject, fixed)
-    header = HEADER | set(_of_device(subject))
+    header = Header(HEADER | set(_of_device(subject)))
     for prefix, tails in given.items():
         for tail, claim in tails.items():
             whole = f"{prefix}_{tail}"
@@ -126,7 +138,7 @@ def _given(subject: Subject, fixed: dict[str, Resolved]) -> dict[str, Tails]:
             claim = Claim("C", f"{prefix}_{tail}".upper(), what, one.draft, key)
             given.setdefault(prefix, {}).setdefault(tail, claim)
     for raw in subject.scope.listed("commands"):
-        for tail in ("address", "value", "request"):
+        for tail in ("address", "value"):
             claim = Claim("C", f"COMMAND_{raw['name']}_{tail}".upper(), f"the command `{raw['name']}`", raw, "name")
             given.setdefault(f"command_{raw['name']}", {}).setdefault(tail, claim)
     return given
@@ -136,11 +148,12 @@ def _of_device(subject: Subject) -> Iterator[str]:
     """What the header defines for the spaces, codes, groups, messages and telegrams of the device."""
     yield from (f"space_{space}" for space in subject.scope.family.spaces)
     yield from (f"exception_{code.name}" for code in subject.bus.exceptions)
+    yield from (f"command_{raw['name']}" for raw in subject.scope.listed("commands"))
     for group in groups(subject.scope):
         yield from (f"{group['group']}_{tail}" for tail in ("blocks", "blocks_count", "group_count"))
     yield from (f"message_{raw['name']}" for raw in subject.scope.listed("messages"))
     for raw in subject.scope.listed("telegrams"):
-        yield from (f"telegram_{raw['name']}{tail}" for tail in ("", "_words", "_slots", "_listen", "_start"))
+        yield from (f"telegram_{raw['name']}{tail}" for tail in ("", "_words", "_slots"))
     if subject.scope.header["family"] == "uss":
         kinds = (
             ("task", subject.bus.functions),

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from fieldscribe.targets.c.conformance import conformance_view
 from fieldscribe.targets.c.device import device_view
 from fieldscribe.targets.c.families import FAMILIES
+from fieldscribe.targets.c.fold import folded
 from fieldscribe.targets.c.identifiers import identifiers
 
 if TYPE_CHECKING:
@@ -19,19 +20,20 @@ if TYPE_CHECKING:
 def outputs(device: Device, render: Render) -> Iterable[tuple[str, str]]:
     """The generated files: path relative to the output folder, and text."""
     view, scope = device_view(device)
-    yield f"c/{device.id}.h", render("c/device.h.j2", {"device": view})
+    yield f"c/{device.id}.h", folded(render("c/device.h.j2", {"device": view}))
     name, family = device.family, FAMILIES[device.family]
     bus = family.view(device, view, scope)
     frames = {"device": view, "bus": bus}
-    yield f"c/{device.id}_{name}.h", render(f"c/{name}.h.j2", frames)
+    yield f"c/{device.id}_{name}.h", folded(render(f"c/{name}.h.j2", frames))
     suite = conformance_view(device, view, scope, family.adapters(bus))
-    yield f"c/conformance/{device.id}_conformance.c", render("c/conformance.c.j2", {**frames, "suite": suite})
+    program = render("c/conformance.c.j2", {**frames, "suite": suite})
+    yield f"c/conformance/{device.id}_conformance.c", folded(program)
 
 
 def runtime(device: Device) -> Iterator[tuple[str, str]]:
     """The real source files beside the output: output path, and path under the templates."""
-    yield f"c/fieldscribe_{device.family}.h", f"c/runtime/fieldscribe_{device.family}.h"
-    yield "c/fieldscribe_conformance.h", "c/runtime/fieldscribe_conformance.h"
+    for name in ("", f"_{device.family}", "_conformance", f"_conformance_{device.family}"):
+        yield f"c/fieldscribe{name}.h", f"c/runtime/fieldscribe{name}.h"
 
 
 __all__ = ["identifiers", "outputs", "runtime"]

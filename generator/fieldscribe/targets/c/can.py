@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.names import upper
-from fieldscribe.targets.c.literals import hexadecimal, raw_type
+from fieldscribe.targets.c.frames import Descriptor, Layouts, kind_of, lies, names_of, shares
+from fieldscribe.targets.c.literals import hexadecimal
 from fieldscribe.targets.c.modbus import exceptions_of
-from fieldscribe.targets.c.places import fixed_number, fixes
 from fieldscribe.targets.identifiers import Owner
 from fieldscribe.text import c_comment
 
@@ -43,37 +43,24 @@ class TelegramView:
     words_name: str
     slots_name: str
     slots: int
-    listen: str
     message: str
     per_frame: int
 
 
 @dataclass(frozen=True, slots=True)
-class ParameterView:
-    """The frames of one parameter: `raw_of_word` and `word_of_raw` convert, `shares` its word with others."""
+class FrameView:
+    """What one point is asked and told with, or heard by, and which vectors that answers."""
 
+    descriptor: Descriptor
     function: str
     macro: str
+    kind: str
     raw_type: str
     read: bool
     write: bool
     text: bool
     shares: bool
-    raw_of_word: str
-    word_of_raw: str
-
-
-@dataclass(frozen=True, slots=True)
-class CyclicView:
-    """A point of a telegram: `words` are their positions, the high one first."""
-
-    function: str
-    raw_type: str
-    macro: str
-    words: tuple[str, ...]
-    text: bool
-    raw_of_words: str
-    store: tuple[int, int] | None
+    lies: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,8 +89,9 @@ class BusView:
     write_answer: str
     exceptions: tuple[tuple[str, str, str], ...]
     groups: tuple[GroupView, ...]
-    parameters: tuple[ParameterView, ...]
-    cyclic: tuple[CyclicView, ...]
+    layouts: tuple[Descriptor, ...]
+    parameters: tuple[FrameView, ...]
+    cyclic: tuple[FrameView, ...]
 
 
 def can_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
@@ -113,6 +101,18 @@ def can_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
     messages = {one.name: one for one in device.messages}
     cyclic = {one.name: messages[one.message] for one in device.telegrams if one.message in messages}
     reading, writing = _dialogue(device, writes=False), _dialogue(device, writes=True)
+    layouts = Layouts(scope)
+    asked = (reading[0] is not None, writing[0] is not None)
+    parameters = [
+        _parameter(point, views[point.item], layouts, asked)
+        for point in points
+        if point.space == "parameter" and (point.words == 1 or point.text is not None)
+    ]
+    heard = tuple(
+        _cyclic(point, views[point.item], layouts)
+        for point in points
+        if point.telegram in cyclic and (point.words <= 2 or point.text is not None)
+    )
     return BusView(
         guard=f"{scope.upper}_CAN_H",
         units=device.bus.units,
@@ -130,54 +130,43 @@ def can_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
         write_answer=_array(writing[1], scope),
         exceptions=exceptions_of(device, scope),
         groups=tuple(_groups(device, scope)),
-        parameters=tuple(
-            _parameter(point, views[point.item], scope)
-            for point in points
-            if point.space == "parameter" and (point.words == 1 or point.text is not None)
-        ),
-        cyclic=tuple(
-            _cyclic(point, views[point.item])
-            for point in points
-            if point.telegram in cyclic and (point.words <= 2 or point.text is not None)
-        ),
+        layouts=layouts.descriptors,
+        parameters=tuple(one for one in parameters if one is not None),
+        cyclic=heard,
     )
 
 
 def identifiers(bus: BusView, view: DeviceView) -> Iterator[tuple[str, Owner]]:
     """Every identifier of the header, with what it belongs to."""
-    yield f"{view.prefix}_can_profile", Owner("target")
+    yield from ((f"{view.prefix}_{name}", Owner("target")) for name in ("can_profile", "can_dialogue"))
     yield f"{view.upper}_CAN_BITRATE", Owner("target")
     for message in bus.messages:
         yield message.array, Owner("message", message.name)
     for telegram in bus.telegrams:
         owner = Owner("telegram", telegram.name)
-        yield from ((name, owner) for name in (telegram.constant, telegram.listen, telegram.slots_name))
+        yield from ((name, owner) for name in (telegram.constant, telegram.slots_name))
     yield from ((name, Owner("code", name)) for name, _, _ in bus.exceptions)
     for group in bus.groups:
         yield from ((name, Owner("group", group.title)) for name in (group.array, group.count_name))
-    for point in bus.parameters:
-        item = point.function[len(view.prefix) + 1 :]
-        tails = ["_read_request", "_read_answer"] if point.read else []
-        tails += ["_read_word"] if point.read and point.shares else []
-        tails += ["_write_request", "_write_answer"] if point.write else []
-        yield from ((point.function + tail, Owner("point", item, f"function {tail}")) for tail in tails)
-    for one in bus.cyclic:
-        yield f"{one.function}_received", Owner("point", one.function[len(view.prefix) + 1 :], "function")
+    yield from names_of((*bus.layouts, *(one.descriptor for one in (*bus.parameters, *bus.cyclic))))
 
 
 def adapters(bus: BusView) -> Iterator[tuple[str, str]]:
     """How points of telegrams, and parameters, answer conformance vectors."""
+    for each in (*bus.parameters, *bus.cyclic):
+        if not each.text:
+            yield each.function, f"LIES({each.descriptor.name}, {each.lies})"
     for heard in bus.cyclic:
-        if heard.text:
-            yield heard.function, f"RECEIVED_TEXT({heard.function}, {heard.macro})"
-        else:
-            yield heard.function, f"RECEIVED({heard.function}, {heard.raw_type})"
+        name = heard.descriptor.name
+        how = f"TEXT({name}, {heard.macro}" if heard.text else f"({name}, {heard.kind}, {heard.raw_type}"
+        yield heard.function, f"RECEIVED{'_' if heard.text else ''}{how})"
     for one in bus.parameters:
-        read = one.read and bus.read_request and bus.read_answer
-        how = f"{one.function}, {one.macro}" if one.text else f"{one.function}, {one.raw_type}"
+        name = one.descriptor.name
+        read = one.read and bus.read_answer
+        how = f"{name}, {one.function}, {one.macro}" if one.text else f"{name}, {one.kind}, {one.raw_type}"
         if read:
             yield one.function, f"READ{'_TEXT' if one.text else ''}({how})"
-        if one.write and bus.write_request and bus.write_answer and (read or not one.shares):
+        if one.write and bus.write_answer and (read or not one.shares):
             tail = "_TEXT" if one.text else "_SHARED" if one.shares else ""
             yield one.function, f"WRITE{tail}({how})"
 
@@ -209,7 +198,7 @@ def _telegram(telegram: Telegram, message: Message, scope: Scope) -> TelegramVie
     name = f"{scope.prefix}_telegram_{telegram.name}"
     slots = -(-telegram.words // message.words)
     return TelegramView(
-        telegram.name, name, f"{macro}_WORDS", f"{macro}_SLOTS", slots, f"{name}_listen", _array(message, scope),
+        telegram.name, name, f"{macro}_WORDS", f"{macro}_SLOTS", slots, _array(message, scope),
         message.words,
     )  # fmt: skip
 
@@ -235,58 +224,38 @@ def _groups(device: Device, scope: Scope) -> Iterator[GroupView]:
             yield GroupView(group.name, name, count, tuple(hexadecimal(address) for address in addresses))
 
 
-def _parameter(point: Point, view: PointView, scope: Scope) -> ParameterView:
-    """The frames of a point whose every word travels in a message of its own."""
-    return ParameterView(
-        view.function,
-        view.macro,
-        view.raw_type,
-        point.readable,
-        point.writable,
-        point.text is not None,
-        point.bits is not None,
-        raw_of_word(point, view, "word"),
-        word_of_raw(point, view, "word", scope),
-    )
+def _parameter(point: Point, view: PointView, layouts: Layouts, asked: tuple[bool, bool]) -> FrameView | None:
+    """The frames of a point whose every word travels in a message of its own; None where no message does."""
+    read, write = (asked[0] and point.readable), (asked[1] and point.writable)
+    if not read and not write:
+        return None
+    text = point.text is not None
+    place = f"{{{view.function}_addresses, {point.words}U}}" if text else f"{{{hexadecimal(point.addresses[0])}}}"
+    parts = [*([] if text else [layouts.of(point, (0,))]), *[place] * (read + write)]
+    access = f"{'text_' if text else ''}{'r' if read else ''}{('u' if shares(point) else 'w') if write else ''}"
+    return _frame(point, view, access, parts)
 
 
-def raw_of_word(point: Point, view: PointView, word: str) -> str:
-    """The raw number of a point that lies in one word."""
-    if point.bits is not None:
-        return f"{view.function}_extract({word})"
-    if view.words is not None:
-        return f"{view.function}_from_words(&{word})"
-    if raw_type(point) == "bool":
-        return f"{word} != 0U"
-    return word if point.info.bits == 16 else f"({view.raw_type})({word} & 0xFFU)"
+def _cyclic(point: Point, view: PointView, layouts: Layouts) -> FrameView:
+    """Where a point is heard in its telegram."""
+    if point.text is not None:
+        return _frame(point, view, "text_h", [f"{{{view.function}_addresses, {point.words}U}}"])
+    where = f"{{{hexadecimal(point.addresses[0])}, {hexadecimal(point.addresses[-1])}}}"
+    return _frame(point, view, "h", [layouts.of(point, range(point.words)), where])
 
 
-def word_of_raw(point: Point, view: PointView, word: str, scope: Scope) -> str:
-    """The one word of a raw number, with its constant bits: a word made of masks may lack them.
-
-    `word` is what stands there now, for a point that shares it.
-    """
-    if point.bits is not None:
-        return f"{view.function}_insert({word}, raw)"
-    if fixes(point):
-        number = fixed_number(point, view.macro, scope, "raw")
-        return f"(uint16_t)({number})" if point.info.signed else number
-    if raw_type(point) == "bool":
-        return "raw ? 1U : 0U"
-    return "(uint16_t)raw" if point.info.signed else "raw"
-
-
-def _cyclic(point: Point, view: PointView) -> CyclicView:
-    first = min(point.addresses)
-    words = tuple(f"{view.macro}_ADDRESS{f' + {one - first}U' if one > first else ''}" for one in point.addresses)
-    double = len(words) == 2 and point.text is None
-    order = sorted(point.addresses)
-    return CyclicView(
-        view.function,
-        view.raw_type,
-        view.macro,
-        words,
-        point.text is not None,
-        f"{view.function}_from_words(words)" if double else raw_of_word(point, view, "word"),
-        (order.index(point.addresses[0]), order.index(point.addresses[1])) if double else None,
+def _frame(point: Point, view: PointView, access: str, parts: list[str]) -> FrameView:
+    value = f"{{{', '.join(parts)}}}"
+    ways = access.removeprefix("text_")
+    return FrameView(
+        descriptor=Descriptor(f"fieldscribe_can_{access}", f"{view.function}_frame", value, view.item),
+        function=view.function,
+        macro=view.macro,
+        kind=kind_of(point),
+        raw_type=view.raw_type,
+        read="r" in ways,
+        write=ways[-1] in "wu",
+        text=point.text is not None,
+        shares=shares(point),
+        lies=lies(point),
     )

@@ -6,14 +6,19 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.names import upper
-from fieldscribe.targets.c.literals import raw_type
-from fieldscribe.targets.c.points import named_numbers, value_type
-from fieldscribe.targets.c.special_codes import owner, special_defines
+from fieldscribe.targets.c.conversions import value_type
+from fieldscribe.targets.c.defines import shares_values
+from fieldscribe.targets.c.literals import raw_type, signed
+from fieldscribe.targets.c.points import named_numbers
+from fieldscribe.targets.c.scales import scaled
+from fieldscribe.targets.c.special_codes import encoded_limits, owner, special_defines
+from fieldscribe.text import c_string
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
 
     from fieldscribe.model import Code, Device, Point
+    from fieldscribe.targets.c.scales import Scaled
     from fieldscribe.targets.c.scope import Scope
     from fieldscribe.targets.c.views import DeviceView, PointView
 
@@ -27,11 +32,24 @@ class AdapterView:
 
 
 @dataclass(frozen=True, slots=True)
+class StructView:
+    """A function that fills the struct of a point with those raw numbers that a vector gives.
+
+    `floating` says that floating point alone needs it.
+    """
+
+    type: str
+    function: str
+    fields: tuple[tuple[str, str, str], ...]
+    floating: bool
+
+
+@dataclass(frozen=True, slots=True)
 class SuiteView:
     """The conformance program of a device."""
 
+    structs: tuple[StructView, ...]
     adapters: tuple[AdapterView, ...]
-    spaces: tuple[str, ...]
     statuses: tuple[tuple[str, str], ...]
     family: str
     groups: tuple[tuple[str, str, str], ...]
@@ -39,8 +57,8 @@ class SuiteView:
     names: tuple[str, ...]
     """The kinds of codes that a function names."""
     commands: tuple[tuple[str, str, str], ...]
-    documented: tuple[tuple[str, str, bool, bool], ...]
-    """Points whose words alone are known, what their macros begin with, and whether they have an index and a code."""
+    documented: tuple[tuple[str, str, str, bool], ...]
+    """Points whose words alone are known, their space, what their macros begin with, and whether they have an index."""
     telegrams: tuple[str, ...]
 
 
@@ -60,20 +78,20 @@ def conformance_view(device: Device, view: DeviceView, scope: Scope, more: Itera
         if blocks
     )
     return SuiteView(
+        structs=tuple(one for point in points for one in _structs(point, scope)),
         adapters=tuple(_adapter(point, views[point.item], scope, extra) for point in points),
-        spaces=tuple(dict.fromkeys(point.space for point in device.points if point.generated or point.raw_only)),
         statuses=tuple((f"{scope.upper}_{upper(status)}", status) for status in _STATUSES),
         family=device.family,
         groups=tuple(groups),
         codes=tuple(_codes(device, scope)),
         documented=tuple(
-            (one.item, f"{scope.upper}_{upper(one.item)}", one.index is not None, one.code is not None)
+            (one.item, one.space, f"{scope.upper}_{upper(one.item)}", one.index is not None)
             for one in device.points
             if one.raw_only and one.address is not None
         ),
         names=tuple(kind for kind, codes in _code_kinds(device) if codes and device.family == "uss"),
         commands=tuple(
-            (one.name, f"{scope.prefix}_command_{one.name}_request", f"{scope.upper}_COMMAND_{upper(one.name)}_VALUE")
+            (one.name, f"{scope.prefix}_command_{one.name}", f"{scope.upper}_COMMAND_{upper(one.name)}_VALUE")
             for one in device.commands
         ),
         telegrams=tuple(one.name for one in device.telegrams),
@@ -112,7 +130,8 @@ def _parts(point: Point, view: PointView) -> Iterator[str]:
         else:
             yield f'WIDE_FLAG("{flag.name}", {number}, {view.macro}_{upper(flag.name)})'
         for entry in flag.values if flag.width > 1 else ():
-            constant = f"{view.macro}_{upper(flag.name)}_{upper(entry.name)}"
+            of = view.macro if shares_values(point) else f"{view.macro}_{upper(flag.name)}"
+            constant = f"{of}_{upper(entry.name)}"
             yield f'FLAG_NAME("{flag.name}", "{entry.name}", {constant})'
 
 
@@ -130,17 +149,20 @@ def _cases(point: Point, view: PointView, scope: Scope) -> list[str]:
     function, kind = view.function, view.raw_type
     cases = [f"ADDRESS({view.macro}, {_constants(point, view)})"] if point.address is not None else []
     if view.writable and view.shape != "text":
-        cases.append(f"CHECK({function}_check, {kind}, {_with(view.limit_arguments, scope)})")
+        cases.append(f"CHECK({function}_check, {kind}, {_with(point, view.limit_arguments, scope)})")
     cases += _conversions(point, view, scope)
     enum = named_numbers(point)
     if enum is not None:
         cases.append(f"NAME({scope.prefix}_{enum.name}_name, {value_type(point)})")
+        constant = f"{scope.upper}_{upper(enum.name)}"
+        first = {entry.raw: entry.name for entry in reversed(enum.entries)}
+        cases += [f'NAMED("{name}", {constant}_{upper(name)})' for name in first.values()]
     cases += _places(point, view)
     if point.text is not None:
         return cases
-    if view.bits is not None:
+    if view.bits:
         cases.append(f"BITS({function}, {kind}, {view.macro})")
-    elif view.words is not None:
+    elif view.words:
         cases.append(f"WORDS({function}, {kind}, {point.words}U)")
     else:
         cases.append(f"ONE_WORD({kind})")
@@ -170,14 +192,22 @@ def _beside(point: Point, view: PointView) -> str:
 
 def _constants(point: Point, view: PointView) -> str:
     """The macros that answer with what stands beside the address."""
-    calls = [f"CODE({view.macro})"] if point.code is not None else []
+    calls = [
+        f'SPACE("{point.space}")',
+        f"{'SEVERAL' if point.words > 1 or point.text is not None else 'ONE'}({view.macro})",
+    ]
     if view.shape not in ("float", "text", "digits"):
-        calls.append(f"RAWS({view.macro})")
+        low, high = point.outer
+        only_read = f"ONLY_READ({signed(low)}, {signed(high)})"
+        calls.append(f"RAWS({view.macro})" if point.writable else only_read)
     if point.form == "scaled" and point.decimals is not None:
         calls.append(f"DECIMALS({view.macro})")
+    if point.code is not None:
+        calls.append(f"CODE({c_string(point.code)})")
     for key, number in point.references.items():
-        kind = "REFERENCE_TEXT" if isinstance(number, str) else "REFERENCE"
-        calls.append(f'{kind}({view.macro}, {upper(key)}, "{key}")')
+        text = isinstance(number, str)
+        literal = c_string(number) if isinstance(number, str) else signed(number)
+        calls.append(f'REFERENCE{"_TEXT" if text else ""}("{key}", {literal})')
     return " ".join(f"FIELDSCRIBE_{call}" for call in calls)
 
 
@@ -185,12 +215,13 @@ def _conversions(point: Point, view: PointView, scope: Scope) -> list[str]:
     function, kind, form = view.function, view.raw_type, view.shape
     if form in ("text", "digits"):
         return _of_parts(point, view)
-    arguments = point.arguments if view.declare_all else ()
-    everything = _with(arguments, scope)
-    scale = _with(view.scale_arguments, scope)
+    arguments = point.arguments
+    everything = _with(point, arguments, scope)
+    scale = _with(point, view.scale_arguments, scope)
     attempt = "TRY_" if view.special is not None or form == "ruled" else ""
     counted = "" if form == "plain" else "_count"
-    number = getattr(view.codec, "count_type", "int64_t") if form != "plain" else value_type(point)
+    scale_of = scaled(point, *_reach(point)) if form == "scaled" else None
+    number = value_type(point) if form == "plain" else "int64_t" if scale_of is None else scale_of.count_type
     if form == "plain" and kind == "bool" and not attempt:
         number = "int32_t"
     cases = []
@@ -198,15 +229,25 @@ def _conversions(point: Point, view: PointView, scope: Scope) -> list[str]:
         if view.writable:
             cases.append(f"ENCODE_COUNT({function}_encode{counted}, {number}, {kind}, {everything})")
         if view.readable:
-            tried = "TRY_" if getattr(view.codec, "count_beyond", "") else attempt
+            tried = "TRY_" if scale_of is not None and scale_of.count_fits else attempt
             cases.append(f"{tried}DECODE_COUNT({function}_decode{counted}, {number}, {kind}, {scale})")
     if form != "plain":
-        real = getattr(view.codec, "real", "double")
+        real = "double" if _is_double(point, scale_of) else "fieldscribe_real"
         if view.writable and view.encodes:
             cases.append(f"ENCODE({function}_encode, {real}, {kind}, {everything})")
         if view.readable:
             cases.append(f"{attempt}DECODE({function}_decode, {real}, {kind}, {scale})")
     return cases
+
+
+def _reach(point: Point) -> tuple[int, int]:
+    return encoded_limits(point) if point.specials else point.outer
+
+
+def _is_double(point: Point, scale: Scaled | None) -> bool:
+    if scale is not None:
+        return scale.wide
+    return point.form != "float" or point.info.bits == 64
 
 
 def _of_parts(point: Point, view: PointView) -> list[str]:
@@ -218,7 +259,7 @@ def _of_parts(point: Point, view: PointView) -> list[str]:
         if view.writable:
             cases.append(f"TEXT_ENCODE({view.function}, {view.macro})")
         return cases
-    kind = getattr(view.codec, "digit_type", "uint8_t")
+    kind = "uint16_t"
     if view.readable:
         attempt = "TRY_" if view.special is not None else ""
         cases.append(f"{attempt}DIGITS({view.function}, {kind}, {view.macro})")
@@ -227,10 +268,30 @@ def _of_parts(point: Point, view: PointView) -> list[str]:
     return cases
 
 
-def _with(names: tuple[str, ...], scope: Scope) -> str:
+def _with(point: Point, names: tuple[str, ...], scope: Scope) -> str:
     if not names:
         return "FIELDSCRIBE_ALONE"
+    if len(names) > 1:
+        return f"FIELDSCRIBE_TOGETHER({_filler(point, names)})"
     return " ".join(f'FIELDSCRIBE_WITH("{name}", {raw_type(scope.points[name])})' for name in names)
+
+
+def _filler(point: Point, names: tuple[str, ...]) -> str:
+    ways = {point.arguments: "", point.scale_arguments: "_scale", point.limit_arguments: "_limits"}
+    tail = "" if names == point.arguments else ways[names]
+    return f"with_{point.item}{tail}"
+
+
+def _structs(point: Point, scope: Scope) -> Iterator[StructView]:
+    """One for each set of raw numbers that some function of the point needs."""
+    counts = point.decimals is not None
+    integer = [point.limit_arguments] if point.writable else []
+    integer += [point.arguments] if point.writable and counts else []
+    integer += [point.scale_arguments] if point.readable and counts else []
+    for names in dict.fromkeys((point.arguments, point.scale_arguments, point.limit_arguments)):
+        if len(names) > 1:
+            fields = tuple((name, f"{name}_raw", raw_type(scope.points[name])) for name in names)
+            yield StructView(scope.struct(point), _filler(point, names), fields, floating=names not in integer)
 
 
 def _truth(point: Point, view: PointView, name: str) -> str:

@@ -1,4 +1,4 @@
-"""The constants of a point: where it is, what the manual calls it, its limits and masks."""
+"""The constants of a point: where it is, its limits and masks."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 from fieldscribe.names import upper
 from fieldscribe.targets.c.literals import hexadecimal, signed, unsigned
 from fieldscribe.targets.c.special_codes import code_defines
-from fieldscribe.text import c_string
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -17,31 +16,36 @@ if TYPE_CHECKING:
     from fieldscribe.targets.c.views import Define
 
 
-def defines(point: Point, macro: str, scope: Scope, outer: tuple[int, int]) -> Iterator[Define]:
-    """The macros of a generated point and their literals; `outer` are the outer limits of the raw number."""
+def defines(point: Point, macro: str, scope: Scope) -> Iterator[Define]:
+    """The macros of a generated point and their literals."""
     yield from place_defines(point, macro, scope)
-    yield f"{macro}_WORDS", f"{point.words}U"
-    yield from _raw_number(point, macro, outer)
+    if point.words > 1 or point.text is not None:
+        yield f"{macro}_WORDS", f"{point.words}U"
+    yield from _raw_number(point, macro)
     yield from _bits(point, macro)
     if not point.shared_codes:
         yield from code_defines(point, macro)
     active_low = sum(1 << flag.low for flag in point.flags if _active_low(flag))
     if active_low:
         yield f"{macro}_ACTIVE_LOW_MASK", hexadecimal(active_low, point.info.bits // 4)
+    shared = shares_values(point)
     for flag in point.flags:
-        yield from _flag_defines(flag, f"{macro}_{upper(flag.name)}", point.info.bits // 4)
+        yield from _flag_defines(flag, f"{macro}_{upper(flag.name)}", point.info.bits // 4, shared=shared)
+    if shared:
+        wide = next(flag for flag in point.flags if flag.width > 1)
+        yield from ((f"{macro}_{upper(entry.name)}", f"{entry.raw}U") for entry in wide.values)
+
+
+def shares_values(point: Point) -> bool:
+    """Whether several flags have the same named numbers, which then belong to the point."""
+    wide = [tuple((entry.name, entry.raw) for entry in flag.values) for flag in point.flags if flag.width > 1]
+    return len(wide) > 1 and len(set(wide)) == 1
 
 
 def place_defines(point: Point, macro: str, scope: Scope) -> Iterator[Define]:
-    """The macros that say where a point is and what the manual calls it."""
-    yield f"{macro}_SPACE", f"{scope.upper}_SPACE_{upper(point.space)}"
+    """The macros that say where a point is."""
     if point.address is not None:
         yield from _places(point, macro, scope)
-    if point.code is not None:
-        yield f"{macro}_CODE", c_string(point.code)
-    for key, number in point.references.items():
-        literal = c_string(number) if isinstance(number, str) else (unsigned if number >= 0 else signed)(number)
-        yield f"{macro}_{upper(key)}", literal
 
 
 def _places(point: Point, macro: str, scope: Scope) -> Iterator[Define]:
@@ -55,15 +59,16 @@ def _places(point: Point, macro: str, scope: Scope) -> Iterator[Define]:
             yield f"{macro}_{upper(place.purpose)}_ADDRESS", hexadecimal(min(place.addresses))
 
 
-def _raw_number(point: Point, macro: str, outer: tuple[int, int]) -> Iterator[Define]:
-    """What the words hold: characters, digits, or a number between limits."""
+def _raw_number(point: Point, macro: str) -> Iterator[Define]:
+    """What the words hold: characters, digits, or a number between the limits of what may be written."""
     if point.text is not None:
         yield f"{macro}_CHARACTERS", unsigned(point.text.characters)
     elif point.digits is not None:
         yield f"{macro}_DIGITS", unsigned(point.digits.count)
-    elif not point.info.floating:
-        yield f"{macro}_RAW_MIN", signed(outer[0])
-        yield f"{macro}_RAW_MAX", signed(outer[1])
+    elif point.writable and not point.info.floating:
+        low, high = point.outer
+        yield f"{macro}_RAW_MIN", signed(low)
+        yield f"{macro}_RAW_MAX", signed(high)
     if point.form == "scaled" and point.decimals is not None:
         yield f"{macro}_DECIMALS", f"{point.decimals}"
 
@@ -84,10 +89,10 @@ def _active_low(flag: Flag) -> bool:
     return flag.width == 1 and flag.active == 0
 
 
-def _flag_defines(flag: Flag, name: str, digits: int) -> list[Define]:
+def _flag_defines(flag: Flag, name: str, digits: int, *, shared: bool) -> list[Define]:
     remark = " /* true while 0 */" if _active_low(flag) else ""  # who sets the bit of OFF2 takes OFF2 away
     defines = [(f"{name}_MASK", hexadecimal(((1 << flag.width) - 1) << flag.low, digits) + remark)]
     if flag.width > 1:
         defines.append((f"{name}_SHIFT", f"{flag.low}U"))
-        defines += [(f"{name}_{upper(entry.name)}", f"{entry.raw}U") for entry in flag.values]
+        defines += [(f"{name}_{upper(entry.name)}", f"{entry.raw}U") for entry in flag.values if not shared]
     return defines

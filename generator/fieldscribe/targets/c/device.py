@@ -6,11 +6,12 @@ from typing import TYPE_CHECKING
 
 from fieldscribe import __version__
 from fieldscribe.names import upper
+from fieldscribe.targets.c.comments import comment_lines
 from fieldscribe.targets.c.defines import place_defines
-from fieldscribe.targets.c.points import comment_lines, point_view
+from fieldscribe.targets.c.points import computes_in_double, point_view
 from fieldscribe.targets.c.scope import Scope, scope_of
 from fieldscribe.targets.c.special_codes import FUNCTIONS
-from fieldscribe.targets.c.views import AliasView, DeviceView, GroupView, Needs, PointView, RemarkView, TelegramView
+from fieldscribe.targets.c.views import AliasView, DeviceView, GroupView, PointView, RemarkView, TelegramView
 from fieldscribe.text import c_comment
 
 if TYPE_CHECKING:
@@ -18,7 +19,8 @@ if TYPE_CHECKING:
 
     from fieldscribe.model import Device, Point
 
-_FLOATS = {"round", "round_wide", "times", "times_wide", "real", "f32", "f64", "rules", "quotient"}
+STATUSES = ("OK", "OUT_OF_RANGE", "NOT_A_NUMBER", "UNKNOWN_VALUE", "ZERO_FACTOR", "NO_CASE", "OVERFLOW", "SPECIAL")
+"""What conversions answer."""
 
 
 def device_view(device: Device, *, names_only: bool = False) -> tuple[DeviceView, Scope]:
@@ -26,24 +28,17 @@ def device_view(device: Device, *, names_only: bool = False) -> tuple[DeviceView
     scope = scope_of(device, names_only=names_only)
     by_group: dict[str, list[tuple[PointView | None, RemarkView]]] = {group.name: [] for group in device.groups}
     aliases: list[AliasView] = []
-    spaces: dict[str, None] = {}
     for point in device.points:
         if not point.generated:
             by_group.setdefault(point.group, []).append((None, _remark(point, scope)))
-            if point.raw_only:
-                spaces.setdefault(point.space)
             continue
         one = point_view(point, scope)
         by_group.setdefault(point.group, []).append((one, RemarkView(point.item, (), ())))
-        spaces.setdefault(point.space)
         for old in point.was:
             item = old + point.item[len(point.name) :]  # a variant keeps its suffix
             of_item = _aliases(one, f"{scope.prefix}_{item}", f"{scope.upper}_{upper(item)}")
             aliases += [AliasView(item, one.item, *alias) for alias in of_item]
-    titles = {group.name: group.title["en"] for group in device.groups}
-    groups = tuple(
-        GroupView(c_comment(titles.get(name, name)), tuple(entries)) for name, entries in by_group.items() if entries
-    )
+    groups = tuple(GroupView(_title(name, scope), tuple(entries)) for name, entries in by_group.items() if entries)
     view = DeviceView(
         head=head_lines(device),
         title=c_comment(f"{device.vendor} {device.model}"),
@@ -58,12 +53,18 @@ def device_view(device: Device, *, names_only: bool = False) -> tuple[DeviceView
             for number, one in enumerate(device.telegrams)
             for name in (f"{scope.upper}_TELEGRAM_{upper(one.name)}",)
         ),
-        spaces=tuple((f"{scope.upper}_SPACE_{upper(space)}", index) for index, space in enumerate(spaces)),
         groups=groups,
         aliases=tuple(aliases),
-        needs=_needs(scope),
+        statuses=STATUSES,
+        double=not names_only and any(computes_in_double(point) for point in device.points if point.generated),
     )
     return view, scope
+
+
+def _title(group: str, scope: Scope) -> str:
+    """What stands above a group: its name, and the space of its points if they have but one."""
+    space = scope.spaces.get(group)
+    return group.replace("_", " ") + (f" ({space})" if space else "")
 
 
 def head_lines(device: Device) -> tuple[str, ...]:
@@ -92,10 +93,10 @@ def function_names(view: PointView) -> list[str]:
     tails += ["_encode_count"] if view.writable and counted else []
     tails += ["_decode", "_decode_count"][: 1 + counted] if view.readable else []
     tails += ["_check"] if view.writable else []
-    tails += ["_rule"] if view.shape == "ruled" else []
+    tails += ["_rule"] if view.rules else []
     tails += ["_to_words", "_from_words"] if view.words else []
     tails += ["_extract", "_insert"] if view.bits else []
-    return [*(view.function + tail for tail in tails), *(flag.function for flag in view.flags), *codes]
+    return [*(view.function + tail for tail in tails), *view.flags, *codes]
 
 
 def _aliases(view: PointView, function: str, macro: str) -> Iterator[tuple[str, str, str]]:
@@ -109,42 +110,8 @@ def _aliases(view: PointView, function: str, macro: str) -> Iterator[tuple[str, 
 
 
 def _remark(point: Point, scope: Scope) -> RemarkView:
-    lines = [
-        *comment_lines(point, scope),
-        c_comment(f"Not generated ({point.item}): {point.reason or 'documented only'}."),
-    ]
+    remark = f"not generated: {point.reason or 'documented only'}"
+    lines = () if scope.names_only else comment_lines(point, scope, remark)
     macro = f"{scope.upper}_{upper(point.item)}"
     places = (*place_defines(point, macro, scope), (f"{macro}_WORDS", f"{point.words}U")) if point.raw_only else ()
-    return RemarkView(point.item, tuple(lines), places)
-
-
-def _needs(scope: Scope) -> Needs:
-    used = scope.used
-    rules = "rules" in used
-    return Needs(
-        signed="signed" in used,
-        signed32="signed32" in used,
-        signed64="signed64" in used,
-        divide="divide" in used,
-        divide_wide="divide_wide" in used,
-        real=bool(used & {"real", "round", "times", "f32"}),
-        times="times" in used,
-        times_wide=rules or "times_wide" in used,
-        round="round" in used,
-        round_wide=rules or "round_wide" in used,
-        f32="f32" in used,
-        f64="f64" in used,
-        quotient="quotient" in used,
-        f32_order="f32_order" in used,
-        f64_order="f64_order" in used,
-        rules=rules,
-        tens="times_ten_to" in used,
-        f32_encodes="bits_of_f32" in used,
-        f64_encodes="bits_of_f64" in used,
-        rules_wide="rules_wide" in used,
-        shifts=rules and scope.shifts,
-        lifts=rules and scope.lifts,
-        floats=bool(used & _FLOATS),
-        computes=bool(used & (_FLOATS | {"real", "double"})),
-        double=rules or "double" in used,
-    )
+    return RemarkView(point.item, lines, places)

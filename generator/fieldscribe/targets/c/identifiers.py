@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.targets.c.device import device_view, function_names
+from fieldscribe.targets.c.device import STATUSES, device_view, function_names
 from fieldscribe.targets.c.families import FAMILIES
 from fieldscribe.targets.c.special_codes import FUNCTIONS
 from fieldscribe.targets.identifiers import Identifier, Owner
@@ -17,72 +17,23 @@ if TYPE_CHECKING:
 
 OWN = Owner("target", "what the header needs")
 
-_HELPERS = (
-    "status",
-    "real",
-    "rule",
-    "signed",
-    "signed32",
-    "signed64",
-    "divide",
-    "divide_wide",
-    "magnitude",
-    "multiply",
-    "add",
-    "times_ten_to",
-    "ratio",
-    "apply_rule",
-    "raw_from_count",
-    "count_from_raw",
-    "times",
-    "times_wide",
-    "round",
-    "round_wide",
-    "copy",
-    "f32_of_bits",
-    "bits_of_f32",
-    "f64_of_bits",
-    "bits_of_f64",
-    "is_nan",
-    "f32_order",
-    "f64_order",
-    "raw_from_value",
-    "value_from_raw",
-    "value_from_wide",
-    "modbus_functions",
-    "modbus_profile",
-    "split_f32",
-    "twice_ratio",
-    "shifted_ratio",
-    "apply_shifted",
-    "two_to",
-    "quotient",
-)
+_TYPES = ("status", "real")
 _MACROS = (
-    "OK",
-    "OUT_OF_RANGE",
-    "NOT_A_NUMBER",
-    "UNKNOWN_VALUE",
-    "ZERO_FACTOR",
-    "NO_CASE",
-    "OVERFLOW",
-    "SPECIAL",
     "H",
     "MODBUS_H",
     "CAN_H",
     "USS_H",
     "DESCRIPTION_VERSION",
     "DESCRIPTION_DIGEST",
-    "MAY_FUSE",
 )
 
 
 def identifiers(device: Device) -> Iterator[Identifier]:
     """All that the headers of a device define, in the one namespace of C."""
     view, scope = device_view(device, names_only=True)
-    for name in _HELPERS:
+    for name in _TYPES:
         yield Identifier("C", f"{view.prefix}_{name}", OWN)
-    for name in (*(f"{view.upper}_{name}" for name in _MACROS), *(name for name, _ in view.spaces)):
+    for name in (f"{view.upper}_{name}" for name in (*STATUSES, *_MACROS)):
         yield Identifier("C", name, OWN)
     for one in view.telegrams:
         yield from (Identifier("C", name, OWN) for name in (one.name, one.words_name))
@@ -111,8 +62,11 @@ def _of_points(view: DeviceView) -> Iterator[tuple[str, Owner]]:
                 yield from ((name, holder) for name, _ in codes.defines)
             if point.enum is not None:
                 owner = Owner("enum", point.enum.function.removeprefix(f"{view.prefix}_").removesuffix("_name"))
-                yield point.enum.function, owner
+                yield from ((name, owner) for name in (point.enum.function, point.enum.table))
                 yield from ((name, Owner("enum", owner.name, name)) for name, _, _ in point.enum.entries)
             owner = Owner("point", point.item, "function")
             yield from ((name, Owner("point", point.item, f"constant {literal}")) for name, literal in point.defines)
             yield from ((name, owner) for name in function_names(point))
+            yield from ((table.name.partition("[")[0], owner) for table in point.tables if "_ranges[" in table.name)
+            if point.fields:
+                yield f"{point.function}_with", Owner("point", point.item, "struct")

@@ -2,51 +2,92 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from fieldscribe.model import Bound, Interval, Limit, Point
-from fieldscribe.targets.c.literals import INT32, bare, raw_bounds, unsigned
-from fieldscribe.targets.c.rules import limit_is_wide, limit_view
-from fieldscribe.targets.c.views import CheckView, LimitView
+from fieldscribe.targets.c.literals import bare, hexadecimal, raw_bounds, unsigned
+from fieldscribe.targets.c.rules import limit
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from fieldscribe.targets.c.scope import Scope
 
-_WIDTH = 100
-"""How long a line of a test may grow."""
+_TABLE = 3
+"""So many ranges stand in a table; fewer are a test."""
 
 
-def refused_status(point: Point) -> str:
+def known(point: Point, status: str) -> str:
     """What a number outside is called: a closed enum has unknown values, all else a range."""
-    return "UNKNOWN_VALUE" if point.enum is not None and point.enum.closed else "OUT_OF_RANGE"
+    closed = point.enum is not None and point.enum.closed
+    return f"fieldscribe_known({status})" if closed and status != "FIELDSCRIBE_OK" else status
 
 
-def check_view(point: Point, macro: str, scope: Scope, arguments: tuple[str, ...]) -> CheckView:
-    """The check of a point whose raw number is an integer; `arguments` are the points that its limits need."""
-    check = _limits_check(point, macro, scope, arguments)
+def refused(point: Point) -> str:
+    """The status of a number that may not be written."""
+    return f"FIELDSCRIBE_{'UNKNOWN_VALUE' if point.enum is not None and point.enum.closed else 'OUT_OF_RANGE'}"
+
+
+def is_moving(point: Point) -> bool:
+    """Whether other points set a limit."""
+    return not all(map(_is_fixed, point.allowed.intervals))
+
+
+def check(point: Point, scope: Scope) -> str:
+    """The status of writing `raw`, an integer that is no special code."""
+    status = known(point, _status(point, scope))
     if point.fixed is None or point.bits is not None:
-        return check
+        return status
     bits = f"uint{max(32, point.info.bits)}_t"
-    constant = f"(({bits})raw & {macro}_FIXED_MASK) == {macro}_FIXED_BITS"
-    test = f"({check.test})" if " || " in check.test else check.test
-    return replace(check, test=f"{constant} && {test}" if test else constant)
+    mask, constant = (hexadecimal(number, point.info.bits >> 2) for number in (point.fixed.mask, point.fixed.bits))
+    return f"((({bits})raw & {mask}) == {constant}) ? ({status}) : {refused(point)}"
 
 
-def _limits_check(point: Point, macro: str, scope: Scope, arguments: tuple[str, ...]) -> CheckView:
-    refused = f"{scope.upper}_{refused_status(point)}"
-    bounds = raw_bounds(point)
-    if arguments or not all(map(_is_fixed, point.allowed.intervals)):
-        return _moving(point, scope, refused)
+def checked(point: Point, name: str, low: int, high: int) -> str:
+    """The status of a number between two limits."""
+    if point.type == "u64":
+        return f"fieldscribe_check_u64({name}, {unsigned(low)}, {unsigned(high)})"
+    name = f"{name} ? 1 : 0" if point.type == "bit" else name
+    wide = "_wide" if point.info.bits > 16 else ""
+    return f"fieldscribe_check{wide}({name}, {bare(low)}, {bare(high)})"
+
+
+def _status(point: Point, scope: Scope) -> str:
     intervals = point.allowed.intervals
+    if is_moving(point):
+        parts = [_between(one, point, scope) for one in intervals]
+        status = parts[-1]
+        for part in reversed(parts[:-1]):
+            status = f"fieldscribe_either({part}, {status})"
+        return status
     if len(intervals) == 1:
-        limits = intervals[0].low, intervals[0].high
-        return CheckView((), "", _named_test("raw", macro, limits, _bounds_without_codes(point)), refused)
+        low, high = intervals[0].low, intervals[0].high
+        assert isinstance(low, int)
+        assert isinstance(high, int)
+        least, greatest = _bounds_without_codes(point)
+        return "FIELDSCRIBE_OK" if low <= least and high >= greatest else checked(point, "raw", low, high)
+    table = ranges_table(point, scope)
+    if table:
+        return f"fieldscribe_check_ranges(raw, {table}, FIELDSCRIBE_COUNT({table}))"
     literal = bare if point.info.signed else unsigned
-    tests = [interval_test("raw", one.low, one.high, bounds, literal) for one in intervals]
-    return CheckView((), "", any_of(tests), refused)
+    bounds = raw_bounds(point)
+    test = any_of([interval_test("raw", one.low, one.high, bounds, literal) for one in intervals])
+    return f"{bracketed(test)} ? FIELDSCRIBE_OK : FIELDSCRIBE_OUT_OF_RANGE" if test else "FIELDSCRIBE_OK"
+
+
+def ranges_table(point: Point, scope: Scope) -> str:
+    """The name of the table of a point's ranges, which points that have the same share; empty where none is needed."""
+    intervals = point.allowed.intervals
+    if not point.writable or len(intervals) < _TABLE or point.info.bits > 16 or is_moving(point):
+        return ""
+    return scope.tables.setdefault(ranges_of(point), f"{scope.prefix}_{point.item}_ranges")
+
+
+def ranges_of(point: Point) -> tuple[tuple[int, int], ...]:
+    """The constant ranges of a point."""
+    return tuple(
+        (one.low, one.high) for one in point.allowed.intervals if isinstance(one.low, int) and isinstance(one.high, int)
+    )
 
 
 def _bounds_without_codes(point: Point) -> tuple[int, int]:
@@ -59,38 +100,21 @@ def _bounds_without_codes(point: Point) -> tuple[int, int]:
     return low, high
 
 
-def _named_test(name: str, macro: str, limits: tuple[Bound, Bound], bounds: tuple[int, int]) -> str:
-    """Whether a number lies within RAW_MIN and RAW_MAX, as far as its type holds more."""
-    low, high = limits
-    tests = [f"{name} >= {macro}_RAW_MIN"] if not isinstance(low, int) or low > bounds[0] else []
-    tests += [f"{name} <= {macro}_RAW_MAX"] if not isinstance(high, int) or high < bounds[1] else []
-    return " && ".join(tests)
+def _between(interval: Interval, point: Point, scope: Scope) -> str:
+    """Whether a number lies in an interval whose limits other points may set."""
+    ends = [_end(one, scope, is_low=one is interval.low) for one in (interval.low, interval.high)]
+    return f"fieldscribe_between({_number(point)}, {', '.join(ends)})"
 
 
-def _moving(point: Point, scope: Scope, refused: str) -> CheckView:
-    """A check with limits that other points set: each becomes a variable."""
-    intervals = point.allowed.intervals
-    moving = [bound for one in intervals for bound in (one.low, one.high) if isinstance(bound, Limit)]
-    wide = raw_bounds(point)[1] > INT32[1] or any(limit_is_wide(bound, scope) for bound in moving)
-    several = sum(not _is_fixed(one) for one in intervals) > 1
-    limits: list[LimitView] = []
-    tests = []
-    for index, one in enumerate(intervals, 1):
-        ends: list[int | str] = []
-        for bound, side in ((one.low, "low"), (one.high, "high")):
-            if isinstance(bound, Limit):
-                name = f"{side}_{index}" if several else side
-                limits.append(limit_view(bound, name, side == "low", scope))
-                ends.append(name)
-            else:
-                ends.append(bound)
-        tests.append(interval_test("number", ends[0], ends[1], raw_bounds(point), bare))
-    return CheckView(tuple(limits), "int64_t" if wide else "int32_t", any_of(tests), refused, _number(point))
+def _end(bound: Bound, scope: Scope, *, is_low: bool) -> str:
+    if isinstance(bound, Limit):
+        return limit(bound, scope, is_low=is_low)
+    return f"fieldscribe_whole_of({bare(bound)})"
 
 
 def _number(point: Point) -> str:
     """The raw number as the signed type that limits have: what lies beyond that is beyond all of them."""
-    return "raw > (uint64_t)INT64_MAX ? INT64_MAX : (int64_t)raw" if point.type == "u64" else "raw"
+    return "(raw > (uint64_t)INT64_MAX) ? INT64_MAX : (int64_t)raw" if point.type == "u64" else "raw"
 
 
 def _is_fixed(interval: Interval) -> bool:
@@ -102,27 +126,24 @@ def interval_test(
 ) -> str:
     """One interval as a test; empty when the type holds nothing else. Comparisons that are always true are left out."""
     if low == high and isinstance(low, int):
-        return f"{name} == {literal(low)}"
+        return f"({name} == {literal(low)})"
     parts = []
     if not isinstance(low, int) or low > bounds[0]:
-        parts.append(f"{name} >= {literal(low) if isinstance(low, int) else low}")
+        parts.append(f"({name} >= {literal(low) if isinstance(low, int) else low})")
     if not isinstance(high, int) or high < bounds[1]:
-        parts.append(f"{name} <= {literal(high) if isinstance(high, int) else high}")
+        parts.append(f"({name} <= {literal(high) if isinstance(high, int) else high})")
     return " && ".join(parts)
 
 
 def any_of(tests: list[str]) -> str:
-    """The tests joined by `or`, in lines of a bearable length; empty when nothing is refused."""
+    """The tests joined by `or`; empty when nothing is refused."""
     if len(tests) < 2:
         return tests[0] if tests else ""
     if not all(tests):
         return ""
-    lines, current = [], ""
-    for test in tests:
-        part = f"({test})" if " && " in test else test
-        if current and len(current) + len(part) > _WIDTH:
-            lines.append(current)
-            current = part
-        else:
-            current = f"{current} || {part}" if current else part
-    return " ||\n           ".join([*lines, current])
+    return " || ".join(f"({test})" if " && " in test else test for test in tests)
+
+
+def bracketed(test: str) -> str:
+    """A test in brackets, as what stands before a question mark is."""
+    return test if test.startswith("(") and " && " not in test and " || " not in test else f"({test})"

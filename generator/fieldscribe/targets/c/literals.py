@@ -29,6 +29,13 @@ _RAW_TYPES = {
     "text": "uint16_t",
 }
 
+_WIDTHS = (8, 16, 32, 64)
+_KINDS = {
+    "bool": "bool",
+    **{f"uint{bits}_t": f"u{bits}" for bits in _WIDTHS},
+    **{f"int{bits}_t": f"s{bits}" for bits in _WIDTHS},
+}
+
 
 def raw_type(point: Point) -> str:
     """The C type of a point's raw number (of a text: of one word); floating-point patterns are unsigned."""
@@ -41,11 +48,21 @@ def raw_bounds(point: Point) -> tuple[int, int]:
     return (-(1 << (info.bits - 1)), (1 << (info.bits - 1)) - 1) if info.signed else (0, (1 << info.bits) - 1)
 
 
+def raw_kind(point: Point) -> str:
+    """The same as the cores of the runtime end: `u16`."""
+    return _KINDS[_RAW_TYPES[point.type]]
+
+
+def cast(kind: str, number: str) -> str:
+    """A number as another type."""
+    return f"({kind}){number}" if number.isidentifier() else f"({kind})({number})"
+
+
 def sign_and_size(point: Point) -> tuple[str, str]:
     """Whether the variable `raw` of a point is negative, and its magnitude."""
     if not point.info.signed:
         return "false", "raw"
-    return "raw < 0", "(raw < 0 ? (uint64_t)(-(raw + 1)) + 1U : (uint64_t)raw)"
+    return "raw < 0", "fieldscribe_magnitude(raw)"
 
 
 @lru_cache(maxsize=65536)

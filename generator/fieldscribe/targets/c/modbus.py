@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 from fieldscribe.families.modbus import framings_of
 from fieldscribe.names import upper
-from fieldscribe.targets.c.literals import hexadecimal, raw_type, unsigned
-from fieldscribe.targets.c.places import fixed_number, fixes
+from fieldscribe.targets.c.frames import Descriptor, Layouts, kind_of, lies, names_of, places_of, shares
+from fieldscribe.targets.c.literals import hexadecimal, unsigned
 from fieldscribe.targets.identifiers import Owner
 from fieldscribe.text import c_comment
 
@@ -29,27 +29,6 @@ _READS = {"coil": 1, "discrete": 2, "holding": 3, "input": 4}
 
 
 @dataclass(frozen=True, slots=True)
-class RequestView:
-    """The requests of one point: `read` and `write` are functions' numbers or empty.
-
-    `number` is stored, in one word or in several.
-    """
-
-    function: str
-    macro: str
-    read: str
-    write: str
-    write_address: str
-    raw_type: str
-    count: int
-    number: str
-    single: bool
-    text: bool
-    shares: bool
-    raw_of_words: str
-
-
-@dataclass(frozen=True, slots=True)
 class BlocksView:
     """The reads that bring a group's points."""
 
@@ -63,12 +42,25 @@ class BlocksView:
 class CommandView:
     """A named constant write."""
 
-    function: str
+    descriptor: Descriptor
     comment: str
     defines: tuple[Define, ...]
-    code: str
-    address: str
-    value: str
+
+
+@dataclass(frozen=True, slots=True)
+class FrameView:
+    """What one point is asked and told with, and which vectors that answers."""
+
+    descriptor: Descriptor
+    function: str
+    kind: str
+    raw_type: str
+    read: bool
+    write: bool
+    text: bool
+    shares: bool
+    lies: str
+    words: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,7 +75,8 @@ class BusView:
     rtu: str
     tcp: str
     blocks: tuple[BlocksView, ...]
-    requests: tuple[RequestView, ...]
+    layouts: tuple[Descriptor, ...]
+    frames: tuple[FrameView, ...]
     commands: tuple[CommandView, ...]
     exceptions: tuple[tuple[str, str, str], ...]
 
@@ -103,11 +96,12 @@ def modbus_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
     )
     numbers = frozenset(code.number for code in bus.functions)
     views = {entry.item: entry for group in view.groups for entry, _ in group.entries if entry is not None}
-    requests = (
-        _request(point, views[point.item], numbers, scope)
+    layouts = Layouts(scope)
+    frames = [
+        _frame(point, views[point.item], numbers, layouts)
         for point in device.points
         if point.generated and point.places
-    )
+    ]
     return BusView(
         guard=f"{scope.upper}_MODBUS_H",
         functions=functions,
@@ -117,7 +111,8 @@ def modbus_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
         rtu="true" if "rtu" in framings_of(bus) else "false",
         tcp="true" if "tcp" in framings_of(bus) else "false",
         blocks=tuple(_blocks(group, blocks, scope) for group, blocks in device.blocks.items() if blocks),
-        requests=tuple(request for request in requests if request is not None),
+        layouts=layouts.descriptors,
+        frames=tuple(one for one in frames if one is not None),
         commands=tuple(_command(command, scope) for command in device.commands),
         exceptions=exceptions_of(device, scope),
     )
@@ -136,68 +131,63 @@ def identifiers(bus: BusView, view: DeviceView) -> Iterator[tuple[str, Owner]]:
     for blocks in bus.blocks:
         yield from ((name, Owner("group", blocks.name)) for name in (blocks.array, blocks.count_name))
     for command in bus.commands:
-        names = (command.function, *(name for name, _ in command.defines))
-        yield from ((name, Owner("command", command.function)) for name in names)
+        name = command.descriptor.name
+        yield from ((one, Owner("command", name)) for one in (name, *(define for define, _ in command.defines)))
     yield from ((name, Owner("code", name)) for name, _, _ in bus.exceptions)
-    for request in bus.requests:
-        item = request.function[len(view.prefix) + 1 :]
-        for tail in ("_read_request", "_write_request"):
-            yield f"{request.function}{tail}", Owner("point", item, f"function {tail}")
+    yield from names_of((*bus.layouts, *(one.descriptor for one in bus.frames)))
 
 
 def adapters(bus: BusView) -> Iterator[tuple[str, str]]:
     """How points answer vectors of whole exchanges."""
-    for one in bus.requests:
+    for one in bus.frames:
+        name, what = one.descriptor.name, f"{one.descriptor.name}, {one.kind}, {one.raw_type}"
+        if not one.text:
+            yield one.function, f"LIES({name}, {one.lies})"
         if one.read:
-            how = f"READ_TEXT({one.function}" if one.text else f"READ({one.function}, {one.raw_of_words}"
-            yield one.function, f"{how})"
-        if one.write:
-            how = f"WRITE_TEXT({one.function}" if one.text else f"WRITE({one.function}, {one.raw_type}"
-            yield one.function, f"{how}, {one.count}U)"
-        if one.read and one.shares:
-            yield one.function, f"UPDATE({one.function}, {one.raw_type}, {one.write_address})"
+            yield one.function, f"READ_TEXT({name}, {one.words}U)" if one.text else f"READ({what})"
+        if one.write and one.text:
+            yield one.function, f"WRITE_TEXT({name}, {one.words}U)"
+        elif one.write:
+            yield one.function, f"{'UPDATE' if one.shares else 'WRITE'}({what})"
 
 
-def _request(point: Point, view: PointView, functions: frozenset[int], scope: Scope) -> RequestView | None:
+def _frame(point: Point, view: PointView, functions: frozenset[int], layouts: Layouts) -> FrameView | None:
     """None for a point that no function of the device reaches, or that needs its word read first to be written."""
     place = point.places[0]
     read = (place.function or _READS.get(place.space, 0)) if point.readable else 0
     target = next((one for one in point.places if one.purpose == "write"), place)
-    write = _writing(point, target, functions) if point.writable and point.bits is None else 0
+    write = _writing(point, target, functions) if point.writable else 0
     read = read if read in functions else 0
+    if point.bits is not None and not read:
+        write = 0
     if not read and not write:
         return None
-    moved = target is not place and target.addresses
-    return RequestView(
+    text = point.text is not None
+    parts = [_text(point, view) if text else layouts.of(point, places_of(point))]
+    parts += [_place(read, place.addresses, point.words)] if read else []
+    parts += [_place(write, target.addresses or place.addresses, point.words)] if write else []
+    access = f"{'r' if read else ''}{('u' if shares(point) else 'w') if write else ''}"
+    kind = f"fieldscribe_modbus_{'text_' if text else ''}{access}"
+    return FrameView(
+        descriptor=Descriptor(kind, f"{view.function}_frame", f"{{{', '.join(parts)}}}", view.item),
         function=view.function,
-        macro=view.macro,
-        read=hexadecimal(read, 2) if read else "",
-        write=hexadecimal(write, 2) if write else "",
-        write_address=f"{view.macro}_WRITE_ADDRESS" if moved else f"{view.macro}_ADDRESS",
+        kind=kind_of(point),
         raw_type=view.raw_type,
-        count=point.words,
-        number=_number(point, view, scope),
-        single=view.words is None,
-        text=point.text is not None,
-        shares=point.bits is not None,
-        raw_of_words=_raw_of_words(point, view),
+        read=bool(read),
+        write=bool(write),
+        text=text,
+        shares=shares(point),
+        lies=lies(point),
+        words=point.words,
     )
 
 
-def _raw_of_words(point: Point, view: PointView) -> str:
-    """The raw number that the words of a reply are."""
-    if point.bits is not None:
-        return f"{view.function}_extract(words[0])"
-    if view.words is not None:
-        return f"{view.function}_from_words(words)"
-    return "words[0] != 0U" if raw_type(point) == "bool" else f"({view.raw_type})words[0]"
+def _place(function: int, addresses: tuple[int, ...], words: int) -> str:
+    return f"{{{hexadecimal(function, 2)}, {hexadecimal(min(addresses))}, {words}U}}"
 
 
-def _number(point: Point, view: PointView, scope: Scope) -> str:
-    """What is stored for a raw number, with its constant bits: a word made of masks may lack them."""
-    if fixes(point):
-        return fixed_number(point, view.macro, scope, "raw")
-    return "raw ? 1U : 0U" if raw_type(point) == "bool" else "raw"
+def _text(point: Point, view: PointView) -> str:
+    return f"{{{view.function}_addresses, {hexadecimal(min(point.addresses))}, {point.words}U}}"
 
 
 def _writing(point: Point, place: Place, functions: frozenset[int]) -> int:
@@ -226,6 +216,7 @@ def _command(command: Command, scope: Scope) -> CommandView:
     if command.wears is not None:
         comment += f"; the memory stands {command.wears} writes"
     defines = ((f"{macro}_ADDRESS", hexadecimal(command.address)), (f"{macro}_VALUE", value))
-    function = f"{scope.prefix}_command_{command.name}_request"
-    code = hexadecimal(command.function, 2)
-    return CommandView(function, f"{comment}.", defines, code, f"{macro}_ADDRESS", f"{macro}_VALUE")
+    write = f"{{{hexadecimal(command.function, 2)}, {macro}_ADDRESS, 1U}}"
+    name = f"{scope.prefix}_command_{command.name}"
+    descriptor = Descriptor("fieldscribe_modbus_command", name, f"{{{write}, {macro}_VALUE}}", "")
+    return CommandView(descriptor, f"{comment}.", defines)

@@ -4,45 +4,54 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fieldscribe.targets.c.limits import any_of, interval_test
-from fieldscribe.targets.c.literals import hexadecimal, raw_bounds, unsigned
-from fieldscribe.targets.c.views import DigitsView, TextView
+from fieldscribe.targets.c.layout import function
+from fieldscribe.targets.c.special_codes import codes_first
+from fieldscribe.targets.c.views import Function
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from fieldscribe.model import Point
+    from fieldscribe.targets.c.scope import Scope
+    from fieldscribe.targets.c.views import SpecialView
 
-_REFUSED_CHARACTERS = {
-    "ascii": "character < 0x20U || character > 0x7EU",
-    "latin-1": "character < 0x20U || (character > 0x7EU && character < 0xA0U)",
-}
+STATUS = "FIELDSCRIBE_STATUS"
 
 
-def text_view(point: Point) -> TextView:
+def text_functions(point: Point, name: str) -> Iterator[Function]:
     """The conversions of a text."""
     assert point.text is not None
-    addresses = ", ".join(hexadecimal(address) for address in point.addresses)
-    characters = point.text.characters
-    return TextView(point.words, characters, _REFUSED_CHARACTERS[point.text.encoding], addresses)
+    words = f"uint16_t words[{point.words}]"
+    latin = "true" if point.text.encoding == "latin-1" else "false"
+    if point.writable:
+        body = f"return fieldscribe_words_of_text(text, length, {latin}, words, {point.words}U);"
+        yield Function(function(STATUS, f"{name}_encode", ("const char *text", "size_t length", words), body))
+    if point.readable:
+        body = f"return fieldscribe_text_of_words(words, {point.words}U, text);"
+        parameters = (f"const {words}", f"char text[{point.text.characters + 1}]")
+        yield Function(function("static inline size_t", f"{name}_decode", parameters, body))
 
 
-def digits_view(point: Point) -> DigitsView:
-    """The conversions of digits. Only the first can be more than 9: it takes what is left."""
+def digits_functions(point: Point, name: str, special: SpecialView | None, scope: Scope) -> Iterator[Function]:
+    """The conversions of digits."""
     assert point.digits is not None
     count = point.digits.count
-    largest = raw_bounds(point)[1] // 10 ** (count - 1)
-    numbers = sorted({entry.raw for entry in point.digits.enum.entries})
-    kind = "uint8_t" if max(largest, 9) < 256 else "uint16_t"
-    bounds = (0, 255 if kind == "uint8_t" else 65535)
-    tests = [interval_test("digit", low, high, bounds, unsigned) for low, high in _runs(numbers)]
-    return DigitsView(count, kind, any_of(tests))
-
-
-def _runs(numbers: list[int]) -> list[tuple[int, int]]:
-    """Ascending numbers as intervals without holes."""
-    runs: list[tuple[int, int]] = []
-    for number in numbers:
-        if runs and runs[-1][1] == number - 1:
-            runs[-1] = (runs[-1][0], number)
-        else:
-            runs.append((number, number))
-    return runs
+    names = f"{scope.prefix}_{point.digits.enum.name}_names"
+    known = f"{count}U, {names}, FIELDSCRIBE_COUNT({names})"
+    digits = f"uint16_t digits[{count}]"
+    if point.writable:
+        check = codes_first(point, special, f"fieldscribe_check_digits(raw, {known})")
+        yield Function(function(STATUS, f"{name}_check", ("uint16_t raw",), f"return {check};"))
+        whole = f"const fieldscribe_whole whole = fieldscribe_number_of_digits(digits, {known});"
+        status = "whole.status"
+        if special is not None:
+            refused = f"{special.test}((uint16_t)whole.number) ? FIELDSCRIBE_SPECIAL : FIELDSCRIBE_OK"
+            status = f"fieldscribe_both(whole.status, {refused})"
+        store = f"return fieldscribe_keep_u16({status}, (uint16_t)whole.number, raw);"
+        yield Function(function(STATUS, f"{name}_encode", (f"const {digits}", "uint16_t *raw"), whole, store))
+    if point.readable and special is None:
+        body = f"fieldscribe_digits_of(raw, digits, {count}U);"
+        yield Function(function("static inline void", f"{name}_decode", ("uint16_t raw", digits), body))
+    elif point.readable and special is not None:
+        body = f"return fieldscribe_quantity_digits({special.test}(raw), raw, digits, {count}U);"
+        yield Function(function(STATUS, f"{name}_decode", ("uint16_t raw", digits), body))

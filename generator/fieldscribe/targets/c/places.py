@@ -4,59 +4,74 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fieldscribe.targets.c.layout import function
 from fieldscribe.targets.c.literals import hexadecimal, raw_type
-from fieldscribe.targets.c.views import BitsView, WordsView
+from fieldscribe.targets.c.views import Function
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from fieldscribe.model import Point
     from fieldscribe.targets.c.scope import Scope
 
 
-def words_view(point: Point, scope: Scope) -> WordsView | None:
-    """Conversions between raw and words; None for a text, and where one word is the raw number or holds several."""
+def has_words(point: Point) -> bool:
+    """Whether raw is converted to words: not for a text, nor where one word is the raw number or holds several."""
     info = point.info
-    if point.text is not None or point.bits is not None or info.bits == 1 or (info.bits <= 16 and not info.signed):
-        return None
-    target = raw_type(point)
+    plain = info.bits == 1 or (info.bits <= 16 and not info.signed)
+    return point.text is None and point.bits is None and not plain
+
+
+def words_functions(point: Point, name: str) -> Iterator[Function]:
+    """Conversions between raw and words of its own."""
+    kind, info = raw_type(point), point.info
     if point.words == 1:
         mask, sign = ("words[0]", "0x8000U") if info.bits == 16 else ("words[0] & 0xFFU", "0x80U")
-        return WordsView(1, "", ((0, "(uint16_t)raw"),), f"({target}){scope.helper('signed')}({mask}, {sign})")
-    bits = f"uint{info.bits}_t"
+        split = "words[0] = (uint16_t)raw;"
+        joined = f"({kind})fieldscribe_signed({mask}, {sign})"
+    else:
+        places = _high_first(point)
+        into = ", ".join(f"&words[{place}]" for place in places)
+        split = f"fieldscribe_split{info.bits}((uint{info.bits}_t)raw, {into});"
+        joined = f"fieldscribe_join{info.bits}({', '.join(f'words[{place}]' for place in places)})"
+        joined = f"fieldscribe_signed{info.bits}({joined})" if info.signed else joined
+    words = f"uint16_t words[{point.words}]"
+    yield Function(function("static inline void", f"{name}_to_words", (f"{kind} raw", words), split))
+    yield Function(function(f"static inline {kind}", f"{name}_from_words", (f"const {words}",), f"return {joined};"))
+
+
+def _high_first(point: Point) -> list[int]:
+    """The places of the words in the order of their addresses, that of the high word first."""
     order = sorted(point.addresses) if point.addresses else []
     whole = len(order) == point.words  # one address of a parameter may hold several words, the high one first
-    high_first = [order.index(address) for address in point.addresses] if whole else list(range(point.words))
-    shifts = [(16 * (point.words - 1 - place), index) for place, index in enumerate(high_first)]
-    stores = tuple(
-        (index, f"(uint16_t)(bits >> {shift})" if shift else "(uint16_t)(bits & 0xFFFFU)")
-        for shift, index in sorted(shifts, key=lambda one: one[1])
-    )
-    joined = " | ".join(
-        f"(({bits})words[{index}] << {shift})" if shift else f"words[{index}]" for shift, index in shifts
-    )
-    if info.signed:
-        joined = f"{scope.helper(f'signed{info.bits}')}({joined})"
-    return WordsView(point.words, bits, stores, joined)
+    return [order.index(address) for address in point.addresses] if whole else list(range(point.words))
 
 
-def bits_view(point: Point, macro: str, scope: Scope) -> BitsView | None:
-    """Conversions between raw and the word it shares; None for points with words of their own."""
-    if point.bits is None:
-        return None
-    target, low = raw_type(point), point.bits[1]
-    field = f"((uint32_t)word & {macro}_MASK) >> {macro}_SHIFT" if low else f"word & {macro}_MASK"
-    if target == "bool":
-        extract = f"(word & {macro}_MASK) != 0U"
+def bits_functions(point: Point, name: str) -> Iterator[Function]:
+    """Conversions between raw and the word it shares."""
+    assert point.bits is not None
+    kind, low = raw_type(point), point.bits[1]
+    place = f"{hexadecimal(((1 << point.width) - 1) << low)}, {low}U"
+    extract = f"fieldscribe_extract(word, {place})"
+    if kind == "bool":
+        extract = f"{extract} != 0U"
     elif point.info.signed:
-        sign = hexadecimal(1 << (point.width - 1), 1)
-        extract = f"({target}){scope.helper('signed')}((uint16_t)({field}), {sign})"
-    else:
-        extract = f"({target})({field})"
-    number = "(raw ? 1U : 0U)" if target == "bool" else "(uint16_t)raw"
-    shifted = f"(uint32_t){number} << {macro}_SHIFT" if low else f"(uint32_t){number}"
-    changed = f"(word & ~(uint32_t){macro}_MASK) | (({shifted}) & {macro}_MASK)"
+        extract = f"({kind})fieldscribe_signed({extract}, {hexadecimal(1 << (point.width - 1), 1)})"
+    elif kind != "uint16_t":
+        extract = f"({kind})({extract})"
+    number = "raw ? 1U : 0U" if kind == "bool" else "(uint16_t)raw" if point.info.signed else "raw"
+    insert = f"fieldscribe_insert(word, {place}, {number})"
     if point.fixed is not None:
-        changed = f"(({changed}) & ~(uint32_t){macro}_FIXED_MASK) | {macro}_FIXED_BITS"
-    return BitsView(extract, f"(uint16_t)({changed})")
+        insert = f"fieldscribe_fix({insert}, {_constant_bits(point)})"
+    yield Function(function(f"static inline {kind}", f"{name}_extract", ("uint16_t word",), f"return {extract};"))
+    parameters = ("uint16_t word", f"{kind} raw")
+    yield Function(function("static inline uint16_t", f"{name}_insert", parameters, f"return {insert};"))
+
+
+def _constant_bits(point: Point) -> str:
+    """The mask of the constant bits, and what they are."""
+    assert point.fixed is not None
+    return f"{hexadecimal(point.fixed.mask)}, {hexadecimal(point.fixed.bits)}"
 
 
 def fixes(point: Point) -> bool:
@@ -64,14 +79,14 @@ def fixes(point: Point) -> bool:
     return point.fixed is not None and point.bits is None
 
 
-def fixed_number(point: Point, macro: str, scope: Scope, name: str) -> str:
+def fixed_number(point: Point, _macro: str, _scope: Scope, name: str) -> str:
     """The number `name` of the point's raw type with the constant bits of its word put in."""
-    info, bits = point.info, f"uint{max(32, point.info.bits)}_t"
-    number = f"(({bits}){name} & ~({bits}){macro}_FIXED_MASK) | {macro}_FIXED_BITS"
+    info = point.info
+    width = max(16, info.bits)
+    fixed = f"fieldscribe_fix{width if width > 16 else ''}((uint{width}_t){name}, {_constant_bits(point)})"
     if not info.signed:
-        return f"({raw_type(point)})({number})"
+        return fixed if info.bits > 8 else f"({fixed} != 0U)" if info.bits == 1 else f"({raw_type(point)}){fixed}"
     if info.bits > 16:
-        return f"{scope.helper(f'signed{info.bits}')}({number})"
-    sign = hexadecimal(1 << (info.bits - 1))
-    mask = f"({number}) & {hexadecimal((1 << info.bits) - 1)}"
-    return f"({raw_type(point)}){scope.helper('signed')}((uint16_t)({mask}), {sign})"
+        return f"fieldscribe_signed{info.bits}({fixed})"
+    sign, mask = hexadecimal(1 << (info.bits - 1)), hexadecimal((1 << info.bits) - 1)
+    return f"({raw_type(point)})fieldscribe_signed((uint16_t)({fixed} & {mask}), {sign})"

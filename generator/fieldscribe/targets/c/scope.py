@@ -1,4 +1,4 @@
-"""What the view of one device shares while it is built: prefixes, points by name, which helpers are needed."""
+"""What the view of one device shares while it is built: prefixes, points by name, what is placed already."""
 
 from __future__ import annotations
 
@@ -9,45 +9,54 @@ from fieldscribe.names import upper
 from fieldscribe.targets.c.literals import raw_type
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Mapping
 
-    from fieldscribe.model import Device, Linear, Point
-    from fieldscribe.targets.c.views import ScaledView
+    from fieldscribe.model import Device, Point
 
 
 @dataclass(slots=True)
 class Scope:
     """The namespace of one device.
 
-    `shifts` says that some rule has a factor of type f32, `lifts` that one with factors has an offset. `used` collects
-    the names of shared helpers, `enums` and `codes` those already placed, `scales` what points share. `names_only` says
-    that nobody will see the comments, tests and arithmetic of points, which take most of the time.
+    `errata` are the ids of those that change a fact, `digits` the names of enums that name decimal digits,
+    `spaces` the space of each group whose points have all the same one.
+    `enums` and `codes` are the names of those already placed, `tables` the names of tables by what is in them.
+    `names_only` says that nobody will see the comments and functions of points, which take most of the time. `grouped`
+    says that the function which is being written gets the raw numbers of other points in a struct.
     """
 
     prefix: str
     upper: str
     points: Mapping[str, Point]
-    errata: Mapping[str, str]
-    shifts: bool
-    lifts: bool
+    errata: frozenset[str]
+    digits: frozenset[str]
+    spaces: Mapping[str, str | None]
     names_only: bool = False
-    used: set[str] = field(default_factory=set)
+    grouped: bool = False
     enums: set[str] = field(default_factory=set)
     codes: set[str] = field(default_factory=set)
-    scales: dict[tuple[object, ...], ScaledView] = field(default_factory=dict)
+    tables: dict[object, str] = field(default_factory=dict)
 
-    def helper(self, name: str) -> str:
-        """The identifier of a shared helper, which the header will then hold."""
-        self.used.add(name)
-        return f"{self.prefix}_{name}"
+    def struct(self, point: Point) -> str:
+        """The struct for the raw numbers that a point needs; points that need the same ones share it."""
+        return self.tables.setdefault(("with", point.arguments), f"{self.prefix}_{point.item}_with")
 
-    def declare(self, names: tuple[str, ...]) -> str:
-        """Parameters for the raw numbers of other points: `, uint16_t lower_limit_raw`."""
-        return "".join(f", {raw_type(self.points[name])} {name}_raw" for name in names) if names else ""
+    def parameters(self, point: Point, names: tuple[str, ...]) -> list[str]:
+        """Parameters for the raw numbers of other points: one alone, several in a struct whose fields have names."""
+        self.grouped = len(names) > 1
+        if self.grouped:
+            return [f"const {self.struct(point)} *with"]
+        return [f"{raw_type(self.points[name])} {name}_raw" for name in names]
 
-    def place(self, names: tuple[str, ...]) -> str:
-        """The same as arguments of a call: `, lower_limit_raw`."""
-        return "".join(f", {name}_raw" for name in names) if names else ""
+    def raw(self, name: str) -> str:
+        """The raw number of another point, in the function that is being written."""
+        return f"with->{name}_raw" if self.grouped else f"{name}_raw"
+
+    def passed(self, names: tuple[str, ...]) -> str:
+        """The same as further arguments of a call: `, lower_limit_raw`, or `, with`."""
+        if len(names) > 1:
+            return ", with"
+        return "".join(f", {self.raw(name)}" for name in names)
 
 
 def scope_of(device: Device, *, names_only: bool = False) -> Scope:
@@ -56,20 +65,15 @@ def scope_of(device: Device, *, names_only: bool = False) -> Scope:
     for point in device.points:
         points.setdefault(point.name, point)
         points.setdefault(point.item, point)
-    lines = {
-        one.id: f"Erratum {one.id} ({one.certainty}): "
-        f"printed: {one.printed.rstrip('.')}; taken: {one.taken.rstrip('.')}."
-        for one in device.errata
-    }
-    floating = {point.name for point in device.points if point.info.floating}
-    shifts = any(not floating.isdisjoint(point.arguments) for point in device.points) if floating else False
-    lifts = any(rule.offset for point in device.points for rule in _rules(point))
-    return Scope(device.id, upper(device.id), points, lines, shifts, lifts, names_only)
+    digits = frozenset(one.digits.enum.name for one in device.points if one.digits is not None)
+    known = frozenset(one.id for one in device.errata if one.facts)
+    return Scope(device.id, upper(device.id), points, known, digits, _spaces(device), names_only)
 
 
-def _rules(point: Point) -> Iterator[Linear]:
-    """The rules of a point whose factors are known at run time."""
-    if point.scale_arguments:
-        yield from (case.rule for case in point.scale or ())
-    for interval in point.allowed.intervals:
-        yield from (bound.rule for bound in (interval.low, interval.high) if not isinstance(bound, int))
+def _spaces(device: Device) -> dict[str, str | None]:
+    """The space of each group; None where its points have several."""
+    spaces: dict[str, str | None] = {}
+    for point in device.points:
+        if spaces.setdefault(point.group, point.space) != point.space:
+            spaces[point.group] = None
+    return spaces

@@ -5,9 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldscribe.names import upper
-from fieldscribe.targets.c.limits import any_of, interval_test
+from fieldscribe.targets.c.layout import function
+from fieldscribe.targets.c.limits import any_of, bracketed, interval_test
 from fieldscribe.targets.c.literals import INT64, bare, hexadecimal, raw_bounds, raw_type, signed, unsigned
-from fieldscribe.targets.c.views import CodesView, SpecialView
+from fieldscribe.targets.c.views import CodesView, Function, SpecialView
 from fieldscribe.text import c_comment, c_string
 
 if TYPE_CHECKING:
@@ -29,9 +30,24 @@ def special_view(point: Point, scope: Scope) -> SpecialView | None:
     return SpecialView(
         codes=_codes(point, name, scope),
         test=f"{name}_is_special",
-        written=_test(point, (one for one in point.specials if one.writable)),
+        written=any(one.writable for one in point.specials),
         aliases=tuple((own + tail, name + tail) for tail in FUNCTIONS) if own != name else (),
     )
+
+
+def codes_first(point: Point, special: SpecialView | None, check: str) -> str:
+    """A check, with special codes in front: those that may be written pass, no other does."""
+    if special is None:
+        return check
+    check = f"{special.test}(raw) ? FIELDSCRIBE_SPECIAL : ({check})"
+    if not special.written:
+        return check
+    return f"{bracketed(_test(point, (one for one in point.specials if one.writable)))} ? FIELDSCRIBE_OK : ({check})"
+
+
+def no_code(special: SpecialView | None) -> str:
+    """The status of decoding: special codes are no quantities."""
+    return "FIELDSCRIBE_OK" if special is None else f"{special.test}(raw) ? FIELDSCRIBE_SPECIAL : FIELDSCRIBE_OK"
 
 
 def owner(point: Point) -> str:
@@ -74,11 +90,19 @@ def _codes(point: Point, name: str, scope: Scope) -> CodesView | None:
         comment=c_comment(f"Special codes of {shared}: raw numbers that are no quantity.") if shared else "",
         defines=tuple(code_defines(point, f"{scope.upper}_{upper(shared)}")) if shared else (),
         name=name,
-        raw_type=raw_type(point),
-        special=_test(point, point.specials),
-        no_value=_test(point, (one for one in point.specials if one.no_value)),
-        names=tuple((_test(point, (one,)), c_string(one.name)) for one in point.specials),
+        functions=() if scope.names_only else tuple(_functions(point, name)),
     )
+
+
+def _functions(point: Point, name: str) -> Iterator[Function]:
+    raw = (f"{raw_type(point)} raw",)
+    is_special = _test(point, point.specials)
+    no_value = _test(point, (one for one in point.specials if one.no_value))
+    names = "".join(f"{bracketed(_test(point, (one,)))} ? {c_string(one.name)} : " for one in point.specials)
+    is_no_value = (f"return {no_value};",) if no_value else ("(void)raw;", "return false;")
+    yield Function(function("static inline bool", f"{name}_is_special", raw, f"return {is_special};"))
+    yield Function(function("static inline bool", f"{name}_is_no_value", raw, *is_no_value))
+    yield Function(function("static inline const char *", f"{name}_special_name", raw, f"return {names}NULL;"))
 
 
 def _literal(raw: int, special: Special, point: Point) -> str:

@@ -6,9 +6,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldscribe.names import upper
-from fieldscribe.targets.c.can import raw_of_word, word_of_raw
+from fieldscribe.targets.c.frames import Descriptor, Layouts, kind_of, lies, names_of, places_of, shares
 from fieldscribe.targets.c.literals import hexadecimal
-from fieldscribe.targets.c.places import fixed_number, fixes
 from fieldscribe.targets.identifiers import Owner
 from fieldscribe.text import c_comment, c_string
 
@@ -35,45 +34,34 @@ class CodesView:
 
 
 @dataclass(frozen=True, slots=True)
-class RequestView:
-    """The requests of one point: `read`, `ram` and `eeprom` are enumerators of tasks, or empty."""
+class FrameView:
+    """What one parameter is asked and told with, and which vectors that answers; `eeprom` is what keeps a value."""
 
+    descriptors: tuple[Descriptor, ...]
     function: str
-    macro: str
+    kind: str
     raw_type: str
-    index: str
-    read: str
-    ram: str
-    eeprom: str
-    width: int
+    read: bool
+    ram: bool
+    eeprom: bool
     shares: bool
-    value_of_raw: str
-    raw_of_value: str
+    lies: str
 
 
 @dataclass(frozen=True, slots=True)
 class WordView:
     """A point in the words of process data."""
 
+    descriptor: Descriptor
     function: str
     macro: str
+    kind: str
     raw_type: str
     telegram: str
     words_name: str
     read: bool
     write: bool
-    double: bool
-    raw_of_word: str
-    word_of_raw: str
-
-
-@dataclass(frozen=True, slots=True)
-class StartView:
-    """The words of a telegram to send, before anything is put in."""
-
-    name: str
-    function: str
-    words_name: str
+    lies: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,8 +75,8 @@ class BusView:
     pzd: tuple[int, int]
     tasks: tuple[tuple[str, str, str], ...]
     codes: tuple[CodesView, ...]
-    requests: tuple[RequestView, ...]
-    starts: tuple[StartView, ...]
+    layouts: tuple[Descriptor, ...]
+    frames: tuple[FrameView, ...]
     words: tuple[WordView, ...]
 
 
@@ -98,9 +86,14 @@ def uss_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
     views = {entry.item: entry for group in view.groups for entry, _ in group.entries if entry is not None}
     points = [point for point in device.points if point.generated and point.places and point.text is None]
     tasks = {code.number: f"{scope.upper}_TASK_{upper(code.name)}" for code in bus.functions}
-    requests = (_request(point, views[point.item], tasks, scope) for point in points if point.space == "parameter")
+    layouts = Layouts(scope)
+    frames = [_frame(one, views[one.item], frozenset(tasks), layouts) for one in points if one.space == "parameter"]
     telegrams = {one.name: one for one in device.telegrams}
-    words = [point for point in points if point.telegram in telegrams and point.words <= 2]
+    words = tuple(
+        _word(point, views[point.item], telegrams[point.telegram or ""], layouts, scope)
+        for point in points
+        if point.telegram in telegrams and point.words <= 2
+    )
     return BusView(
         guard=f"{scope.upper}_USS_H",
         units=bus.units,
@@ -120,9 +113,9 @@ def uss_view(device: Device, view: DeviceView, scope: Scope) -> BusView:
             )
             if codes
         ),
-        requests=tuple(request for request in requests if request is not None),
-        starts=tuple(_start(one, scope) for one in device.telegrams if one.direction == "request"),
-        words=tuple(_word(point, views[point.item], telegrams[point.telegram or ""], scope) for point in words),
+        layouts=layouts.descriptors,
+        frames=tuple(one for one in frames if one is not None),
+        words=words,
     )
 
 
@@ -132,38 +125,40 @@ def identifiers(bus: BusView, view: DeviceView) -> Iterator[tuple[str, Owner]]:
     for codes in bus.codes:
         yield codes.function, Owner("target")
         yield from ((name, Owner("code", name)) for name, _, _, _ in codes.entries)
-    for start in bus.starts:
-        yield start.function, Owner("telegram", start.name)
-    for request in bus.requests:
-        item = request.function[len(view.prefix) + 1 :]
-        tails = ["_read_request", "_from_reply"] if request.read else []
-        tails += ["_write_request"] if request.ram else []
-        tails += ["_write_eeprom_request"] if request.eeprom else []
-        yield from ((request.function + tail, Owner("point", item, f"function {tail}")) for tail in tails)
-    for word in bus.words:
-        item = word.function[len(view.prefix) + 1 :]
-        yield from ((word.function + tail, Owner("point", item)) for tail in ("_to_pzd", "_from_pzd"))
+    yield from names_of((*bus.layouts, *(one for frame in bus.frames for one in frame.descriptors)))
+    yield from names_of(one.descriptor for one in bus.words)
 
 
 def adapters(bus: BusView) -> Iterator[tuple[str, str]]:
     """How parameters, and words of process data, answer vectors of whole exchanges."""
-    for one in bus.requests:
-        if one.read:
-            yield one.function, f"READ({one.function}, {one.raw_type})"
-        tail = "_SHARED" if one.shares else ""
-        for kind, call, task in (("write", "write_request", one.ram), ("store", "write_eeprom_request", one.eeprom)):
-            if task and (one.read or not one.shares):
-                yield one.function, f'WRITE{tail}("{kind}", {one.function}, {call}, {one.raw_type})'
-    starts = {start.name: start.function for start in bus.starts}
+    for frame in bus.frames:
+        yield from ((frame.function, case) for case in _cases(frame))
     for word in bus.words:
-        if word.write and word.telegram in starts:
-            yield word.function, f"SEND({word.function}, {word.raw_type}, {starts[word.telegram]}, {word.words_name})"
-        if word.write:
-            yield word.function, f"PUT({word.function}, {word.raw_type}, {word.macro}, {word.words_name})"
-        if word.read:
-            yield word.function, f"TAKE({word.function}, {word.macro}, {word.words_name})"
-        if word.read and word.telegram not in starts:
-            yield word.function, f"HEAR({word.function}, {word.words_name})"
+        yield from ((word.function, case) for case in _word_cases(word))
+
+
+def _cases(frame: FrameView) -> Iterator[str]:
+    name, what = f"{frame.function}_frame", f"{frame.kind}, {frame.raw_type}"
+    yield from (f"LIES({one.name}, {frame.lies})" for one in frame.descriptors)
+    if frame.read:
+        yield f"READ({name}, {what})"
+    for kind, there, to in (("write", frame.ram, name), ("store", frame.eeprom, f"{frame.function}_eeprom_frame")):
+        if there and frame.shares and frame.read:
+            yield f'UPDATE("{kind}", {name}.read, {to}, {what})'
+        elif there and not frame.shares:
+            yield f'WRITE("{kind}", {to}, {what})'
+
+
+def _word_cases(word: WordView) -> Iterator[str]:
+    name, what = word.descriptor.name, f"{word.kind}, {word.raw_type}"
+    yield f"LIES({name}, {word.lies})"
+    if word.write:
+        yield f"SEND({name}, {what})"
+        yield f"PUT({name}, {what}, {word.macro}, {word.words_name})"
+    if word.read:
+        yield f"TAKE({name}, {what}, {word.macro}, {word.words_name})"
+    if word.read and not word.write:
+        yield f"HEAR({name}, {what})"
 
 
 def _codes(title: str, kind: str, codes: tuple[Code, ...], scope: Scope) -> CodesView:
@@ -175,64 +170,57 @@ def _codes(title: str, kind: str, codes: tuple[Code, ...], scope: Scope) -> Code
     return CodesView(title, f"{scope.prefix}_{kind}_name", tuple(entries))
 
 
-def _request(point: Point, view: PointView, tasks: dict[int, str], scope: Scope) -> RequestView | None:
+def _frame(point: Point, view: PointView, tasks: frozenset[int], layouts: Layouts) -> FrameView | None:
     """None for a point that no task of the device reaches."""
     width = 2 if point.info.bits == 32 else 1
     if point.info.bits > 32:
         return None
     key = (width, point.index is not None)
-    read = next((tasks[task] for task in _READ if task in tasks), "") if point.readable else ""
-    ram = tasks.get(_RAM[key], "") if point.writable else ""
-    eeprom = tasks.get(_EEPROM[key], "") if point.writable and point.keeps != "no" else ""
-    if not (read or ram or eeprom):
+    read = next((task for task in _READ if task in tasks), None) if point.readable else None
+    ram = _RAM[key] if point.writable and _RAM[key] in tasks else None
+    eeprom = _EEPROM[key] if point.writable and point.keeps != "no" and _EEPROM[key] in tasks else None
+    if read is None and ram is None and eeprom is None:
         return None
-    return RequestView(
-        view.function,
-        view.macro,
-        view.raw_type,
-        f"{view.macro}_INDEX" if point.index is not None else "0U",
-        read,
-        ram,
-        eeprom,
-        width,
-        point.bits is not None,
-        _to_value(point, view, scope) if width == 2 else word_of_raw(point, view, "word", scope),
-        _from_value(point, scope) if width == 2 else raw_of_word(point, view, "word"),
+    layout = layouts.of(point, range(width))
+    changes = "u" if shares(point) else "w"
+    ways = [(task, way) for task, way in ((read, "r"), (ram, changes)) if task is not None]
+    descriptors = [_descriptor(point, view, "_frame", layout, ways)] if ways else []
+    if eeprom is not None:
+        descriptors.append(_descriptor(point, view, "_eeprom_frame", layout, [(eeprom, changes)]))
+    return FrameView(
+        descriptors=tuple(descriptors),
+        function=view.function,
+        kind=kind_of(point),
+        raw_type=view.raw_type,
+        read=read is not None,
+        ram=ram is not None,
+        eeprom=eeprom is not None,
+        shares=shares(point),
+        lies=lies(point),
     )
 
 
-def _from_value(point: Point, scope: Scope) -> str:
-    """The raw number of a 32-bit value."""
-    return f"{scope.helper('signed32')}(reply->value)" if point.info.signed else "reply->value"
+def _descriptor(point: Point, view: PointView, tail: str, layout: str, ways: list[tuple[int, str]]) -> Descriptor:
+    """The tasks of a parameter: how the number lies in the words of its value, and what reads and writes it."""
+    width = 2 if point.info.bits == 32 else 1
+    places = [f"{{{task}U, {point.address}U, {point.index or 0}U, {width}U}}" for task, _ in ways]
+    kind = f"fieldscribe_uss_{''.join(way for _, way in ways)}"
+    return Descriptor(kind, view.function + tail, f"{{{', '.join((layout, *places))}}}", view.item)
 
 
-def _to_value(point: Point, view: PointView, scope: Scope) -> str:
-    """The 32-bit value of a raw number, with its constant bits."""
-    number = _number(point, view, scope)
-    return f"(uint32_t){number}" if point.info.signed else number
-
-
-def _number(point: Point, view: PointView, scope: Scope) -> str:
-    """The raw number of several words, with its constant bits: one made of masks may lack them."""
-    return fixed_number(point, view.macro, scope, "raw") if fixes(point) else "raw"
-
-
-def _start(telegram: Telegram, scope: Scope) -> StartView:
-    macro = f"{scope.upper}_TELEGRAM_{upper(telegram.name)}_WORDS"
-    return StartView(telegram.name, f"{scope.prefix}_telegram_{telegram.name}_start", macro)
-
-
-def _word(point: Point, view: PointView, telegram: Telegram, scope: Scope) -> WordView:
-    word = f"words[{view.macro}_ADDRESS]"
+def _word(point: Point, view: PointView, telegram: Telegram, layouts: Layouts, scope: Scope) -> WordView:
+    position = f"{{{min(point.addresses)}U}}"
+    ways = f"{'h' if point.readable else ''}{'s' if point.writable else ''}"
+    value = f"{{{', '.join((layouts.of(point, places_of(point)), *[position] * len(ways)))}}}"
     return WordView(
-        view.function,
-        view.macro,
-        view.raw_type,
-        telegram.name,
-        f"{scope.upper}_TELEGRAM_{upper(telegram.name)}_WORDS",
-        point.readable,
-        point.writable,
-        point.words == 2,
-        raw_of_word(point, view, word),
-        _number(point, view, scope) if point.words == 2 else word_of_raw(point, view, word, scope),
+        descriptor=Descriptor(f"fieldscribe_uss_{ways}", f"{view.function}_frame", value, view.item),
+        function=view.function,
+        macro=view.macro,
+        kind=kind_of(point),
+        raw_type=view.raw_type,
+        telegram=telegram.name,
+        words_name=f"{scope.upper}_TELEGRAM_{upper(telegram.name)}_WORDS",
+        read=point.readable,
+        write=point.writable,
+        lies=lies(point),
     )

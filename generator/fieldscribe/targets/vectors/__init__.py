@@ -20,7 +20,6 @@ from fieldscribe.targets.vectors.scaled import scaled
 from fieldscribe.targets.vectors.shapes import Shapes
 from fieldscribe.targets.vectors.uss import UssWire, uss
 from fieldscribe.targets.vectors.whole import bits, fixed, flags, names, specials, whole
-from fieldscribe.text import line
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -72,8 +71,6 @@ def collect(device: Device) -> Lines:
     for point in device.points:
         if point.raw_only and point.address is not None:
             lines.add("documented", point.item, point.places[0].space, point.address, point.words, point.index)
-            if point.code is not None:
-                lines.add("documented_code", point.item, line(point.code))
     if left_out := tuple(point.item for point in device.points if not point.generated):
         lines.add("left_out", left_out)
     frames(lines, device)

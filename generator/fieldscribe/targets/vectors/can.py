@@ -185,10 +185,11 @@ def _heard(lines: Lines, telegram: Telegram, message: Message, point: Point, uni
         return
     high, low = slots[0], slots[-1]
     h1, h2, l1, l2 = (high, 0x0001), (high, 0x0002), (low, 0xFFFF), (low, 0x0000)
+    h0 = (high, -0x1111 * (point.addresses[0] % message.words) & 0xFFFF)  # whose high word is 0, as before any came
     for order in (
         (h1, l1), (l1, h1), (h1, l1, h1), (h1, l1, h2), (h1, l2, h2, l2), (h1, l1, h1, l1), (h1, l1, h1, l2),
         (h1, l1, h2, l2, h2), (h1, h1, l1), (h1, l1, l2, h1), (l1, h1, h1), (h1, h1, l1, h1), (h2, l1, h1, l1, h1, l2),
-        (l1, h1, l2, h1, l1), (h1, l1, h1, h1),
+        (l1, h1, l2, h1, l1), (h1, l1, h1, h1), (l1, h0), (h0, l1),
     ):  # fmt: skip
         ask.answer([ask.frame(*one) for one in order])
 

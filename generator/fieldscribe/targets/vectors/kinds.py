@@ -102,7 +102,6 @@ KINDS = _table(
         "symbol": "only:rust symbol:text",
         # where the words of points are that are documented only
         "documented": "name:word space:word address:int words:int index:int?",
-        "documented_code": "only:c name:word code:text",
         # the words that bring a group where each is asked for by itself: Rust reads the points themselves
         "group": "only:c.python group:word addresses:ints",
         # what tables of constants hold: the functions or tasks in their order, limits, and how long a table is

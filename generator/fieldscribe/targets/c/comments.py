@@ -1,0 +1,77 @@
+"""The comment above a point: what those who use the code must know, from names and numbers alone."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from fieldscribe.targets.c.layout import WIDTH, filled
+from fieldscribe.text import c_comment
+from fieldscribe.wording import (
+    codes_text,
+    condition_text,
+    default_text,
+    range_text,
+    raw_range_text,
+    resolution_text,
+    width_texts,
+    with_unit,
+)
+from fieldscribe.wording.exact import exact
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from fieldscribe.model import Point
+    from fieldscribe.targets.c.scope import Scope
+
+
+def comment_lines(point: Point, scope: Scope, remark: str = "") -> tuple[str, ...]:
+    """Code, name, range, unit, step, access, space and default; what is rare; errata that change one of these."""
+    name = point.item.replace("_", " ")
+    head = f"{point.code} {name}" if point.code else name
+    words = c_comment(f"{head}: {'; '.join((*_facts(point, scope), *([remark] if remark else [])))}").split(" ")
+    one = f"/* {' '.join(words)} */"
+    if len(one) <= WIDTH:
+        return (one,)
+    return ("/*", *filled(words, " ", " * "), " */")
+
+
+def _facts(point: Point, scope: Scope) -> Iterator[str]:
+    if point.untyped is None:
+        yield from filter(None, (_range(point), *_steps(point)))
+    spaces = (point.space,) if scope.spaces.get(point.group) is None else ()
+    yield ", ".join((point.access, *spaces, *(f"{key} {number}" for key, number in point.references.items())))
+    if point.default is not None:
+        yield f"default {default_text(point)}"
+    if point.when is not None:
+        yield f"exists only when {condition_text(point.when, scope.points)}"
+    yield from width_texts(point)
+    if point.specials:
+        yield codes_text(point)
+    if any(flag.width == 1 and flag.active == 0 for flag in point.flags):
+        yield "exclusive or with ACTIVE_LOW_MASK makes every bit 1 whose name is true, and back"
+    errata = [one for one in point.errata if one in scope.errata]
+    if errata:
+        yield f"errat{'a' if len(errata) > 1 else 'um'} {', '.join(errata)}"
+
+
+def _range(point: Point) -> str:
+    """Which values there are, in the unit; raw where only that can be said."""
+    if point.text is not None:
+        return f"{point.text.characters} characters, {point.text.encoding}"
+    if point.digits is not None:
+        return f"{point.digits.count} digits, the highest first"
+    units, raws = range_text(point), raw_range_text(point)
+    return units or (f"raw {raws}" if raws else "")
+
+
+def _steps(point: Point) -> Iterator[str]:
+    """What one count is, and what the device keeps where its steps are coarser."""
+    if point.form != "scaled":
+        return
+    count = "" if point.decimals is None else with_unit(exact(1, 10**point.decimals), point)
+    step = resolution_text(point)
+    if step and step != count:
+        yield f"in steps of {step}"
+    if count:
+        yield f"{count} a count"

@@ -1,0 +1,277 @@
+"""The functions of points that are numbers: check, encode and decode, each one expression over the cores."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from fieldscribe.names import upper
+from fieldscribe.targets.c.layout import function
+from fieldscribe.targets.c.limits import check, is_moving, known, refused
+from fieldscribe.targets.c.literals import (
+    VALUE_BOUNDS,
+    bare,
+    cast,
+    float_order,
+    raw_bounds,
+    raw_kind,
+    raw_type,
+    sign_and_size,
+    unsigned,
+)
+from fieldscribe.targets.c.places import fixed_number, fixes
+from fieldscribe.targets.c.rules import rule_name, rule_of
+from fieldscribe.targets.c.scales import scaled
+from fieldscribe.targets.c.special_codes import codes_first, encoded_limits, no_code
+from fieldscribe.targets.c.views import Function
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from fieldscribe.model import Point
+    from fieldscribe.targets.c.scales import Scaled
+    from fieldscribe.targets.c.scope import Scope
+    from fieldscribe.targets.c.views import SpecialView
+
+STATUS = "FIELDSCRIBE_STATUS"
+INLINE = "static inline"
+
+
+def value_type(point: Point) -> str:
+    """The C type in which the value of an integer point is passed: wide enough to be out of range."""
+    if point.info.bits <= 16:
+        return "int32_t"
+    return "uint64_t" if point.type == "u64" else "int64_t"
+
+
+def is_rechecked(point: Point) -> bool:
+    """Whether a number between the outer limits may still not be written."""
+    return len(point.allowed.intervals) > 1 or is_moving(point) or fixes(point) or bool(point.specials)
+
+
+class Writer:
+    """Writes the functions of one point."""
+
+    def __init__(self, point: Point, special: SpecialView | None, scope: Scope) -> None:
+        self.point, self.special, self.scope = point, special, scope
+        self.name = f"{scope.prefix}_{point.item}"
+        self.macro = f"{scope.upper}_{upper(point.item)}"
+        self.type, self.kind = raw_type(point), raw_kind(point)
+        self.limits = (0, 0) if point.info.floating else point.outer
+        self.reach = encoded_limits(point) if point.specials and not point.info.floating else self.limits
+
+    # ---- what all share
+
+    def check(self) -> Function:
+        """May a raw number be written?"""
+        parameters = [f"{self.type} raw", *self.scope.parameters(self.point, self.point.limit_arguments)]
+        status = codes_first(self.point, self.special, check(self.point, self.scope))
+        if is_moving(self.point) and self.special is None:
+            own = f"{self.name}_check"
+            owner = self.scope.tables.setdefault(("check", *parameters, status), own)
+            if owner != own:
+                status = f"{owner}(raw{self.scope.passed(self.point.limit_arguments)})"
+        body = ("(void)raw;", f"return {status};") if status == "FIELDSCRIBE_OK" else (f"return {status};",)
+        return Function(function(STATUS, f"{self.name}_check", parameters, *body))
+
+    def _checked(self, number: str) -> str:
+        """The status of a raw number that follows from a value: a value is never a special code."""
+        status = f"{self.name}_check({number}{self.scope.passed(self.point.limit_arguments)})"
+        if self.special is None or not self.special.written:
+            return status
+        return f"({self.special.test}({number}) ? FIELDSCRIBE_SPECIAL : {status})"
+
+    def _encode(self, tail: str, parameter: str, *body: str, floating: bool = False) -> Function:
+        parameters = [parameter, *self.scope.parameters(self.point, self.point.arguments), f"{self.type} *raw"]
+        return Function(function(STATUS, f"{self.name}_{tail}", parameters, *body), floating)
+
+    def _kept(self, inside: str, number: str, outside: str) -> str:
+        """Keeps a number that may be written, where its value is inside."""
+        status = self._checked(number) if is_rechecked(self.point) else "FIELDSCRIBE_OK"
+        kept = f"fieldscribe_keep_{self.kind}({status}, {number}, raw)"
+        return f"return {inside} ? {kept} : {outside};" if inside else f"return {kept};"
+
+    def _whole(self, whole: str) -> tuple[str, ...]:
+        """Stores a whole number, looked at before where it may not be written."""
+        if not is_rechecked(self.point):
+            return (f"return fieldscribe_store_{self.kind}({whole}, raw);",)
+        number = cast(self.type, "whole.number").replace("(whole.number)", "whole.number")
+        status = f"fieldscribe_both(whole.status, {self._checked(number)})"
+        store = f"return fieldscribe_keep_{self.kind}({status}, {number}, raw);"
+        return f"const fieldscribe_whole whole = {whole};", store
+
+    def _decode(self, tail: str, kind: str, number: str, *, floating: bool = False, fits: str = "") -> Function:
+        """Gives a number, or says why there is none."""
+        raw = f"{self.type} raw"
+        if self.special is None and not fits:
+            body = f"return {number};"
+            return Function(function(f"{INLINE} {kind}", f"{self.name}_{tail}", (raw,), body), floating)
+        to = "count" if tail == "decode_count" else "value"
+        keep = f"fieldscribe_keep_{_KEPT[kind]}({no_code(self.special)}, {number}, {to})"
+        if fits:
+            keep = f"{fits} ? {keep} : FIELDSCRIBE_OVERFLOW"
+            keep = f"{self.special.test}(raw) ? FIELDSCRIBE_SPECIAL : {keep}" if self.special is not None else keep
+        return Function(function(STATUS, f"{self.name}_{tail}", (raw, f"{kind} *{to}"), f"return {keep};"), floating)
+
+    # ---- a number that is its value
+
+    def plain(self) -> Iterator[Function]:
+        """The raw number is the value."""
+        point, kind = self.point, value_type(self.point)
+        if point.writable:
+            yield self.check()
+            yield self._encode("encode", f"{kind} value", self._plain_body(kind))
+        if point.readable:
+            number = "raw" if self.special is None or self.type != "bool" else "raw ? 1 : 0"
+            yield self._decode("decode", "bool" if self.type == "bool" and self.special is None else kind, number)
+
+    def _plain_body(self, kind: str) -> str:
+        point = self.point
+        literal = unsigned if kind == "uint64_t" else bare
+        low, high = raw_bounds(point) if fixes(point) else self.reach
+        if not is_rechecked(point):
+            core = f"fieldscribe_encode_{self.kind}(value, {literal(low)}, {literal(high)}, raw)"
+            return f"return {known(point, core)};"
+        self.scope.grouped = len(point.arguments) > 1
+        number = fixed_number(point, self.macro, self.scope, "value") if fixes(point) else self._of_value(kind)
+        within = {"int32_t": "within", "int64_t": "within_wide", "uint64_t": "within_u64"}[kind]
+        inside = f"fieldscribe_{within}(value, {literal(low)}, {literal(high)})"
+        return self._kept("" if (low, high) == VALUE_BOUNDS[kind] else inside, number, refused(point))
+
+    def _of_value(self, kind: str) -> str:
+        return "(value != 0)" if self.type == "bool" else "value" if self.type == kind else f"({self.type})value"
+
+    # ---- a scale that is known
+
+    def scaled(self) -> Iterator[Function]:
+        """A scale that is known at compile time."""
+        point, scale = self.point, scaled(self.point, *self.reach)
+        counts = point.decimals is not None
+        real = "double" if scale.wide else "fieldscribe_real"
+        if point.writable:
+            yield self.check()
+        if point.writable and counts:
+            self.scope.grouped = len(point.arguments) > 1
+            low, high = self.limits
+            if scale.direct and not is_rechecked(point) and point.type != "u64" and scale.counts == (low, high):
+                body = f"return fieldscribe_encode_{self.kind}(count, {bare(low)}, {bare(high)}, raw);"
+            else:
+                body = self._kept(scale.count_inside, scale.raw_of_count, "FIELDSCRIBE_OUT_OF_RANGE")
+            yield self._encode("encode_count", f"{scale.count_type} count", body)
+        if point.readable and counts:
+            yield self._decode("decode_count", scale.count_type, scale.count_of_raw, fits=scale.count_fits)
+        if point.writable and point.encodes_values:
+            self.scope.grouped = len(point.arguments) > 1
+            yield self._encode("encode", f"{real} value", *self._rounded(scale), floating=True)
+        if point.readable:
+            yield self._decode("decode", real, scale.value_of_raw, floating=True)
+
+    def _outer(self) -> str:
+        """The limits of a whole number. Where a check follows, which knows them too, they are named."""
+        named = is_rechecked(self.point) and self.reach == self.limits
+        return f"{self.macro}_RAW_MIN, {self.macro}_RAW_MAX" if named else ", ".join(map(bare, self.reach))
+
+    def _rounded(self, scale: Scaled) -> tuple[str, ...]:
+        limits = self._outer()
+        if not scale.wide and not is_rechecked(self.point) and self.kind in ("u8", "s8", "u16", "s16"):
+            if scale.factor:
+                return (f"return fieldscribe_scale_{self.kind}(value, {scale.factor}, {limits}, raw);",)
+            return (f"return fieldscribe_round_{self.kind}({scale.steps}, {limits}, raw);",)
+        return self._whole(f"fieldscribe_rounded{'_wide' if scale.wide else ''}({scale.steps}, {limits})")
+
+    # ---- a scale that other points decide
+
+    def ruled(self) -> Iterator[Function]:
+        """A scale that other points decide at run time."""
+        point, scope = self.point, self.scope
+        if point.writable:
+            yield self.check()
+        if rule_name(point, scope) == f"{self.name}_rule":
+            parameters = scope.parameters(point, point.scale_arguments)
+            body = f"return {rule_of(point, scope)};"
+            yield Function(function(f"{INLINE} fieldscribe_rule", f"{self.name}_rule", parameters, body))
+        tens, limits = bare(10 ** (point.decimals or 0)), self._outer()
+        counts = point.decimals is not None
+        if point.writable and counts:
+            rule = self._rule(point.arguments)
+            body_of = self._whole(f"fieldscribe_ruled_count({rule}, count, {tens}, {limits})")
+            yield self._encode("encode_count", "int64_t count", *body_of)
+        if point.readable and counts:
+            yield self._by_rule(
+                "decode_count", "int64_t *count", f"fieldscribe_decode_count({{}}, (int64_t)raw, {tens}, count)"
+            )
+        if point.writable and point.encodes_values:
+            rule = self._rule(point.arguments)
+            body_of = self._whole(f"fieldscribe_ruled_value({rule}, value, {limits})")
+            yield self._encode("encode", "double value", *body_of, floating=True)
+        if point.readable and point.encodes_values:
+            yield self._by_rule(
+                "decode", "double *value", "fieldscribe_decode_value({}, (int64_t)raw, value)", floating=True
+            )
+        elif point.readable:
+            core = f"fieldscribe_decode_wide({{}}, {', '.join(sign_and_size(point))}, value)"
+            yield self._by_rule("decode", "double *value", core, floating=True)
+
+    def _rule(self, arguments: tuple[str, ...]) -> str:
+        """The rule, in a function that has those arguments."""
+        name = rule_name(self.point, self.scope)
+        self.scope.grouped = len(arguments) > 1
+        passed = self.scope.passed(self.point.scale_arguments)
+        return f"{name}({passed.removeprefix(', ')})"
+
+    def _by_rule(self, tail: str, to: str, core: str, *, floating: bool = False) -> Function:
+        point = self.point
+        rule = self._rule(point.scale_arguments)
+        if point.most_raw is not None:
+            literal = bare(point.most_raw)
+            if point.type == "u64":
+                fits = f"fieldscribe_within_u64(raw, 0U, {unsigned(point.most_raw)})"
+                rule = f"fieldscribe_rule_if({rule}, {fits})"
+            else:
+                rule = f"fieldscribe_rule_within({rule}, (int64_t)raw, {bare(-point.most_raw)}, {literal})"
+        body = core.format(rule)
+        if self.special is not None:
+            body = f"{self.special.test}(raw) ? FIELDSCRIBE_SPECIAL : {body}"
+        parameters = [f"{self.type} raw", *self.scope.parameters(point, point.scale_arguments), to]
+        return Function(function(STATUS, f"{self.name}_{tail}", parameters, f"return {body};"), floating)
+
+    # ---- a pattern of floating point
+
+    def floating(self) -> Iterator[Function]:
+        """The raw number is the bit pattern of a floating-point number."""
+        point, bits = self.point, self.point.info.bits
+        real = "fieldscribe_real" if bits == 32 else "double"
+        if point.writable:
+            status = codes_first(point, self.special, _spans(point))
+            yield Function(function(STATUS, f"{self.name}_check", (f"{self.type} raw",), f"return {status};"))
+            number = "(uint32_t)whole.number" if bits == 32 else "(uint64_t)whole.number"
+            status = f"fieldscribe_both(whole.status, {self._checked(number)})"
+            whole = f"const fieldscribe_whole whole = fieldscribe_bits_of_f{bits}(value);"
+            store = f"return fieldscribe_keep_u{bits}({status}, {number}, raw);"
+            yield self._encode("encode", f"{real} value", whole, store, floating=True)
+        if point.readable:
+            yield self._decode("decode", real, f"fieldscribe_f{bits}_of_bits(raw)", floating=True)
+
+
+def _spans(point: Point) -> str:
+    """Whether a pattern lies in one of the point's spans, in the order of the numbers."""
+    bits = point.info.bits
+    infinity = 0x7F80_0000 if bits == 32 else 0x7FF0 << 48
+    spans = [(float_order(float(low), bits), float_order(float(high), bits)) for low, high in point.allowed.units]
+    tests = [
+        f"fieldscribe_check_f{bits}(raw, {bare(low)}, {bare(high)})"
+        for low, high in spans or [(1 - infinity, infinity - 1)]
+    ]
+    status = tests[-1]
+    for test in reversed(tests[:-1]):
+        status = f"fieldscribe_either({test}, {status})"
+    return status
+
+
+_KEPT = {
+    "int32_t": "s32",
+    "int64_t": "s64",
+    "uint64_t": "u64",
+    "bool": "bool",
+    "fieldscribe_real": "real",
+    "double": "double",
+}

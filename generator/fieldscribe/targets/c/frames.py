@@ -1,0 +1,113 @@
+"""What the headers of frames share: constant descriptors of points, and layouts, which many points have alike."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from fieldscribe.targets.c.literals import hexadecimal, raw_type
+from fieldscribe.targets.identifiers import Owner
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator, Sequence
+
+    from fieldscribe.model import Point
+    from fieldscribe.targets.c.scope import Scope
+
+_LINE = 120
+_WIDTHS = (8, 16, 32, 64)
+_KINDS = {"bool": "bit", **{f"{sign}int{bits}_t": f"{sign or 's'}{bits}" for sign in ("u", "") for bits in _WIDTHS}}
+
+
+@dataclass(frozen=True, slots=True)
+class Descriptor:
+    """A constant of one of the runtime's types; `parted` says that it takes two lines."""
+
+    type: str
+    name: str
+    value: str
+    item: str
+    """The point that it is of; empty for a layout."""
+
+    @property
+    def parted(self) -> bool:
+        """Whether one line would be too long."""
+        return len(f"static const {self.type} {self.name} = {self.value};") > _LINE
+
+
+def kind_of(point: Point) -> str:
+    """The type of a point's raw number, as functions of the runtime end: `u16`."""
+    return _KINDS[raw_type(point)]
+
+
+def lies(point: Point) -> str:
+    """Whether a point shares its word, and its constant bits, as the vectors hold them against its layout."""
+    fixed = (point.fixed.mask, point.fixed.bits) if point.fixed is not None else (0, 0)
+    return f"{'true' if shares(point) else 'false'}, {hexadecimal(fixed[0])}, {hexadecimal(fixed[1])}"
+
+
+def shares(point: Point) -> bool:
+    """Whether writing a point changes some bits of a word that it read before."""
+    return point.bits is not None
+
+
+class Layouts:
+    """The layouts of a device, each once, by their names."""
+
+    def __init__(self, scope: Scope) -> None:
+        self._prefix = scope.prefix
+        self._known: dict[str, Descriptor] = {}
+
+    def of(self, point: Point, high_first: Sequence[int]) -> str:
+        """A reference to the layout of a point, of whose words the high one stands at the first of the places."""
+        kind, mask, low = kind_of(point), _mask(point), point.bits[1] if point.bits is not None else 0
+        order = f"{sum(place << 4 * at for at, place in enumerate(reversed(high_first))):0{max(2, len(high_first))}X}"
+        fixed = (point.fixed.mask, point.fixed.bits) if point.fixed is not None else (0, 0)
+        name = f"{self._prefix}_layout_{kind}{_tail(point, order, mask, fixed)}"
+        shared = "true" if shares(point) else "false"
+        value = (
+            f"FIELDSCRIBE_{kind.upper()}, {len(high_first)}U, 0x{order}U, {shared}, {low}U, "
+            f"{hexadecimal(mask)}, {hexadecimal(fixed[0])}, {hexadecimal(fixed[1])}"
+        )
+        self._known[name] = Descriptor("fieldscribe_layout", name, f"{{{value}}}", "")
+        return f"&{name}"
+
+    @property
+    def descriptors(self) -> tuple[Descriptor, ...]:
+        """All layouts that points asked for."""
+        return tuple(self._known.values())
+
+
+def places_of(point: Point) -> list[int]:
+    """The places of a point's words in the order of their addresses, the high word's first."""
+    order = sorted(point.addresses)
+    whole = len(order) == point.words  # one address of a parameter may hold several words, the high one first
+    return [order.index(address) for address in point.addresses] if whole else list(range(point.words))
+
+
+def names_of(descriptors: Iterable[Descriptor]) -> Iterator[tuple[str, Owner]]:
+    """The identifiers of descriptors, with what they belong to."""
+    for one in descriptors:
+        yield one.name, Owner("point", one.item, "the frame") if one.item else Owner("target", "layouts")
+
+
+def _mask(point: Point) -> int:
+    """The bits of a word, or of several, that are the raw number."""
+    if point.bits is not None:
+        high, low = point.bits
+        return ((1 << (high - low + 1)) - 1) << low
+    if point.info.bits == 1:
+        return 1 if point.space in ("coil", "discrete") else 0xFFFF
+    return (1 << point.info.bits) - 1
+
+
+def _tail(point: Point, order: str, mask: int, fixed: tuple[int, int]) -> str:
+    """What tells a layout from others of its type."""
+    parts = [f"order_{order.lower()}"] if point.words > 1 else []
+    if point.bits is not None:
+        parts.append(f"bits_{point.bits[0]}_{point.bits[1]}")
+    elif point.info.bits == 1 and mask > 1:
+        parts.append("word")
+    if fixed[0]:
+        parts.append(f"fixed_{fixed[0]:04x}_{fixed[1]:04x}")
+    return "".join(f"_{part}" for part in parts)

@@ -1,0 +1,73 @@
+"""How a function of a header is laid out: on one line, else on two, else in lines that are not too long."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+WIDTH = 120
+"""No line is longer."""
+
+_LAST = 100
+"""Behind a bracket a line is broken only where nothing else is left."""
+
+
+def function(head: str, name: str, parameters: Sequence[str], *statements: str) -> str:
+    """A function whose body is one or two statements."""
+    signature = f"{head}{'' if head.endswith('*') else ' '}{name}({', '.join(parameters) or 'void'})"
+    body = f"{{ {' '.join(statements)} }}"
+    if len(signature) > WIDTH:
+        signature = f"{head}{'' if head.endswith('*') else ' '}{name}(\n" + "\n".join(
+            filled(parameters, ", ", "    ", ")")
+        )
+    elif len(signature) + 1 + len(body) <= WIDTH:
+        return f"{signature} {body}"
+    if len(statements) == 1 and len(body) <= WIDTH:
+        return f"{signature}\n{body}"
+    lines = [line for statement in statements for line in wrapped(statement, "    ")]
+    return "\n".join((signature, "{", *lines, "}"))
+
+
+def filled(parts: Iterable[str], between: str, indent: str, end: str = "") -> list[str]:
+    """The parts in as few lines as hold them; each line but the last ends as `between` does."""
+    lines: list[str] = []
+    for part in parts:
+        if lines and len(lines[-1]) + len(between) + len(part) + len(end) <= WIDTH:
+            lines[-1] += between + part
+            continue
+        if lines:
+            lines[-1] += between.rstrip()
+        lines.append(indent + part)
+    return [*lines[:-1], lines[-1] + end] if lines else []
+
+
+def wrapped(statement: str, indent: str) -> list[str]:
+    """A statement in lines that are not too long, broken where the brackets are least deep."""
+    if len(indent) + len(statement) <= WIDTH:
+        return [indent + statement]
+    places = list(_places(statement))
+    room = WIDTH - len(indent)
+    fitting = [(depth, -at) for depth, at in places if at <= room] or [(depth, at) for depth, at in places[:1]]
+    if not fitting:
+        return [indent + statement]
+    at = abs(min(fitting)[1])
+    deeper = indent if statement.startswith(("?", ":", "||", "&&")) or len(indent) > 4 else indent + "    "
+    return [indent + statement[:at].rstrip(), *wrapped(statement[at:].lstrip(), deeper)]
+
+
+def _places(statement: str) -> Iterable[tuple[int, int]]:
+    """How deep in brackets a line may be broken, and where: behind a comma or a bracket, or before an operator."""
+    depth, quoted = 0, False
+    for at, character in enumerate(statement):
+        quoted ^= character == '"'
+        if quoted:
+            continue
+        depth += (character in "([{") - (character in ")]}")
+        if character == "," and statement[at + 1 : at + 2] == " ":
+            yield depth, at + 1
+        elif character == "(":
+            yield depth + _LAST, at + 1
+        elif statement.startswith((" ? ", " : ", " || ", " && "), at):
+            yield depth, at

@@ -1,0 +1,72 @@
+"""Quotients without a division: a multiplication and a shift, proven exact for every number of a range."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import NamedTuple
+
+
+class Reciprocal(NamedTuple):
+    """The nearest integer to number * ratio, halves away from zero: number * (much + little / 2^fine) / 2^bits."""
+
+    much: int
+    little: int
+    fine: int
+    bits: int
+
+
+class Numbers(NamedTuple):
+    """All numbers from low to high, each times num / den, of which num and den are above 0."""
+
+    low: int
+    high: int
+    num: int
+    den: int
+
+    @property
+    def size(self) -> int:
+        """No number is larger in size."""
+        return max(abs(self.low), abs(self.high), 1)
+
+
+@lru_cache(maxsize=4096)
+def reciprocal(numbers: Numbers, most: int) -> Reciprocal | None:
+    """The smallest one that is exact for all numbers; None where no intermediate up to `most` suffices."""
+    for bits in range(1, most.bit_length()):
+        much = (numbers.num << bits) // numbers.den
+        if numbers.size * (much + 1) + (1 << bits) > most:
+            return None
+        found = _finest(numbers, most, bits)
+        if found is not None:
+            return found
+    return None
+
+
+def _finest(numbers: Numbers, most: int, bits: int) -> Reciprocal | None:
+    """The one with that many bits and the fewest `fine` bits, if any."""
+    much, rest = divmod(numbers.num << bits, numbers.den)
+    for fine in range(most.bit_length()):
+        little = -(-(rest << fine) // numbers.den)
+        if numbers.size * little > most:
+            return None
+        one = Reciprocal(much, little, fine, bits)
+        if _is_exact(one, numbers):
+            return one
+    return None
+
+
+def _is_exact(one: Reciprocal, numbers: Numbers) -> bool:
+    """Whether no number is rounded to another integer than its exact quotient.
+
+    The factor is too large by `error` / (den * 2^shift). A quotient and a half is a multiple of 1 / (2 * den), or of
+    1 / den where that is even: an error below that never reaches the next integer from below, and one up to it leaves
+    negative numbers above the integer before. Halves, which an even divisor alone has, need an error where they are
+    negative: they round away from zero.
+    """
+    shift, even = one.bits + one.fine, numbers.den % 2 == 0
+    error = ((one.much << one.fine) + one.little) * numbers.den - (numbers.num << shift)
+    if numbers.low < 0 and even and error == 0:
+        return False
+    parts = 1 if even else 2
+    above, below = (parts * max(end, 0) * error for end in (numbers.high, -numbers.low))
+    return above < 1 << shift and below <= 1 << shift

@@ -1,0 +1,77 @@
+"""Counts what cppcheck's MISRA addon says of the made devices' headers of points, and holds it against README.md here.
+
+    .venv/bin/python tests/misra/misra.py [--accept]
+
+Ends with 1 when the table is not what is found; `--accept` writes the counts into it. A rule that has no reason there
+is always a finding.
+"""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+import tempfile
+from collections import Counter
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from fieldscribe.diagnostics import Report
+from fieldscribe.pipeline import load_device
+from fieldscribe.render import render
+from fieldscribe.resources import templates_dir
+from fieldscribe.targets import c
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+HERE = Path(__file__).resolve().parent
+DEVICES = HERE.parent / "devices"
+TABLE = HERE / "README.md"
+MADE = ("kitchen_sink", "kitchen_codes", "kitchen_can", "kitchen_uss")
+ROW = re.compile(r"^\| ([0-9.]+) \| +([0-9]+) \|", re.MULTILINE)
+COMMAND = ("cppcheck", "--addon=misra", "--std=c99", "--platform=unix32", "--enable=style", "-q")
+
+
+def found(folder: Path) -> Counter[str]:
+    """How often each rule is broken in the headers of points and in what they are made of."""
+    for name in MADE:
+        device = load_device(DEVICES / name / "device.yaml", Report())
+        assert device is not None
+        text = dict(c.outputs(device, render))[f"c/{name}.h"]
+        (folder / f"{name}.h").write_text(text, "utf-8")
+    core = (templates_dir() / "c" / "runtime" / "fieldscribe.h").read_text("utf-8")
+    (folder / "fieldscribe.h").write_text(core, "utf-8")
+    source = folder / "all.c"
+    source.write_text("".join(f'#include "{name}.h"\n' for name in MADE), "utf-8")
+    done = subprocess.run([*COMMAND, f"-I{folder}", source], capture_output=True, text=True, check=False)
+    return Counter(re.findall(r"\[misra-c2012-([0-9.]+)\]", done.stderr))
+
+
+def written() -> dict[str, int]:
+    """The counts of the table, by rule."""
+    return {rule: int(count) for rule, count in ROW.findall(TABLE.read_text("utf-8"))}
+
+
+def differences(seen: Counter[str]) -> Iterator[str]:
+    """What the table says wrongly."""
+    known = written()
+    for rule in sorted({*seen, *known}):
+        if seen[rule] != known.get(rule, 0):
+            yield f"rule {rule}: found {seen[rule]} times, the table says {known.get(rule, 'nothing')}"
+
+
+def main() -> int:
+    """Print what differs; 1 when something does."""
+    with tempfile.TemporaryDirectory() as folder:
+        seen = found(Path(folder))
+    if "--accept" in sys.argv:
+        text = ROW.sub(lambda row: row[0].replace(f" {row[2]} |", f" {seen[row[1]]} |", 1), TABLE.read_text("utf-8"))
+        TABLE.write_text(text, "utf-8")
+    wrong = list(differences(seen))
+    print(*(wrong or ["the table is true"]), sep="\n")
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
